@@ -48,6 +48,39 @@ class Page:
             ):
                 return message
 
+    def change(self, path: str, value: object, **rest: Any) -> dict[str, Any]:
+        """Change the scenario, and return the setting."""
+        self.send("change", path=path, value=value, **rest)
+        return self.wait_for("setting")
+
+    def step(self, steps: int, *, to: int) -> dict[str, Any]:
+        """Step forward or back to a tick, and return the state there."""
+        self.send("step", steps=steps)
+        return self.wait_for("state", tick=to)
+
+    def seek(self, tick: int) -> dict[str, Any]:
+        """Seek a tick, and return the state there."""
+        self.send("seek", tick=tick)
+        return self.wait_for("state", tick=tick)
+
+    def finish(self) -> dict[str, Any]:
+        """Play the run as fast as possible, and return its last state."""
+        self.send("play", speed=None)
+        return self.wait_for("state", is_over=True, is_playing=False)
+
+    def refusal(self, kind: str, **rest: Any) -> str:
+        """Send a message that is refused, and return the reason."""
+        self.send(kind, **rest)
+        reason = self.wait_for("refused")["errors"][0]["message"]
+        assert isinstance(reason, str)
+        return reason
+
+    def open_recording(self, name: str, tick: int = 0, **rest: Any) -> dict[str, Any]:
+        """Open a recording, and wait until it has reached its tick."""
+        self.send("open", recording=name, tick=tick, **rest)
+        self.wait_for("opened")
+        return self.wait_for("state", tick=tick)
+
     def open(self, **rest: Any) -> dict[str, Any]:
         """Open a run, and wait until it has reached its tick."""
         self.send("open", **{"scenario": "search-beliefs", "seed": "7", "run": "0"} | rest)

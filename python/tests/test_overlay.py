@@ -95,17 +95,22 @@ def number_of(sent: bytes) -> int:
     return int(struct.unpack_from("<I", sent, 28 if kind_of(sent) == FRAME else 4)[0])
 
 
-def served(
-    folder: Path, script: Sequence[tuple[Message, int]], *, draws: bool = True
-) -> list[bytes]:
-    """Return the frames and overlays that a page with this script receives."""
-    page = Page(script, draws=draws)
+def serve_page(page: Page, folder: Path) -> None:
+    """Serve a page until it has sent its script."""
 
     async def serve() -> None:
         with ThreadPoolExecutor(2) as threads:
             await asyncio.wait_for(Session(page, Workspace(folder), threads).run(), 30)
 
     asyncio.run(serve())
+
+
+def served(
+    folder: Path, script: Sequence[tuple[Message, int]], *, draws: bool = True
+) -> list[bytes]:
+    """Return the frames and overlays that a page with this script receives."""
+    page = Page(script, draws=draws)
+    serve_page(page, folder)
     return [sent for sent in page.sent if isinstance(sent, bytes)]
 
 
@@ -250,12 +255,7 @@ def test_a_page_that_draws_nothing_gets_no_more_overlays_than_frames(tmp_path: P
 
 def test_invalid_layers_are_refused_with_a_reason(tmp_path: Path) -> None:
     page = Page([({"type": "layers", "links": 1}, 0)])
-
-    async def serve() -> None:
-        with ThreadPoolExecutor(2) as threads:
-            await asyncio.wait_for(Session(page, Workspace(tmp_path), threads).run(), 10)
-
-    asyncio.run(serve())
+    serve_page(page, tmp_path)
     (refused,) = page.sent
     assert isinstance(refused, dict)
     assert "layers.links = 1: must be true or false" in refused["errors"][0]["message"]

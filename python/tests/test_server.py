@@ -26,6 +26,13 @@ from agent_economy.server.runs.thumbnail import ITEM, ROBOT, WALL
 from agent_economy.server.transport import ConnectionClosedError
 
 
+def stepped(steps: int) -> ae.Simulation:
+    """Return the run that pages open, after some steps."""
+    simulation = ae.Simulation("search-beliefs", 7)
+    simulation.step(steps)
+    return simulation
+
+
 def test_the_gallery_lists_bundled_scenarios_and_those_of_the_folder(
     client: TestClient, tmp_path: Path
 ) -> None:
@@ -56,8 +63,7 @@ def test_an_invalid_scenario_is_listed_and_its_errors_are_reported_when_it_is_op
     (tmp_path / "broken.toml").write_text('engine = "metric"\nsummary = "Mine."\n')
     rows = {row["id"]: row for row in client.get("/api/scenarios").json()}
     assert rows["broken.toml"]["summary"] == "Mine."
-    page.send("open", scenario="broken.toml")
-    assert "clock is missing" in page.wait_for("refused")["errors"][0]["message"]
+    assert "clock is missing" in page.refusal("open", scenario="broken.toml")
 
 
 @pytest.mark.parametrize("name", ["classic", "search", "open-field", "flock"])
@@ -110,23 +116,17 @@ def test_content_that_is_not_a_scenario_is_rejected(client: TestClient, content:
 
 def test_a_run_is_opened_played_and_paused(page: Page) -> None:
     page.open()
-    page.send("play", speed=None)
-    over = page.wait_for("state", is_over=True, is_playing=False)
+    over = page.finish()
     assert over["outcome"]["complete"]
     expected = ae.run("search-beliefs", seed=7)
     assert over["outcome"]["time_s"] == expected.time_s
-    page.send("seek", tick=50)
-    simulation = ae.Simulation("search-beliefs", 7)
-    simulation.step(50)
-    response = page.wait_for("state", tick=50)
-    assert response["hash"] == f"{simulation.hash:016x}"
+    response = page.seek(50)
+    assert response["hash"] == f"{stepped(50).hash:016x}"
     assert response["latest_tick"] == over["tick"]
 
 
 def test_a_frame_contains_the_poses_of_the_robots(page: Page) -> None:
     page.open(tick=30)
-    simulation = ae.Simulation("search-beliefs", 7)
-    simulation.step(30)
     kind, generation, tick, robots, time_s, items, _ = HEADER.unpack_from(page.frames[-1])
     assert (kind, tick, robots, items) == (1, 30, 4, 4)
     assert (
@@ -135,7 +135,7 @@ def test_a_frame_contains_the_poses_of_the_robots(page: Page) -> None:
     )
     assert time_s == pytest.approx(3.0)
     drawn = np.frombuffer(page.frames[-1], np.float32, 16, HEADER.size).reshape(4, 4)
-    assert drawn[:, :3] == pytest.approx(simulation.poses.astype(np.float32))
+    assert drawn[:, :3] == pytest.approx(stepped(30).poses.astype(np.float32))
     assert len(page.frames[-1]) == HEADER.size + 16 * robots + items
 
 
@@ -146,11 +146,9 @@ def test_a_classic_run_is_opened_played_changed_and_replayed(page: Page) -> None
     assert response["inspection"] is None
     assert dict(response["robot"]["facts"])["Next decision"] == "in 4 paints"
     assert len(response["robot"]["examined_cells"]) == 6
-    page.send("change", path="robots.wanderer.count", value=7)
-    setting = page.wait_for("setting")
+    setting = page.change("robots.wanderer.count", 7)
     assert len(setting["robots"]) == setting["kinds"][0]["count"] == 7
-    page.send("play", speed=None)
-    over = page.wait_for("state", is_over=True, is_playing=False)
+    over = page.finish()
     assert over["outcome"]["complete"]
     again = page.open(scenario="classic", changes=setting["changes"], tick=over["tick"])
     assert (again["hash"], again["outcome"]) == (over["hash"], over["outcome"])
@@ -158,8 +156,7 @@ def test_a_classic_run_is_opened_played_changed_and_replayed(page: Page) -> None
 
 def test_a_classic_run_is_the_same_as_that_of_run(page: Page) -> None:
     page.open(scenario="classic", seed="3")
-    page.send("play", speed=None)
-    over = page.wait_for("state", is_over=True, is_playing=False)
+    over = page.finish()
     assert over["outcome"] == ae.run("classic", seed=3).row
 
 
@@ -190,8 +187,7 @@ def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> No
 
 def test_a_classic_run_is_exported_as_its_current_scenario(page: Page) -> None:
     page.open(scenario="classic", tick=20)
-    page.send("change", path="robots.wanderer.count", value=9)
-    page.wait_for("setting")
+    page.change("robots.wanderer.count", 9)
     page.send("export")
     text = page.wait_for("exported")["text"]
     assert ae.Scenario.loads(text).robots == {"wanderer": 9}
@@ -201,8 +197,7 @@ def test_the_clock_of_a_classic_run_can_be_changed_while_it_plays(page: Page) ->
     page.open(scenario="classic", tick=56)
     assert page.received[-1]["time_s"] == 1
     page.send("play", speed=1)
-    page.send("change", path="clock.paints_per_s", value=560)
-    assert page.wait_for("setting")["step_s"] == 1 / 560
+    assert page.change("clock.paints_per_s", 560)["step_s"] == 1 / 560
     page.send("pause")
     response = page.wait_for("state", is_playing=False)
     assert response["time_s"] == pytest.approx(response["tick"] / 560)
@@ -233,8 +228,7 @@ def test_the_thumbnail_of_2003_contains_its_walls_and_items(client: TestClient) 
 
 def test_contact_outlines_of_an_item_follow_the_contact_rule(page: Page) -> None:
     page.open(scenario="classic")
-    page.send("change", path="contact", value="neighbour")
-    contact = page.wait_for("setting")["items"][0]["contact"]
+    contact = page.change("contact", "neighbour")["items"][0]["contact"]
     # A robot on the item's own cell would be at the upper left corner of the square drawn.
     assert len(contact) == 9
     assert [[50, 150], [70, 150], [70, 170], [50, 170]] in contact
@@ -242,12 +236,9 @@ def test_contact_outlines_of_an_item_follow_the_contact_rule(page: Page) -> None
 
 def test_steps_go_forward_and_back(page: Page) -> None:
     page.open()
-    page.send("step", steps=3)
-    page.wait_for("state", tick=3)
-    page.send("step", steps=-2)
-    page.wait_for("state", tick=1)
-    page.send("step", steps=-9)
-    page.wait_for("state", tick=0)
+    page.step(3, to=3)
+    page.step(-2, to=1)
+    page.step(-9, to=0)
 
 
 def test_steps_requested_in_quick_succession_are_all_taken(page: Page) -> None:
@@ -259,24 +250,19 @@ def test_steps_requested_in_quick_succession_are_all_taken(page: Page) -> None:
 
 def test_a_change_is_displayed_and_its_log_replays_the_run(page: Page) -> None:
     page.open(tick=40)
-    page.send("change", path="robots.rover.count", value=7)
-    setting = page.wait_for("setting")
+    setting = page.change("robots.rover.count", 7)
     assert setting["kinds"][0]["count"] == len(setting["robots"]) == 7
-    page.send("step", steps=20)
-    response = page.wait_for("state", tick=60)
+    response = page.step(20, to=60)
     again = page.open(changes=setting["changes"], tick=60)
     assert again["hash"] == response["hash"]
     page.send("undo")
     assert page.wait_for("setting", changes=[])["log"] == []
-    simulation = ae.Simulation("search-beliefs", 7)
-    simulation.step(60)
-    assert page.wait_for("state", tick=60)["hash"] == f"{simulation.hash:016x}"
+    assert page.wait_for("state", tick=60)["hash"] == f"{stepped(60).hash:016x}"
 
 
 def test_settings_distinguish_flying_kinds(page: Page) -> None:
     page.open(scenario="search")
-    page.send("change", path="robots.rover.layer", value="air")
-    assert page.wait_for("setting")["kinds"][0]["is_flying"] is True
+    assert page.change("robots.rover.layer", "air")["kinds"][0]["is_flying"] is True
     page.send("undo")
     assert page.wait_for("setting", changes=[])["kinds"][0]["is_flying"] is False
 
@@ -285,8 +271,7 @@ def test_the_state_contains_the_inspection_of_the_selected_robot(page: Page) -> 
     page.open(tick=30)
     page.send("select", robot="rover/1")
     inspection = page.wait_for("state")["inspection"]
-    simulation = ae.Simulation("search-beliefs", 7)
-    simulation.step(30)
+    simulation = stepped(30)
     simulation.inspect("rover/1")
     expected = simulation.inspection()
     assert expected is not None
@@ -313,9 +298,7 @@ def test_the_parts_of_a_map_add_up_to_the_whole_map(page: Page) -> None:
         for key, cells in believed.items():
             part = np.frombuffer(base64.b64decode(response[key]), cells.dtype)
             cells[low : low + rows, left : left + columns] = part.reshape(rows, columns)
-    simulation = ae.Simulation("search-beliefs", 7)
-    simulation.step(20)
-    expected = simulation.believed_map("rover/1")
+    expected = stepped(20).believed_map("rover/1")
     assert expected is not None
     assert (believed["occupancy"] == expected["occupancy"]).all()
     assert (believed["unseen"] == expected["unseen"]).all()

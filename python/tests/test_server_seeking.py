@@ -3,6 +3,8 @@
 import pytest
 from page_client import Page
 
+ENDLESS = [[0, "clock.time_limit_s", 10_000], [0, "items.mine.count", 0]]
+
 
 def test_only_the_last_of_replaced_values_is_logged(page: Page) -> None:
     page.open(tick=40)
@@ -14,7 +16,7 @@ def test_only_the_last_of_replaced_values_is_logged(page: Page) -> None:
 
 
 def test_a_seeking_run_reports_its_target(page: Page) -> None:
-    page.open(tick=0, changes=[[0, "clock.time_limit_s", 10_000], [0, "items.mine.count", 0]])
+    page.open(changes=ENDLESS)
     page.send("step", steps=50_000)
     on_its_way = page.wait_for("state", target_tick=50_000)
     assert on_its_way["tick"] < 50_000
@@ -22,14 +24,10 @@ def test_a_seeking_run_reports_its_target(page: Page) -> None:
     assert page.wait_for("state", target_tick=None)["tick"] < 50_000
 
 
-ENDLESS = [[0, "clock.time_limit_s", 10_000], [0, "items.mine.count", 0]]
-
-
 @pytest.mark.parametrize("way", ["step", "seek", "open", "undo"])
 def test_a_change_requested_during_a_seek_is_made_at_the_target(page: Page, way: str) -> None:
     page.open(changes=ENDLESS)
-    page.send("step", steps=300)
-    page.wait_for("state", tick=300)
+    page.step(300, to=300)
     match way:
         case "step":
             page.send("step", steps=-100)
@@ -38,11 +36,9 @@ def test_a_change_requested_during_a_seek_is_made_at_the_target(page: Page, way:
         case "open":
             page.send("open", scenario="search-beliefs", seed="7", changes=ENDLESS, tick=200)
         case "undo":
-            page.send("seek", tick=100)
-            page.wait_for("state", tick=100)
+            page.seek(100)
             page.send("change", path="robots.rover.count", value=5)
-            page.send("step", steps=100)
-            page.wait_for("state", tick=200)
+            page.step(100, to=200)
             page.send("undo")
     page.send("change", path="robots.rover.count", value=3)
     assert page.wait_for("setting", changes=[*ENDLESS, [200, "robots.rover.count", 3]])

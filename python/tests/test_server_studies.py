@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from page_client import OWN, WS, Page
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
@@ -24,8 +25,6 @@ from agent_economy.server.studies.factors import factors
 from agent_economy.study import report
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
 from agent_economy.study.report import View
-
-OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
 
 TEAM = "robots.wanderer.count"
 QUICK = {"scenario": "classic", "vary": {TEAM: "1..5"}, "delta": 0.3}
@@ -327,29 +326,15 @@ def test_a_run_opened_from_a_study_is_the_run_of_the_study(folder: Folder) -> No
     assert folder.watched(name)[-1]["state"] == "answered"
     stored = folder.get("/api/study/runs", id=name, configuration=1)["runs"][1]
     with folder.client.websocket_connect(WS) as socket:
-        member = {"id": name, "configuration": 1}
-        socket.send_json({"type": "open", "study": member, "run": "1"})
-        assert socket.receive_json()["seed"] == "7"
-        socket.send_json({"type": "seek", "tick": 10**6})
-        socket.send_json({"type": "play", "speed": None})
-        state = over(socket)
+        page = Page(socket)
+        page.send("open", study={"id": name, "configuration": 1}, run="1")
+        assert page.next()["seed"] == "7"
+        page.send("seek", tick=10**6)
+        state = page.finish()
     assert {name: state["outcome"][name] for name in stored if name not in ("run", "failed")} == {
         name: value for name, value in stored.items() if name not in ("run", "failed")
     }
     assert state["outcome"]["complete"] is not stored["failed"]
-
-
-def over(socket: Any) -> Response:
-    """Return the state at the end of a run."""
-    while True:
-        message = socket.receive()
-        if message.get("bytes") is not None:
-            frame = int.from_bytes(message["bytes"][36:40], "little")
-            socket.send_json({"type": "acknowledge", "frame": frame})
-            continue
-        state: Response = json.loads(message["text"])
-        if state["type"] == "state" and state["is_over"] and not state["is_playing"]:
-            return state
 
 
 def test_at_most_two_studies_run_at_a_time_and_all_end_with_the_server(tmp_path: Path) -> None:

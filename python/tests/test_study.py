@@ -43,12 +43,10 @@ def test_the_default_delta_is_two_percent_of_the_range_of_merits(scenario: Scena
 def test_the_same_question_again_computes_nothing(scenario: Scenario, tmp_path: Path) -> None:
     first = study.run(scenario, delta=0.2, out=tmp_path)
     before = (tmp_path / "answer.json").read_bytes()
-    computed: list[int] = []
-    again = study.run(
-        scenario, delta=0.2, out=tmp_path, on_progress=lambda now: computed.append(now.computed)
-    )
+    seen: list[study.Progress] = []
+    again = study.run(scenario, delta=0.2, out=tmp_path, on_progress=seen.append)
     assert again.sentence == first.sentence
-    assert set(computed) == {0}
+    assert {now.computed for now in seen} == {0}
     assert (tmp_path / "answer.json").read_bytes() == before
     assert study.rebuild(tmp_path).runs == first.runs
 
@@ -73,38 +71,28 @@ def test_a_study_resumed_at_a_higher_confidence_equals_a_new_one(
     scenario: Scenario, tmp_path: Path
 ) -> None:
     study.run(scenario, delta=0.2, out=tmp_path / "more")
-    computed: list[int] = []
-    more = study.resume(
-        tmp_path / "more",
-        confidence=0.999,
-        on_progress=lambda now: computed.append(now.computed),
-    )
+    seen: list[study.Progress] = []
+    more = study.resume(tmp_path / "more", confidence=0.999, on_progress=seen.append)
     fresh = study.run(scenario, delta=0.2, confidence=0.999, out=tmp_path / "fresh")
     with pytest.raises(InputError, match="confidence = 0.6: must be above the study's 0.999"):
         study.resume(tmp_path / "more", confidence=0.6)
     assert files.as_json(more) == files.as_json(fresh)
-    assert 0 < computed[-1] < fresh.runs
+    assert 0 < seen[-1].computed < fresh.runs
 
 
 def test_another_delta_uses_the_stored_runs(scenario: Scenario, tmp_path: Path) -> None:
     study.run(scenario, delta=0.1, out=tmp_path)
-    computed: list[int] = []
-    study.run(
-        scenario, delta=0.2, out=tmp_path, on_progress=lambda now: computed.append(now.computed)
-    )
-    assert computed[-1] == 0
+    seen: list[study.Progress] = []
+    study.run(scenario, delta=0.2, out=tmp_path, on_progress=seen.append)
+    assert seen[-1].computed == 0
 
 
 def test_another_merit_uses_the_stored_runs(scenario: Scenario, tmp_path: Path) -> None:
     study.run(scenario, delta=0.1, out=tmp_path)
-    computed: list[int] = []
-    other = study.run(
-        scenario.replace("merit", {"time": -0.03, "robots": -0.2, "failed": -4}),
-        delta=0.4,
-        out=tmp_path,
-        on_progress=lambda now: computed.append(now.computed),
-    )
-    assert computed[-1] == 0
+    seen: list[study.Progress] = []
+    scenario = scenario.replace("merit", {"time": -0.03, "robots": -0.2, "failed": -4})
+    other = study.run(scenario, delta=0.4, out=tmp_path, on_progress=seen.append)
+    assert seen[-1].computed == 0
     assert other.results[0].merit.value > -4.5
 
 
