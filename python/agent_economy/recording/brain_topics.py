@@ -10,6 +10,7 @@ from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File, strict
 from agent_economy.recording.foxglove import SECOND_NS, scan
+from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
 
@@ -38,26 +39,20 @@ class BrainTopics:
             file.declare(f"/percept/{name}", schemas.exchanged("Percept"), about)
             file.declare(f"/command/{name}", schemas.exchanged("Command"), about)
 
-    def step(
-        self,
-        steps: int,
-        percepts: Mapping[str, Percept] | None,
-        commands: Mapping[str, Command] | None,
-        time_ns: int,
-    ) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs, time_ns: int) -> dict[str, Command]:
         """Advance the simulation, and write its external inputs and the topics."""
         simulation = self._simulation
         tick = simulation.tick
-        perceived = self._perceive(percepts or {})
+        perceived = self._perceive(inputs.percepts or {})
         try:
-            return simulation.step(steps, percepts=percepts, commands=commands)
+            return simulation.step(steps, **inputs._asdict())
         finally:
             # Also after Ctrl-C: a completed step cannot be replayed without its inputs.
             if simulation.tick > tick:
-                decided = {**simulation.decided, **(commands or {})}
-                inputs = {"percepts": percepts or {}, "commands": decided}
-                if any(inputs.values()):
-                    self._file.write_json("/input", strict({"tick": tick, **inputs}), time_ns)
+                decided = {**simulation.decided, **(inputs.commands or {})}
+                written = {"percepts": inputs.percepts or {}, "commands": decided}
+                if any(written.values()):
+                    self._file.write_json("/input", strict({"tick": tick, **written}), time_ns)
                 if perceived:
                     self._write(perceived, time_ns)
 

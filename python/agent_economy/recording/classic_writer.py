@@ -13,10 +13,11 @@ from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD as FRAME
 from agent_economy.recording.foxglove import color, cube, scene
+from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Floats, Items
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import OBSTACLE, WALL_M, half_turn_of
-from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.brain import Command
 from agent_economy.runs.classic_simulation import COLOURS, ClassicSimulation
 from agent_economy.runs.classic_world import CELL_PX, CELLS, RADIUS, WORLD, centre
 from agent_economy.scenario import validation
@@ -71,19 +72,13 @@ class ClassicMoments:
         self._items.write_all(found_s(simulation), time_ns)
         self.write(time_ns)
 
-    def step(
-        self,
-        steps: int,
-        percepts: Mapping[str, Percept] | None,
-        commands: Mapping[str, Command] | None,
-        _: int,
-    ) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs, _: int) -> dict[str, Command]:
         """Advance as `ClassicSimulation.step` does.
 
         Raises:
             InputError: If there are percepts or commands.
         """
-        for name, each in {"percepts": percepts, "commands": commands}.items():
+        for name, each in inputs._asdict().items():
             validation.check(each is None, name, each, NO_BRAINS)
         self._simulation.step(steps)
         return {}

@@ -1,13 +1,14 @@
 """Writers of recordings, by engine."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Protocol
 
 from agent_economy.recording import classic_writer, metric_writer
 from agent_economy.recording.classic_writer import ClassicMoments
 from agent_economy.recording.file import File
+from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.metric_writer import MetricMoments
-from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.brain import Command
 from agent_economy.runs.classic_simulation import ClassicSimulation
 from agent_economy.runs.simulation import Simulation
 
@@ -23,14 +24,7 @@ class Moments(Protocol):
     def hash(self) -> int:
         """Hash of the step written last."""
 
-    def step(
-        self,
-        steps: int,
-        percepts: Mapping[str, Percept] | None,
-        commands: Mapping[str, Command] | None,
-        time_ns: int,
-        /,
-    ) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs, time_ns: int, /) -> dict[str, Command]:
         """Advance the simulation, and write its external inputs."""
 
     def write(self, time_ns: int) -> None:

@@ -11,10 +11,11 @@ from agent_economy.recording import schemas
 from agent_economy.recording.brain_topics import BrainTopics
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log, scene
+from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Items
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import grid, still
-from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.brain import Command
 from agent_economy.runs.simulation import STATUSES, Simulation
 
 Moment = Mapping[str, Any]
@@ -90,15 +91,9 @@ class MetricMoments:
         """Hash of the step written last."""
         return int(self._last["hash"])
 
-    def step(
-        self,
-        steps: int,
-        percepts: Mapping[str, Percept] | None,
-        commands: Mapping[str, Command] | None,
-        time_ns: int,
-    ) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs, time_ns: int) -> dict[str, Command]:
         """Advance as `Simulation.step` does, and write the external inputs."""
-        return self._brains.step(steps, percepts, commands, time_ns)
+        return self._brains.step(steps, inputs, time_ns)
 
     def write(self, time_ns: int) -> None:
         """Write the current step."""

@@ -12,6 +12,7 @@ from agent_economy.recording.clock import Clock
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import SECOND_NS, log
 from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
+from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Stepped
@@ -91,11 +92,11 @@ class Recording:
         """
         self._check_simulation()
         if percepts is not None or commands is not None:
-            return self._step(steps, percepts, commands)
+            return self._step(steps, ExternalInputs(percepts, commands))
         validation.whole("steps", steps, 0)
         for _ in range(steps):
             tick = self.simulation.tick
-            self._step(1, None, None)
+            self._step(1, ExternalInputs())
             if self.simulation.tick == tick:  # a finished classic run does not advance
                 break
         return {}
@@ -143,16 +144,11 @@ class Recording:
         """Close the recording, also after an exception."""
         self.close()
 
-    def _step(
-        self,
-        steps: int,
-        percepts: Mapping[str, Percept] | None,
-        commands: Mapping[str, Command] | None,
-    ) -> dict[str, Command]:
+    def _step(self, steps: int, inputs: ExternalInputs) -> dict[str, Command]:
         self._check_simulation()
         tick = self.simulation.tick
         try:
-            return self._moments.step(steps, percepts, commands, self._clock.time_ns(tick))
+            return self._moments.step(steps, inputs, self._clock.time_ns(tick))
         finally:
             if self.simulation.tick > tick and self.simulation.tick % self._every == 0:
                 self.note()

@@ -1,6 +1,6 @@
 """The tables of a report: the numbers of its charts, as text."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Interval
@@ -62,10 +62,25 @@ def shares(interval: Interval, decimals: int) -> Cell:
     return Cell(percent(interval.value, decimals), f"{low} to {high}")
 
 
-def row(view: View, index: int, cells: Iterable[Cell]) -> Row:
-    """Return a configuration's row."""
-    style = "best" if index == view.answer.best else view.result(index).standing.verdict
-    return Row((words(view.names[index]), *cells), style, index)
+def table(caption: str, heads: tuple[str, ...], rows: Iterable[tuple[Cell, ...]]) -> Table:
+    """Return a table whose rows are not about configurations."""
+    return Table(caption, heads, tuple(map(Row, rows)))
+
+
+def by_configuration(
+    view: View,
+    caption: str,
+    heads: tuple[str, ...],
+    shown: Iterable[int],
+    cells: Callable[[int], Iterable[Cell]],
+) -> Table:
+    """Return a table with a row per configuration; `cells` returns those after its name."""
+
+    def row(index: int) -> Row:
+        style = "best" if index == view.answer.best else view.result(index).standing.verdict
+        return Row((words(view.names[index]), *cells(index)), style, index)
+
+    return Table(caption, ("configuration", *heads), tuple(map(row, shown)))
 
 
 def merit(view: View) -> Table:
@@ -82,12 +97,10 @@ def merit(view: View) -> Table:
         if has_quarantined:
             yield Cell(f"{result.quarantined:,}")
 
-    heads = ("configuration", "verdict", "figure of merit", "difference from selected", "runs")
-    return Table(
-        "Figure of merit of each configuration",
-        (*heads, "quarantined runs") if has_quarantined else heads,
-        tuple(row(view, index, cells(index)) for index in view.shown),
-    )
+    heads = ("verdict", "figure of merit", "difference from selected", "runs")
+    shown_heads = (*heads, "quarantined runs") if has_quarantined else heads
+    caption = "Figure of merit of each configuration"
+    return by_configuration(view, caption, shown_heads, view.shown, cells)
 
 
 def heat(view: View) -> tuple[Table, ...]:
@@ -101,11 +114,11 @@ def heat(view: View) -> tuple[Table, ...]:
     rows = tuple(dict.fromkeys(other for _, other in merits))
     name = f"Mean merit; rows: {factor_name(down)}, columns: {factor_name(across)}"
     return tuple(
-        Table(
+        table(
             name,
             ("", *map(written, part)),
-            tuple(
-                Row((words(written(other)), *(Cell(merits[one, other]) for one in part)))
+            (
+                (words(written(other)), *(Cell(merits[one, other]) for one in part))
                 for other in rows
             ),
         )
@@ -120,21 +133,13 @@ def written(value: float | str) -> str:
 
 def failed(view: View) -> Table:
     """Return the table of failed runs."""
-    return Table(
-        "Share of runs that failed",
-        ("configuration", "failed", "runs"),
-        tuple(
-            row(
-                view,
-                index,
-                (
-                    shares(view.result(index).failed, view.share_places),
-                    Cell(f"{view.result(index).runs:,}"),
-                ),
-            )
-            for index in view.shown
-        ),
-    )
+
+    def cells(index: int) -> Iterable[Cell]:
+        yield shares(view.result(index).failed, view.share_places)
+        yield Cell(f"{view.result(index).runs:,}")
+
+    heads = ("failed", "runs")
+    return by_configuration(view, "Share of runs that failed", heads, view.shown, cells)
 
 
 def front(view: View) -> Table:
@@ -151,24 +156,18 @@ def front(view: View) -> Table:
         else:
             yield words(f"dominated by {view.names[rival]}")
 
-    return Table(
-        "Price, time and failures of each configuration",
-        ("configuration", "price, robots", "mean time, s", "failed", "Pareto front"),
-        tuple(row(view, index, cells(index)) for index in view.on_front),
-    )
+    caption = "Price, time and failures of each configuration"
+    heads = ("price, robots", "mean time, s", "failed", "Pareto front")
+    return by_configuration(view, caption, heads, view.on_front, cells)
 
 
 def gains(view: View, found: Saturation) -> Table:
     """Return the table of gains of larger teams."""
     kind = factor_name(found.path)
-    return Table(
-        f"Gain of more than {found.base:,} {kind}",
-        (kind, "gain of merit"),
-        tuple(
-            Row((Cell(f"{size:,}"), measured(gain, view.merit_places)))
-            for size, gain in found.gains.items()
-        ),
+    rows = (
+        (Cell(f"{size:,}"), measured(gain, view.merit_places)) for size, gain in found.gains.items()
     )
+    return table(f"Gain of more than {found.base:,} {kind}", (kind, "gain of merit"), rows)
 
 
 def history(view: View) -> Table:
@@ -184,49 +183,38 @@ def history(view: View) -> Table:
             yield words(state(view, index))
             yield words(NOTHING)
 
-    return Table(
-        "Runs and elimination of each configuration",
-        ("configuration", "runs", "status", "eliminated by"),
-        tuple(row(view, index, cells(index)) for index in view.by_runs),
-    )
+    caption = "Runs and elimination of each configuration"
+    return by_configuration(view, caption, ("runs", "status", "eliminated by"), view.by_runs, cells)
 
 
 def sensitivity(view: View) -> Table:
     """Return the table of the influence of each factor."""
     found = view.answer.sensitivity
     influences = found.influences if found else ()
-    return Table(
-        "Influence of each factor, with individual 95% bootstrap intervals",
-        ("factor", "alone", "with interactions"),
-        tuple(
-            Row(
-                (
-                    words(each.path),
-                    measured(around(each.first_order, each.first_order_error), 2),
-                    measured(around(each.total, each.total_error), 2),
-                )
-            )
-            for each in influences
-        ),
+    rows = (
+        (
+            words(each.path),
+            measured(around(each.first_order, each.first_order_error), 2),
+            measured(around(each.total, each.total_error), 2),
+        )
+        for each in influences
     )
+    caption = "Influence of each factor, with individual 95% bootstrap intervals"
+    return table(caption, ("factor", "alone", "with interactions"), rows)
 
 
 def efforts(view: View) -> Table:
     """Return the table of predicted runs for smaller deltas."""
-    return Table(
-        "Predicted runs for smaller deltas",
-        ("delta", "predicted runs", "relative to this study"),
-        tuple(
-            Row(
-                (
-                    Cell(brief(each.delta)),
-                    Cell(f"{each.runs:,}"),
-                    Cell(f"{each.runs / view.answer.runs:,.1f}"),
-                )
-            )
-            for each in view.answer.efforts
-        ),
+    rows = (
+        (
+            Cell(brief(each.delta)),
+            Cell(f"{each.runs:,}"),
+            Cell(f"{each.runs / view.answer.runs:,.1f}"),
+        )
+        for each in view.answer.efforts
     )
+    heads = ("delta", "predicted runs", "relative to this study")
+    return table("Predicted runs for smaller deltas", heads, rows)
 
 
 def times(view: View) -> Table:
@@ -238,28 +226,21 @@ def times(view: View) -> Table:
             number = found.get(name)
             yield Cell(UNKNOWN if number is None else decimal(number, view.time_places))
 
-    return Table(
-        "Quantiles of the time of a run, s",
-        ("configuration", "5%", "25%", "50% (median)", "75%", "95%"),
-        tuple(row(view, index, cells(index)) for index in view.shown),
-    )
+    heads = ("5%", "25%", "50% (median)", "75%", "95%")
+    return by_configuration(view, "Quantiles of the time of a run, s", heads, view.shown, cells)
 
 
 def published(view: View) -> Table:
     """Return the table of published results."""
-    return Table(
-        "Published results",
-        ("robots", "runs", "mean time, s", "failed", "figure of merit"),
-        tuple(
-            Row(
-                (
-                    Cell(f"{each.robots:,}"),
-                    Cell(f"{len(each.times_s):,}"),
-                    Cell(decimal(each.time_s, view.time_places)),
-                    shares(each.failed_share, 0),
-                    measured(each.merit, 2),
-                )
-            )
-            for each in view.answer.published
-        ),
+    rows = (
+        (
+            Cell(f"{each.robots:,}"),
+            Cell(f"{len(each.times_s):,}"),
+            Cell(decimal(each.time_s, view.time_places)),
+            shares(each.failed_share, 0),
+            measured(each.merit, 2),
+        )
+        for each in view.answer.published
     )
+    heads = ("robots", "runs", "mean time, s", "failed", "figure of merit")
+    return table("Published results", heads, rows)
