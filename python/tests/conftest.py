@@ -30,6 +30,12 @@ def classic_toml() -> Path:
 
 
 @pytest.fixture
+def mcap(tmp_path: Path) -> Path:
+    """Return the file of a recording that does not exist yet."""
+    return tmp_path / "run.mcap"
+
+
+@pytest.fixture
 def cluster() -> Iterator[Cluster]:
     """Return a Dask cluster's address, and its processes: a scheduler and two workers."""
     pytest.importorskip("distributed", reason="Dask is an extra")

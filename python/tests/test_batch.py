@@ -2,13 +2,14 @@
 
 import math
 import traceback
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from alarm import ringing
 from example_brains import SMALL, Ahead, Talker
-from metric import ENDLESS, search
+from metric import ENDLESS, HUGE, search
 
 import agent_economy as ae
 from agent_economy import Batch, InputError, Scenario, Simulation
@@ -65,6 +66,19 @@ def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
     }
 
 
+def noting(
+    note: Callable[[Percepts], object],
+    decide: Callable[[Percepts, dict[str, Any]], Commands] = shy,
+) -> Batch:
+    """Return a brain that passes its percepts to `note` before it decides."""
+
+    def noted(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        note(percepts)
+        return decide(percepts, memory)
+
+    return Batch(noted)
+
+
 def finished(scenario: Scenario, brains: Any, run: int = 2) -> Simulation:
     """Return a finished run."""
     simulation = Simulation(scenario, 7, run, brains=brains)
@@ -94,8 +108,10 @@ def test_messages_requests_and_memory_of_a_batch_equal_those_of_a_class() -> Non
 
 
 def test_threads_that_share_a_step_change_no_byte() -> None:
-    huge = search({"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.time_limit_s": 1})
-    runs = [Simulation(huge, threads=threads, brains={"rover": Batch(shy)}) for threads in (1, 3)]
+    runs = [
+        Simulation(search(HUGE), threads=threads, brains={"rover": Batch(shy)})
+        for threads in (1, 3)
+    ]
     assert len({run.finish().energy_j for run in runs}) == 1
     assert len({run.hash for run in runs}) == 1
 
@@ -119,13 +135,7 @@ def as_rows(percepts: Any, row: int) -> Any:
 
 def test_arrays_contain_the_percept_of_each_robot() -> None:
     noted: list[Percepts] = []
-
-    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-        del memory
-        noted.append(percepts)
-        return shy(percepts, {})
-
-    simulation = Simulation("open-field", brains={"rover": Batch(note)})
+    simulation = Simulation("open-field", brains={"rover": noting(noted.append)})
     seen = 0
     for _ in range(400):
         alone = [simulation.percept(f"rover/{index}") for index in range(3)]
@@ -160,12 +170,7 @@ def test_arrays_contain_the_percept_of_each_robot() -> None:
 
 def test_arrays_have_the_fields_of_percepts() -> None:
     noted: list[Any] = []
-
-    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-        noted.append(percepts)
-        return talk(percepts, memory)
-
-    Simulation(Scenario.loads(SMALL), brains={"bumper": Batch(note)}).step()
+    Simulation(Scenario.loads(SMALL), brains={"bumper": noting(noted.append, talk)}).step()
     assert noted[0].keys() == Percepts.__annotations__.keys()
     # Entries of which all robots of a kind share one.
     together = {"id": "robots", "team_size": "count"}
@@ -286,10 +291,8 @@ def test_only_messages_about_the_sender_have_a_heading() -> None:
         outbox = {"row": rows, "confidence": 1.0, "item_kind": [-1, 0], "at": [3, 4]}
         return {"motion": STAND, "outbox": {**outbox, "heading_rad": 0.5}}  # type: ignore[typeddict-item]
 
-    simulation = Simulation(
-        Scenario.loads(SMALL).replace("robots.bumper.radio.loss_probability", 0.0)
-    )
-    simulation = Simulation(simulation.scenario, brains={"bumper": Batch(tell)})
+    scenario = Scenario.loads(SMALL).replace("robots.bumper.radio.loss_probability", 0.0)
+    simulation = Simulation(scenario, brains={"bumper": Batch(tell)})
     simulation.step(40)
     courses = [inbox["heading_rad"].tolist() for inbox in received if len(inbox["row"])]
     assert courses
@@ -298,12 +301,7 @@ def test_only_messages_about_the_sender_have_a_heading() -> None:
 
 def test_a_batch_gets_the_same_body_as_a_class() -> None:
     bodies: list[Body] = []
-
-    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-        del memory
-        bodies.append(percepts["body"])
-        return shy(percepts, {})
-
+    brain = noting(lambda percepts: bodies.append(percepts["body"]))
     Simulation("search", brains={"rover": lambda body: bodies.append(body) or Ahead(body)})  # type: ignore[func-returns-value]
-    Simulation("search", brains={"rover": Batch(note)}).step()
+    Simulation("search", brains={"rover": brain}).step()
     assert bodies[0] == bodies[-1]

@@ -41,13 +41,13 @@ def short(path: Path, seed: int = 1) -> Path:
     return path
 
 
-def test_recording_does_not_change_the_run(tmp_path: Path) -> None:
-    recorded = ae.run("open-field", 3, 1, record=tmp_path / "run.mcap")
+def test_recording_does_not_change_the_run(mcap: Path) -> None:
+    recorded = ae.run("open-field", 3, 1, record=mcap)
     assert recorded == ae.run("open-field", 3, 1)
 
 
-def test_recorded_poses_are_those_of_each_step(tmp_path: Path) -> None:
-    topics = contents(short(tmp_path / "run.mcap")).topics
+def test_recorded_poses_are_those_of_each_step(mcap: Path) -> None:
+    topics = contents(short(mcap)).topics
     simulation = ae.Simulation(search(SHORT), 1)
     assert len(topics["/tf"]) == len(topics["/robots"]) == len(topics["/run"])
     for frames, robots, at in zip(topics["/tf"], topics["/robots"], topics["/run"], strict=True):
@@ -77,12 +77,12 @@ def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
 
 
 def test_the_file_alone_suffices_for_a_replay(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, mcap: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     there = tmp_path / "there"
     shutil.copytree(SCENARIOS, there)
     scenario = Scenario.load(there / "open-field.toml").replace("clock.time_limit_s", 20)
-    ae.run(scenario, seed=2**64 - 1, run=7, record=tmp_path / "run.mcap")
+    ae.run(scenario, seed=2**64 - 1, run=7, record=mcap)
     shutil.rmtree(there)
     monkeypatch.chdir(tmp_path)
     again = ae.replay("run.mcap")
@@ -91,82 +91,80 @@ def test_the_file_alone_suffices_for_a_replay(
     assert again.outcome == ae.run(again.scenario, 2**64 - 1, 7)
 
 
-def test_changes_are_replayed(tmp_path: Path) -> None:
+def test_changes_are_replayed(mcap: Path) -> None:
     simulation = ae.Simulation(search(), 4)
     simulation.change("robots.rover.count", 5)
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.step(30)
         simulation.change("robots.rover.count", 2)
         simulation.change("world.obstacles", [{"circle": {"at_m": [12, 12], "radius_m": 1}}])
         recording.step(30)
-    again = ae.replay(tmp_path / "run.mcap")
+    again = ae.replay(mcap)
     assert again.agrees
     assert int(again.hash, 16) == simulation.hash
-    topics = contents(tmp_path / "run.mcap").topics
+    topics = contents(mcap).topics
     assert [len(each.content["robots"]) for each in topics["/team"]] == [5, 2]
     assert [len(each.content.entities) for each in topics["/scene/robots"]] == [5, 2]
     changes = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
     assert changes[:2] == ["robots.rover.count = 5", "robots.rover.count = 2"]
 
 
-def test_external_inputs_are_replayed(tmp_path: Path) -> None:
+def test_external_inputs_are_replayed(mcap: Path) -> None:
     simulation = ae.Simulation(search(), 4)
     percept: Percept = {
         "position": {"value": (3.0, 4.0), "age_s": 0.0},
         "scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 55}],
     }
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.step(commands={"rover/0": DRIVE})
         answers = recording.step(percepts={"rover/1": percept})
         recording.step(5)
     assert set(answers) == {"rover/1"}
-    assert ae.replay(tmp_path / "run.mcap").agrees
-    assert len(contents(tmp_path / "run.mcap").topics["/input"]) == 2
+    assert ae.replay(mcap).agrees
+    assert len(contents(mcap).topics["/input"]) == 2
 
 
 @pytest.mark.parametrize("age_s", [-1e308, -5.0, 1.0, 1e308])
-def test_an_external_scan_of_any_age_has_a_time_within_the_run(
-    tmp_path: Path, age_s: float
-) -> None:
+def test_an_external_scan_of_any_age_has_a_time_within_the_run(mcap: Path, age_s: float) -> None:
     simulation = ae.Simulation("search", 4)
     percept: Percept = {"scans": [{"age_s": age_s, "ranges_m": [-1e308] * 55}]}
-    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/1"]) as recording:
+    with ae.Recording(simulation, mcap, percepts=["rover/1"]) as recording:
         recording.step(25)
         recording.step(percepts={"rover/1": percept})
-    scan = contents(tmp_path / "run.mcap").topics["/scan/rover/1/0"][-1].content
+    scan = contents(mcap).topics["/scan/rover/1/0"][-1].content
     taken_ns = scan.timestamp.seconds * SECOND_NS + scan.timestamp.nanos
     assert taken_ns == (2.5 - min(max(age_s, 0), 2.5)) * SECOND_NS
-    assert ae.replay(tmp_path / "run.mcap").agrees
+    assert ae.replay(mcap).agrees
 
 
-def test_a_rejected_step_is_not_recorded(tmp_path: Path) -> None:
-    with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap") as recording:
+def test_a_rejected_step_is_not_recorded(mcap: Path) -> None:
+    with ae.Recording(ae.Simulation("search"), mcap) as recording:
         with pytest.raises(InputError):
             recording.step(commands={"rover/9": DRIVE})
         recording.step(2)
-    assert "/input" not in contents(tmp_path / "run.mcap").topics
-    assert ae.replay(tmp_path / "run.mcap").agrees
+    assert "/input" not in contents(mcap).topics
+    assert ae.replay(mcap).agrees
 
 
-def test_a_manipulated_run_does_not_agree(tmp_path: Path) -> None:
+def test_a_manipulated_run_does_not_agree(mcap: Path) -> None:
     simulation = ae.Simulation("search")
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.step(20)
         simulation.step(commands={"rover/0": DRIVE})
         recording.step(20)
-    again = ae.replay(tmp_path / "run.mcap")
+    again = ae.replay(mcap)
     assert (again.agrees, again.mismatch_tick) == (False, 22)
 
 
-def test_a_brain_gives_the_recorded_commands_for_the_recorded_percepts(tmp_path: Path) -> None:
+def test_a_brain_gives_the_recorded_commands_for_the_recorded_percepts(mcap: Path) -> None:
     simulation = ae.Simulation("open-field", 5)
     chosen = ("rover/1", "bird/0")
-    with ae.Recording(simulation, tmp_path / "run.mcap", every=10, percepts=chosen) as recording:
+    with ae.Recording(simulation, mcap, every=10, percepts=chosen) as recording:
         recording.step(300)
     plain = ae.Simulation("open-field", 5)
     plain.step(300)
     assert plain.hash == simulation.hash
-    topics = contents(tmp_path / "run.mcap").topics
+    topics = contents(mcap).topics
     for name in chosen:
         brain = ae.Brain.of("open-field", name.partition("/")[0])
         percepts, commands = topics[f"/percept/{name}"], topics[f"/command/{name}"]
@@ -177,15 +175,15 @@ def test_a_brain_gives_the_recorded_commands_for_the_recorded_percepts(tmp_path:
             assert brain.step(percept)["motion"] == command.content["motion"]
 
 
-def test_scans_have_the_ranges_of_percepts_and_the_bearings_of_the_body(tmp_path: Path) -> None:
+def test_scans_have_the_ranges_of_percepts_and_the_bearings_of_the_body(mcap: Path) -> None:
     simulation = ae.Simulation("search", 5)
-    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/0"]) as recording:
+    with ae.Recording(simulation, mcap, percepts=["rover/0"]) as recording:
         recording.step(20)
-    with (tmp_path / "run.mcap").open("rb") as stream:
+    with mcap.open("rb") as stream:
         channels = [each for each in StreamReader(stream).records if isinstance(each, Channel)]
     about = next(each.metadata for each in channels if each.topic == "/percept/rover/0")
     body = json.loads(about["body"])
-    topics = contents(tmp_path / "run.mcap").topics
+    topics = contents(mcap).topics
     bearings = body["rings"][0]["bearings_rad"]
     percepts = {each.time_ns: each.content for each in topics["/percept/rover/0"]}
     assert topics["/scan/rover/0/0"]
@@ -196,9 +194,9 @@ def test_scans_have_the_ranges_of_percepts_and_the_bearings_of_the_body(tmp_path
         assert np.allclose(np.exp(1j * steps), np.exp(1j * np.array(bearings)), atol=1e-12)
 
 
-def test_the_scene_shows_the_scenario_and_the_finds(tmp_path: Path) -> None:
-    outcome = ae.run("open-field", 3, record=tmp_path / "run.mcap")
-    topics = contents(tmp_path / "run.mcap").topics
+def test_the_scene_shows_the_scenario_and_the_finds(mcap: Path) -> None:
+    outcome = ae.run("open-field", 3, record=mcap)
+    topics = contents(mcap).topics
     world = {each.id: each for each in topics["/scene/world"][0].content.entities}
     border = {(point.x, point.y) for point in world["border"].lines[0].points}
     assert border == {(0, 0), (60, 0), (60, 40), (0, 40)}
@@ -230,16 +228,16 @@ def found_at(topics: Mapping[str, list[Message]], time_ns: int) -> list[str]:
     return sorted(found)
 
 
-def test_a_viewer_that_jumps_in_time_shows_the_finds_until_then(tmp_path: Path) -> None:
+def test_a_viewer_that_jumps_in_time_shows_the_finds_until_then(mcap: Path) -> None:
     simulation = ae.Simulation(search(MANY), 1)
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.step(400)
         simulation.change("items.mine.count", 2900)
         recording.step(100)
         simulation.change("items.mine.count", 30)
         recording.step(10)
         left = simulation.items["found_s"].to_pylist()
-    topics = contents(tmp_path / "run.mcap").topics
+    topics = contents(mcap).topics
     assert set(topics) >= {f"/scene/found/{level}" for level in (0, 1)}
     moments = topics["/run"]
     counts = [each.content["found"] for each in moments]
@@ -251,34 +249,33 @@ def test_a_viewer_that_jumps_in_time_shows_the_finds_until_then(tmp_path: Path) 
     assert found_at(topics, moments[-1].time_ns) == expected
 
 
-def test_the_number_of_writes_per_find_is_bounded(tmp_path: Path) -> None:
-    outcome = ae.run(search(MANY), 1, record=tmp_path / "run.mcap")
-    topics = contents(tmp_path / "run.mcap").topics
+def test_the_number_of_writes_per_find_is_bounded(mcap: Path) -> None:
+    outcome = ae.run(search(MANY), 1, record=mcap)
+    topics = contents(mcap).topics
     assert len(topics["/scene/items"]) == 1
     found = [name for name in topics if name.startswith("/scene/found/")]
     written = sum(len(each.content.entities) for name in found for each in topics[name])
     assert 0 < written < 20 * len(found) * sum(each or 0 for each in outcome.found.values())
 
 
-def test_collisions_and_status_changes_are_in_the_log_and_the_colours(tmp_path: Path) -> None:
+def test_collisions_and_status_changes_are_in_the_log_and_the_colours(mcap: Path) -> None:
     crowded = search(
         {"robots.rover.count": 20, "robots.rover.collision.max_collisions": 1, **SHORT}
     )
-    path = tmp_path / "run.mcap"
-    outcome = ae.run(crowded.replace("world.size_m", [26, 25]), 1, record=path)
-    topics = contents(path).topics
+    outcome = ae.run(crowded.replace("world.size_m", [26, 25]), 1, record=mcap)
+    topics = contents(mcap).topics
     words = [each.content.message for each in topics["/log"]]
     assert words.count("broken") == outcome.robots_stopped
     assert topics["/run"][-1].content["stopped"] == outcome.robots_stopped
     assert topics["/outcome"][0].content["robots_stopped"] == outcome.robots_stopped
 
 
-def test_json_messages_conform_to_their_schemas(tmp_path: Path) -> None:
+def test_json_messages_conform_to_their_schemas(mcap: Path) -> None:
     simulation = ae.Simulation("open-field", 2)
-    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/0"]) as recording:
+    with ae.Recording(simulation, mcap, percepts=["rover/0"]) as recording:
         recording.step(5, commands=None)
         recording.step(commands={"rover/2": DRIVE})
-    topics, schemas, *_ = contents(tmp_path / "run.mcap")
+    topics, schemas, *_ = contents(mcap)
     declared = {
         topic: schema for topic, schema in schemas.items() if schema.encoding == "jsonschema"
     }
@@ -292,18 +289,18 @@ def test_json_messages_conform_to_their_schemas(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("every", "steps"), [(1, 25), (10, 25), (10, 30), (100, 7)])
 def test_every_nth_step_is_recorded_and_the_first_and_the_last(
-    tmp_path: Path, every: int, steps: int
+    mcap: Path, every: int, steps: int
 ) -> None:
-    with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap", every=every) as recording:
+    with ae.Recording(ae.Simulation("search"), mcap, every=every) as recording:
         recording.step(steps)
-    ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
+    ticks = [each.content["tick"] for each in contents(mcap).topics["/run"]]
     assert ticks == sorted({*range(0, steps, every), steps})
-    assert ae.replay(tmp_path / "run.mcap").agrees
+    assert ae.replay(mcap).agrees
 
 
-def test_a_run_restored_to_an_earlier_step_cannot_be_recorded(tmp_path: Path) -> None:
+def test_a_run_restored_to_an_earlier_step_cannot_be_recorded(mcap: Path) -> None:
     simulation = ae.Simulation("search")
-    recording = ae.Recording(simulation, tmp_path / "run.mcap")
+    recording = ae.Recording(simulation, mcap)
     before = simulation.snapshot()
     recording.step(5)
     simulation.restore(before)
@@ -311,7 +308,7 @@ def test_a_run_restored_to_an_earlier_step_cannot_be_recorded(tmp_path: Path) ->
         recording.step()
 
 
-def test_all_invalid_arguments_are_reported(tmp_path: Path) -> None:
+def test_all_invalid_arguments_are_reported(tmp_path: Path, mcap: Path) -> None:
     with pytest.raises(InputError) as caught:
         ae.Recording(ae.Simulation("search"), tmp_path / "run", every=0, percepts=["rover/4"])
     assert f"{tmp_path}/run: the name of a recording must end in .mcap" in str(caught.value)
@@ -321,15 +318,15 @@ def test_all_invalid_arguments_are_reported(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be written: No such file"):
         ae.run("search", record=tmp_path / "none" / "run.mcap")
     with pytest.raises(InputError, match="must be a Simulation or a ClassicSimulation"):
-        ae.Recording("search", tmp_path / "run.mcap")  # type: ignore[arg-type]
+        ae.Recording("search", mcap)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("steps", [-1, 1.5, "1", True, None])
 def test_a_recording_accepts_the_same_numbers_of_steps_as_a_simulation(
-    tmp_path: Path, steps: Any
+    mcap: Path, steps: Any
 ) -> None:
     simulation = ae.Simulation("search")
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         for each in (simulation, recording):
             with pytest.raises(InputError, match=r"steps = .*: must be a whole number"):
                 each.step(steps)
@@ -337,9 +334,9 @@ def test_a_recording_accepts_the_same_numbers_of_steps_as_a_simulation(
     assert simulation.tick == 2
 
 
-def test_a_closed_recording_does_not_step(tmp_path: Path) -> None:
+def test_a_closed_recording_does_not_step(mcap: Path) -> None:
     simulation = ae.Simulation("search")
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.step(2)
     for act in (recording.step, recording.note, recording.finish):
         with pytest.raises(InputError, match="the recording is closed"):
@@ -348,10 +345,10 @@ def test_a_closed_recording_does_not_step(tmp_path: Path) -> None:
         recording.step(commands={"rover/0": DRIVE})
     recording.close()
     assert simulation.tick == 2
-    assert ae.replay(tmp_path / "run.mcap").tick == 2
+    assert ae.replay(mcap).tick == 2
 
 
-def test_a_recording_never_replaces_a_file_of_its_scenario(tmp_path: Path) -> None:
+def test_a_recording_never_replaces_a_file_of_its_scenario(tmp_path: Path, mcap: Path) -> None:
     text = (SCENARIOS / "open-field.toml").read_text().replace("open-field.yaml", "map.mcap")
     (tmp_path / "map.mcap").write_bytes((SCENARIOS / "open-field.yaml").read_bytes())
     shutil.copy(SCENARIOS / "open-field.pgm", tmp_path)
@@ -367,19 +364,19 @@ def test_a_recording_never_replaces_a_file_of_its_scenario(tmp_path: Path) -> No
     ):
         ae.run(own, record=tmp_path / "open-field.pgm")
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == before
-    ae.run(own, record=tmp_path / "run.mcap")
-    assert ae.run(own, record=tmp_path / "run.mcap") == ae.run(own)
+    ae.run(own, record=mcap)
+    assert ae.run(own, record=mcap) == ae.run(own)
 
 
-def test_a_run_without_robots_is_recorded_without_percepts(tmp_path: Path) -> None:
+def test_a_run_without_robots_is_recorded_without_percepts(mcap: Path) -> None:
     empty = ae.Simulation(search({"robots.rover.count": 0}))
     with pytest.raises(
         InputError, match="'rover/0': must be among the run's robots, and it has no"
     ):
-        ae.Recording(empty, tmp_path / "run.mcap", percepts=["rover/0"])
-    with ae.Recording(empty, tmp_path / "run.mcap") as recording:
+        ae.Recording(empty, mcap, percepts=["rover/0"])
+    with ae.Recording(empty, mcap) as recording:
         recording.step(3)
-    assert ae.replay(tmp_path / "run.mcap").agrees
+    assert ae.replay(mcap).agrees
 
 
 FILLS = """
@@ -399,24 +396,22 @@ except ae.InputError as error:
 """
 
 
-def test_a_full_disk_is_reported_with_the_file_and_the_remedies(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    given = run_python(FILLS, path)
+def test_a_full_disk_is_reported_with_the_file_and_the_remedies(mcap: Path) -> None:
+    given = run_python(FILLS, mcap)
     assert (given.returncode, given.stderr) == (0, "")
     full, closed = given.stdout.splitlines()
-    assert full.startswith(f"{path}: recording stopped: File too large: free some space")
+    assert full.startswith(f"{mcap}: recording stopped: File too large: free some space")
     assert closed.startswith("the recording is closed")
-    again = ae.replay(path)
+    again = ae.replay(mcap)
     assert (again.agrees, again.is_complete) == (True, False)
     assert again.tick > 0
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
-def test_the_command_line_reports_a_full_disk(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    path.symlink_to("/dev/full")
-    errors = refuse("run", "search", "--record", str(path), code=1)
-    assert errors.startswith(f"{path}: recording stopped: No space left")
+def test_the_command_line_reports_a_full_disk(mcap: Path) -> None:
+    mcap.symlink_to("/dev/full")
+    errors = refuse("run", "search", "--record", mcap, code=1)
+    assert errors.startswith(f"{mcap}: recording stopped: No space left")
     assert len(errors.splitlines()) == 1
     assert "1 the recording cannot be written" in " ".join(run("run", "--help").stdout.split())
 
@@ -430,18 +425,17 @@ with ae.Recording(ae.Simulation(search(ENDLESS)), sys.argv[1]) as recording:
 """
 
 
-def test_a_killed_process_leaves_a_readable_recording(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    script = [sys.executable, "-c", KILLED, str(path)]
+def test_a_killed_process_leaves_a_readable_recording(mcap: Path) -> None:
+    script = [sys.executable, "-c", KILLED, str(mcap)]
     process = subprocess.Popen(script, cwd=Path(__file__).parent)
     try:
         deadline = time.monotonic() + 60
-        while time.monotonic() < deadline and not (path.exists() and path.stat().st_size > 200_000):
+        while time.monotonic() < deadline and not (mcap.exists() and mcap.stat().st_size > 200_000):
             time.sleep(0.05)
     finally:
         process.kill()
         process.wait()
-    again = ae.replay(path)
+    again = ae.replay(mcap)
     assert (again.agrees, again.is_complete) == (True, False)
     assert again.tick >= 100
     assert again.scenario.to_dict() == search(ENDLESS).to_dict()
@@ -455,24 +449,23 @@ def test_runs_without_a_recording_do_not_import_the_writer() -> None:
     assert run_python(script, check=True).stdout.strip() == "[]"
 
 
-def test_the_command_line_records_and_replays(tmp_path: Path) -> None:
-    path = str(tmp_path / "run.mcap")
+def test_the_command_line_records_and_replays(mcap: Path) -> None:
     args = ("search", "--seed", "7", "--set", "clock.time_limit_s=10", "--every", "5")
-    succeed("run", *args, "--record", path, "--percepts", "rover/0")
-    assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()
-    again = run("replay", path)
+    succeed("run", *args, "--record", mcap, "--percepts", "rover/0")
+    assert {"/tf", "/percept/rover/0"} < contents(mcap).topics.keys()
+    again = run("replay", mcap)
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.startswith("search, seed 7, run 0: reproduced up to step 100")
-    result = json.loads(run("replay", path, "--json").stdout)
+    result = json.loads(run("replay", mcap, "--json").stdout)
     assert (result["agrees"], result["mismatch_tick"], result["tick"]) == (True, None, 100)
     refuse("replay", "README.md")
 
 
-def test_the_command_line_reports_a_mismatch(tmp_path: Path) -> None:
+def test_the_command_line_reports_a_mismatch(mcap: Path) -> None:
     simulation = ae.Simulation("search")
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         simulation.step(commands={"rover/0": DRIVE})
         recording.step(3)
-    given = run("replay", str(tmp_path / "run.mcap"))
+    given = run("replay", mcap)
     assert given.returncode == 1
     assert "search, seed 0, run 0: differs from the recording from step 2 on" in given.stdout

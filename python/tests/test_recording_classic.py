@@ -35,19 +35,19 @@ def changed(path: Path, every: int = 1) -> ClassicSimulation:
     return simulation
 
 
-def test_recording_does_not_change_the_run_and_can_be_replayed(tmp_path: Path) -> None:
-    recorded = ae.run("classic", 3, 1, record=tmp_path / "run.mcap")
+def test_recording_does_not_change_the_run_and_can_be_replayed(mcap: Path) -> None:
+    recorded = ae.run("classic", 3, 1, record=mcap)
     assert recorded == ae.run("classic", 3, 1)
-    again = ae.replay(tmp_path / "run.mcap")
+    again = ae.replay(mcap)
     assert (again.agrees, again.is_complete, again.seed, again.run) == (True, True, 3, 1)
     assert again.outcome == recorded
     assert again.tick == recorded.row["paints"]
 
 
 @pytest.mark.parametrize("every", [1, 7])
-def test_a_run_with_changes_is_replayed(tmp_path: Path, every: int) -> None:
-    simulation = changed(tmp_path / "run.mcap", every)
-    again = ae.replay(tmp_path / "run.mcap")
+def test_a_run_with_changes_is_replayed(mcap: Path, every: int) -> None:
+    simulation = changed(mcap, every)
+    again = ae.replay(mcap)
     assert again.agrees
     assert (again.tick, again.hash) == (simulation.tick, f"{simulation.hash:016x}")
     assert again.outcome == simulation.outcome()
@@ -62,9 +62,9 @@ def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
     assert first.read_bytes() != other.read_bytes()
 
 
-def test_every_paint_is_recorded_with_its_robots(tmp_path: Path) -> None:
-    ae.run("classic", 5, record=tmp_path / "run.mcap")
-    topics = contents(tmp_path / "run.mcap").topics
+def test_every_paint_is_recorded_with_its_robots(mcap: Path) -> None:
+    ae.run("classic", 5, record=mcap)
+    topics = contents(mcap).topics
     simulation = ClassicSimulation("classic", 5)
     moments = zip(topics["/tf"], topics["/robots"], topics["/run"], strict=True)
     for frames, robots, at in moments:
@@ -95,9 +95,9 @@ def test_every_paint_is_recorded_with_its_robots(tmp_path: Path) -> None:
     assert topics["/run"][-1].content["tick"] == simulation.tick
 
 
-def test_the_scene_is_the_classic_world_with_y_upwards(tmp_path: Path) -> None:
-    ae.run("classic", 5, record=tmp_path / "run.mcap")
-    topics = contents(tmp_path / "run.mcap").topics
+def test_the_scene_is_the_classic_world_with_y_upwards(mcap: Path) -> None:
+    ae.run("classic", 5, record=mcap)
+    topics = contents(mcap).topics
     assert set(topics) == {
         "/tf", "/robots", "/run", "/team", "/scene/world", "/scene/robots", "/scene/items",
         "/scene/found/0", "/log", "/outcome",
@@ -115,9 +115,9 @@ def test_the_scene_is_the_classic_world_with_y_upwards(tmp_path: Path) -> None:
     assert [each.frame_id for each in bodies] == [f"wanderer/{number}" for number in range(4)]
 
 
-def test_bodies_have_the_colours_of_the_robots(tmp_path: Path) -> None:
-    ae.run("classic", 5, record=tmp_path / "run.mcap")
-    topics = contents(tmp_path / "run.mcap").topics
+def test_bodies_have_the_colours_of_the_robots(mcap: Path) -> None:
+    ae.run("classic", 5, record=mcap)
+    topics = contents(mcap).topics
     states = {each.time_ns: each.content["colour"] for each in topics["/robots"]}
     painted = {"blue": set(), "yellow": set(), "red": set()}  # type: dict[str, set[float]]
     for time_ns, scene in topics["/scene/robots"]:
@@ -130,9 +130,9 @@ def test_bodies_have_the_colours_of_the_robots(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("every", [1, 25])
-def test_every_find_is_in_the_log_at_its_time(tmp_path: Path, every: int) -> None:
-    simulation = changed(tmp_path / "run.mcap", every)
-    topics = contents(tmp_path / "run.mcap").topics
+def test_every_find_is_in_the_log_at_its_time(mcap: Path, every: int) -> None:
+    simulation = changed(mcap, every)
+    topics = contents(mcap).topics
     finds = [each.content for each in topics["/log"] if each.content.name != "scenario"]
     found_s = simulation.items["found_s"].to_pylist()
     there = {f"item/{place}" for place, at_s in enumerate(found_s) if at_s is not None}
@@ -140,11 +140,11 @@ def test_every_find_is_in_the_log_at_its_time(tmp_path: Path, every: int) -> Non
     assert topics["/run"][-1].content["found"] == len(there) > 1
 
 
-def test_finds_in_the_log_have_their_seconds(tmp_path: Path) -> None:
+def test_finds_in_the_log_have_their_seconds(mcap: Path) -> None:
     simulation = ClassicSimulation("classic", 0)
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.finish()
-    log = contents(tmp_path / "run.mcap").topics["/log"]
+    log = contents(mcap).topics["/log"]
     finds = {each.content.name: (each.content.message, each.time_ns) for each in log}
     found_s = simulation.items["found_s"].to_pylist()
     assert finds == {
@@ -154,27 +154,27 @@ def test_finds_in_the_log_have_their_seconds(tmp_path: Path) -> None:
     assert 0 in found_s  # one beside the start
 
 
-def test_times_ascend_also_if_paints_become_shorter(tmp_path: Path) -> None:
-    simulation = changed(tmp_path / "run.mcap")
-    runs = contents(tmp_path / "run.mcap").topics["/run"]
+def test_times_ascend_also_if_paints_become_shorter(mcap: Path) -> None:
+    simulation = changed(mcap)
+    runs = contents(mcap).topics["/run"]
     times_ns = [each.time_ns for each in runs]
     assert times_ns == sorted(times_ns)
     last = simulation.tick
     assert times_ns[-1] == round(90 / 56 * SECOND_NS) + (last - 90) * SECOND_NS // 1000
 
 
-def test_changes_are_in_the_log_and_teams_follow_them(tmp_path: Path) -> None:
-    changed(tmp_path / "run.mcap")
-    topics = contents(tmp_path / "run.mcap").topics
+def test_changes_are_in_the_log_and_teams_follow_them(mcap: Path) -> None:
+    changed(mcap)
+    topics = contents(mcap).topics
     changes = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
     assert changes == [f"{name} = {value!r}" for _, name, value in CHANGES]
     teams = [len(each.content["robots"]) for each in topics["/team"]]
     assert teams == [4, 6, 9, 9, 9, 9, 9]
 
 
-def test_json_messages_conform_to_their_schemas(tmp_path: Path) -> None:
-    changed(tmp_path / "run.mcap")
-    topics, schemas, *_ = contents(tmp_path / "run.mcap")
+def test_json_messages_conform_to_their_schemas(mcap: Path) -> None:
+    changed(mcap)
+    topics, schemas, *_ = contents(mcap)
     declared = {
         topic: json.loads(schema.data)
         for topic, schema in schemas.items()
@@ -186,41 +186,39 @@ def test_json_messages_conform_to_their_schemas(tmp_path: Path) -> None:
             jsonschema.validate(message.content, schema)
 
 
-def test_a_finished_run_does_not_advance_until_a_change(tmp_path: Path) -> None:
+def test_a_finished_run_does_not_advance_until_a_change(mcap: Path) -> None:
     simulation = ClassicSimulation(Scenario.load("classic").replace("clock.time_limit_s", 1), 1)
-    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+    with ae.Recording(simulation, mcap) as recording:
         recording.step(10**12)
         assert simulation.tick == 56
         simulation.change("clock.time_limit_s", 2)
         recording.finish()
-    ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
+    ticks = [each.content["tick"] for each in contents(mcap).topics["/run"]]
     assert ticks == [*range(57), *range(56, 113)]
-    assert ae.replay(tmp_path / "run.mcap").agrees
+    assert ae.replay(mcap).agrees
 
 
-def test_robots_of_the_classic_engine_have_no_percepts_and_commands(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
+def test_robots_of_the_classic_engine_have_no_percepts_and_commands(mcap: Path) -> None:
     with pytest.raises(InputError, match=r"percepts = .*: must be none: robots of the classic"):
-        ae.Recording(ClassicSimulation("classic"), path, percepts=["wanderer/0"])
-    assert not path.exists()
-    with ae.Recording(ClassicSimulation("classic"), path) as recording:
+        ae.Recording(ClassicSimulation("classic"), mcap, percepts=["wanderer/0"])
+    assert not mcap.exists()
+    with ae.Recording(ClassicSimulation("classic"), mcap) as recording:
         for name in ("percepts", "commands"):
             given: dict[str, Any] = {name: {}}
             with pytest.raises(InputError, match=f"{name} = .*: must be none: robots of the cla"):
                 recording.step(**given)
         recording.step(3)
-    assert ae.replay(path).tick == 3
+    assert ae.replay(mcap).tick == 3
 
 
-def test_a_different_run_mismatches_at_its_end(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
+def test_a_different_run_mismatches_at_its_end(mcap: Path) -> None:
     short, long = (ClassicSimulation(capped(time_limit_s), 1) for time_limit_s in (1, 5))
-    with ae.Recording(short, path) as recording:
+    with ae.Recording(short, mcap) as recording:
         recording.step(20)
         long.step(20)
         short.restore(long.snapshot())
         recording.step(80)
-    again = ae.replay(path)
+    again = ae.replay(mcap)
     assert (again.mismatch_tick, again.tick) == (57, 56)
 
 
@@ -236,23 +234,21 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
-def test_a_killed_process_leaves_a_readable_recording(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    assert run_python(KILLED, path).returncode != 0
-    again = ae.replay(path)
+def test_a_killed_process_leaves_a_readable_recording(mcap: Path) -> None:
+    assert run_python(KILLED, mcap).returncode != 0
+    again = ae.replay(mcap)
     assert (again.agrees, again.is_complete) == (True, False)
     assert 600 - 5 * 56 < again.tick <= 600
 
 
-def test_the_command_line_records_and_replays(tmp_path: Path) -> None:
-    path = str(tmp_path / "run.mcap")
-    given = run("run", "classic", "--seed", "7", "--record", path, "--every", "5", "--json")
+def test_the_command_line_records_and_replays(mcap: Path) -> None:
+    given = run("run", "classic", "--seed", "7", "--record", mcap, "--every", "5", "--json")
     assert (given.returncode, given.stderr) == (0, "")
     outcome = ae.run("classic", 7)
     assert json.loads(given.stdout)["paints"] == outcome.row["paints"]
-    again = run("replay", path)
+    again = run("replay", mcap)
     assert (again.returncode, again.stderr) == (0, "")
     steps = f"{outcome.row['paints']:,}"
     assert again.stdout.startswith(f"classic, seed 7, run 0: reproduced up to step {steps}")
-    errors = refuse("run", "classic", "--record", path, "--percepts", "wanderer/0")
+    errors = refuse("run", "classic", "--record", mcap, "--percepts", "wanderer/0")
     assert "robots of the classic engine have no percepts or commands" in errors

@@ -169,9 +169,8 @@ def test_a_file_without_one_of_its_parts_is_rejected(recorded: Path, tmp_path: P
             assert bool(errors(path)) is (each.name != "agent_economy.end")
 
 
-def test_inputs_of_the_classic_engine_are_rejected(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    file = File(path)
+def test_inputs_of_the_classic_engine_are_rejected(mcap: Path) -> None:
+    file = File(mcap)
     file.attach("scenario/classic.toml", "", (SCENARIOS / "classic.toml").read_bytes())
     run = {"format": "1", "program": "0", "scenario": "classic.toml"}
     file.note("agent_economy.run", {**run, "overrides": "[]", "seed": "0", "run": "0"})
@@ -179,11 +178,11 @@ def test_inputs_of_the_classic_engine_are_rejected(tmp_path: Path) -> None:
     file.write_json("/input", {"tick": 0, "percepts": {}, "commands": {"wanderer/0": {}}}, 0)
     file.close()
     with pytest.raises(InputError, match=r"run\.mcap: is damaged: it has percepts or commands for"):
-        ae.replay(path)
+        ae.replay(mcap)
 
 
-def test_a_truncated_file_is_compared_up_to_its_end(tmp_path: Path) -> None:
-    whole = short(tmp_path / "run.mcap").read_bytes()
+def test_a_truncated_file_is_compared_up_to_its_end(tmp_path: Path, mcap: Path) -> None:
+    whole = short(mcap).read_bytes()
     (cut := tmp_path / "cut.mcap").touch()
     ticks = []
     for length in np.linspace(len(whole) - 1, 0, 24, dtype=int).tolist():
@@ -199,12 +198,11 @@ def test_a_truncated_file_is_compared_up_to_its_end(tmp_path: Path) -> None:
     assert ticks[0] == 100
 
 
-def test_a_file_truncated_within_its_index_is_not_damaged(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    with ae.Recording(ae.Simulation(search(SHORT), 1), path) as recording:
+def test_a_file_truncated_within_its_index_is_not_damaged(mcap: Path) -> None:
+    with ae.Recording(ae.Simulation(search(SHORT), 1), mcap) as recording:
         recording.step(60)
-    whole = path.read_bytes()
-    with path.open("rb") as stream:
+    whole = mcap.read_bytes()
+    with mcap.open("rb") as stream:
         summary = make_reader(stream).get_summary()
     assert summary is not None
     chunks = summary.chunk_indexes
@@ -212,8 +210,8 @@ def test_a_file_truncated_within_its_index_is_not_damaged(tmp_path: Path) -> Non
     end = len(whole) - 1
     inside = [each.chunk_start_offset + each.chunk_length + 20 for each in chunks]
     for length in (*inside, *range(end - 400, end, 7)):
-        path.write_bytes(whole[:length])
-        again = ae.replay(path)
+        mcap.write_bytes(whole[:length])
+        again = ae.replay(mcap)
         assert (again.agrees, again.is_complete) == (True, False)
 
 
@@ -239,9 +237,8 @@ def test_other_files_are_rejected(tmp_path: Path, content: bytes) -> None:
         ae.replay(tmp_path / "other")
 
 
-def test_a_replay_reads_no_other_files(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    file = File(path)
+def test_a_replay_reads_no_other_files(mcap: Path) -> None:
+    file = File(mcap)
     text = (SCENARIOS / "open-field.toml").read_bytes()
     file.attach("scenario/open-field.toml", "application/toml", text)
     run = {"format": "1", "program": "0", "scenario": "open-field.toml"}
@@ -250,4 +247,4 @@ def test_a_replay_reads_no_other_files(tmp_path: Path) -> None:
     with pytest.raises(
         InputError, match=r"lacks files that the scenario refers to: open-field\.yaml"
     ):
-        ae.replay(path)
+        ae.replay(mcap)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,7 @@ class Folder:
     def __init__(self, client: TestClient, path: Path) -> None:
         """Keep the client and the folder."""
         self.client, self.path = client, path
+        self.progress: list[Response] = []
 
     def post(self, address: str, **body: Any) -> Response:
         """Post a request, and return the response."""
@@ -78,55 +80,51 @@ class Folder:
         return received
 
 
-def served(path: Path) -> TestClient:
-    return TestClient(app(Workspace(path), "127.0.0.1"), OWN)
+@contextmanager
+def served(path: Path) -> Iterator[Folder]:
+    with TestClient(app(Workspace(path), "127.0.0.1"), OWN) as client:
+        yield Folder(client, path)
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Iterator[Folder]:
-    with served(tmp_path) as client:
-        yield Folder(client, tmp_path)
+    with served(tmp_path) as folder:
+        yield folder
 
 
 @pytest.fixture(scope="module")
-def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Folder, list[Response]]]:
+def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Folder]:
     """Return a folder with a completed study, and the progress that was received."""
-    path = tmp_path_factory.mktemp("answered")
-    with served(path) as client:
-        folder = Folder(client, path)
+    with served(tmp_path_factory.mktemp("answered")) as folder:
         name = folder.post("/api/studies", **QUICK)["id"]
         assert name == "studies/classic"
-        yield folder, folder.watched(name)
-
-
-Answered = tuple[Folder, list[Response]]
+        folder.progress = folder.watched(name)
+        yield folder
 
 
 def test_the_page_and_the_command_line_give_the_same_answer(
-    answered: Answered, tmp_path: Path
+    answered: Folder, tmp_path: Path
 ) -> None:
-    folder, _ = answered
     theirs = study.run(Scenario.load("classic"), vary={TEAM: "1..5"}, delta=0.3, out=tmp_path)
-    shown = folder.get("/api/study", id="studies/classic")
+    shown = answered.get("/api/study", id="studies/classic")
     assert shown["state"] == "answered"
     assert shown["sentence"] == shown["answer"]["sentence"] == theirs.sentence
     words = "factorial: 5 configurations; delta 0.3, confidence 0.95, indifference"
     assert shown["words"] == shown["planned"]["words"] == words
     assert shown["source"] == {"scenario": "classic"}
-    mine = (folder.path / "studies" / "classic" / "answer.json").read_bytes()
+    mine = (answered.path / "studies" / "classic" / "answer.json").read_bytes()
     assert mine == (tmp_path / "answer.json").read_bytes()
-    assert [row["state"] for row in folder.get("/api/studies")["studies"]] == ["answered"]
+    assert [row["state"] for row in answered.get("/api/studies")["studies"]] == ["answered"]
 
 
-def test_progress_is_monotonic_and_ends_with_the_answer(answered: Answered) -> None:
-    folder, progress = answered
+def test_progress_is_monotonic_and_ends_with_the_answer(answered: Folder) -> None:
     for name in ("rounds", "runs", "computed", "seconds"):
-        values = [each[name] for each in progress]
+        values = [each[name] for each in answered.progress]
         assert values == sorted(values), name
-    assert progress[0]["labels"][2] == "3 wanderers"
-    assert all(each["labels"] is None for each in progress[1:])
-    assert {each["state"] for each in progress[:-1]} <= {"running"}
-    last, shown = progress[-1], folder.get("/api/study", id="studies/classic")
+    assert answered.progress[0]["labels"][2] == "3 wanderers"
+    assert all(each["labels"] is None for each in answered.progress[1:])
+    assert {each["state"] for each in answered.progress[:-1]} <= {"running"}
+    last, shown = answered.progress[-1], answered.get("/api/study", id="studies/classic")
     assert last["state"] == "answered"
     assert last["runs"] == shown["runs"]
     outs = {row["configuration"] for row in shown["answer"]["results"] if row["eliminated"]}
@@ -135,16 +133,14 @@ def test_progress_is_monotonic_and_ends_with_the_answer(answered: Answered) -> N
     assert last["standings"][0] == [best["configuration"], best["runs"], *best["merit"]]
 
 
-def test_a_page_that_connects_late_gets_the_current_progress(answered: Answered) -> None:
-    folder, progress = answered
-    (late,) = folder.watched("studies/classic")
-    assert late == {**progress[-1], "labels": progress[0]["labels"]}
+def test_a_page_that_connects_late_gets_the_current_progress(answered: Folder) -> None:
+    (late,) = answered.watched("studies/classic")
+    assert late == {**answered.progress[-1], "labels": answered.progress[0]["labels"]}
 
 
-def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Answered) -> None:
-    folder, _ = answered
-    found, evidence = study.load_answer(folder.path / "studies" / "classic")
-    shown = folder.get("/api/study", id="studies/classic")["answer"]
+def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Folder) -> None:
+    found, evidence = study.load_answer(answered.path / "studies" / "classic")
+    shown = answered.get("/api/study", id="studies/classic")["answer"]
     sections = list(report.sections(View(found, evidence)))
     assert [each["title"] for each in shown["sections"]] == [each.heading for each in sections]
     assert shown["charts"] == json.loads(json.dumps(report.specifications(found, evidence)))
@@ -159,19 +155,18 @@ def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Answ
     assert shown["sections"][0]["tables"][0]["configurations"] == [0, 1, 2, 3, 4]
 
 
-def test_runs_are_listed_with_the_merit_that_the_study_computed(answered: Answered) -> None:
-    folder, _ = answered
+def test_runs_are_listed_with_the_merit_that_the_study_computed(answered: Folder) -> None:
     query = {"id": "studies/classic", "configuration": 2}
-    response = folder.get("/api/study/runs", **query, first=3, count=4)
+    response = answered.get("/api/study/runs", **query, first=3, count=4)
     assert [run["run"] for run in response["runs"]] == ["3", "4", "5", "6"]
     assert response["label"] == "3 wanderers"
-    shown = folder.get("/api/study", id="studies/classic")
-    everything = folder.get("/api/study/runs", **query, count=1000)["runs"]
+    shown = answered.get("/api/study", id="studies/classic")
+    everything = answered.get("/api/study/runs", **query, count=1000)["runs"]
     result = shown["answer"]["results"][2]
     assert len(everything) == response["total"] == result["runs"]
     merits = [run["merit"] for run in everything]
     assert sum(merits) / len(merits) == pytest.approx(result["merit"][0])
-    sample = folder.get("/api/study/runs", **query, sample=5)["runs"]
+    sample = answered.get("/api/study/runs", **query, sample=5)["runs"]
     assert [run["quantile"] for run in sample] == [0, 0.25, 0.5, 0.75, 1]
     assert [run["merit"] for run in sample] == sorted(run["merit"] for run in sample)
     assert sample[0]["merit"] == min(merits)
@@ -188,37 +183,34 @@ def test_runs_are_listed_with_the_merit_that_the_study_computed(answered: Answer
     ],
 )
 def test_requests_for_missing_runs_are_refused(
-    answered: Answered, query: Response, response: str
+    answered: Folder, query: Response, response: str
 ) -> None:
-    folder, _ = answered
     query = {"id": "studies/classic", **query}
-    refused = folder.client.get("/api/study/runs", params=query)
+    refused = answered.client.get("/api/study/runs", params=query)
     assert refused.status_code == 422
     assert response in refused.json()["errors"][0]["message"]
 
 
-def test_the_report_and_the_answer_can_be_downloaded(answered: Answered) -> None:
-    folder, _ = answered
+def test_the_report_and_the_answer_can_be_downloaded(answered: Folder) -> None:
     for address, name in (("report", "report.html"), ("answer", "answer.json")):
-        response = folder.client.get(f"/api/study/{address}", params={"id": "studies/classic"})
-        assert response.content == (folder.path / "studies" / "classic" / name).read_bytes()
+        response = answered.client.get(f"/api/study/{address}", params={"id": "studies/classic"})
+        assert response.content == (answered.path / "studies" / "classic" / name).read_bytes()
         assert "attachment" in response.headers["content-disposition"]
 
 
 def test_raising_the_confidence_gives_the_answer_of_a_new_study_at_that_confidence(
-    answered: Answered, tmp_path: Path
+    answered: Folder, tmp_path: Path
 ) -> None:
-    folder, _ = answered
-    shutil.copytree(folder.path / "studies", folder.path / "more")
+    shutil.copytree(answered.path / "studies", answered.path / "more")
     for confidence in ("high", 0.5):
-        refused = folder.refused("/api/studies/resume", id="more/classic", confidence=confidence)
+        refused = answered.refused("/api/studies/resume", id="more/classic", confidence=confidence)
         assert refused[0]["message"].startswith("confidence")
-    begun = folder.post("/api/studies/resume", id="more/classic", confidence=0.99)
+    begun = answered.post("/api/studies/resume", id="more/classic", confidence=0.99)
     assert begun["confidence"] == 0.99
-    assert folder.watched("more/classic")[-1]["state"] == "answered"
+    assert answered.watched("more/classic")[-1]["state"] == "answered"
     scenario = Scenario.load("classic")
     study.run(scenario, vary={TEAM: "1..5"}, delta=0.3, confidence=0.99, out=tmp_path)
-    mine = (folder.path / "more" / "classic" / "answer.json").read_bytes()
+    mine = (answered.path / "more" / "classic" / "answer.json").read_bytes()
     assert mine == (tmp_path / "answer.json").read_bytes()
 
 
@@ -338,8 +330,7 @@ def test_a_run_opened_from_a_study_is_the_run_of_the_study(folder: Folder) -> No
 
 
 def test_at_most_two_studies_run_at_a_time_and_all_end_with_the_server(tmp_path: Path) -> None:
-    with served(tmp_path) as client:
-        folder = Folder(client, tmp_path)
+    with served(tmp_path) as folder:
         names = [folder.post("/api/studies", **LONG, seed=seed)["id"] for seed in ("1", "2")]
         (error,) = folder.refused("/api/studies", **LONG, seed="3")
         assert all(name in error["message"] for name in names)
@@ -381,12 +372,11 @@ def wait_until(holds: Any, max_s: float = 30) -> None:
 
 
 def test_a_study_of_another_process_is_listed_as_running_and_cannot_be_stopped(
-    answered: Answered, tmp_path: Path
+    answered: Folder, tmp_path: Path
 ) -> None:
-    shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
+    shutil.copytree(answered.path / "studies", tmp_path / "studies")
     plan = study.load_plan(tmp_path / "studies" / "classic")
-    with served(tmp_path) as client:
-        folder = Folder(client, tmp_path)
+    with served(tmp_path) as folder:
 
         def look(_: study.Progress) -> None:
             (row,) = folder.get("/api/studies")["studies"]
@@ -401,10 +391,10 @@ def test_a_study_of_another_process_is_listed_as_running_and_cannot_be_stopped(
 
 
 def test_listing_studies_checks_no_scenario_and_computes_nothing(
-    answered: Answered, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    answered: Folder, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for number in range(3):
-        shutil.copytree(answered[0].path / "studies" / "classic", tmp_path / f"deep/{number}")
+        shutil.copytree(answered.path / "studies" / "classic", tmp_path / f"deep/{number}")
 
     os.utime(tmp_path / "deep" / "1" / "answer.json")
 
@@ -413,8 +403,8 @@ def test_listing_studies_checks_no_scenario_and_computes_nothing(
 
     monkeypatch.setattr(study, "load_plan", never)
     monkeypatch.setattr(Scenario, "of", never)
-    with served(tmp_path) as client:
-        rows = Folder(client, tmp_path).get("/api/studies")["studies"]
+    with served(tmp_path) as folder:
+        rows = folder.get("/api/studies")["studies"]
     assert [row["id"] for row in rows] == ["deep/1", "deep/0", "deep/2"]
     assert all(row["configurations"] == 5 and row["runs"] > 0 for row in rows)
 
@@ -460,12 +450,11 @@ def test_a_linked_folder_of_studies_is_not_written_to(folder: Folder) -> None:
     ],
 )
 def test_a_damaged_study_is_listed_with_its_error(
-    answered: Answered, tmp_path: Path, file: str, text: str
+    answered: Folder, tmp_path: Path, file: str, text: str
 ) -> None:
-    shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
+    shutil.copytree(answered.path / "studies", tmp_path / "studies")
     (tmp_path / "studies" / "classic" / file).write_text(text)
-    with served(tmp_path) as client:
-        folder = Folder(client, tmp_path)
+    with served(tmp_path) as folder:
         (row,) = folder.get("/api/studies")["studies"]
         assert row["state"] == "damaged"
         assert file in row["message"]
@@ -532,13 +521,12 @@ def test_pages_of_other_sites_cannot_request_studies(folder: Folder) -> None:
     assert not (folder.path / "studies").exists()
 
 
-def test_a_plan_contains_its_configurations_its_folder_and_its_state(answered: Answered) -> None:
-    folder, _ = answered
-    response = folder.post("/api/plan", **QUICK)
+def test_a_plan_contains_its_configurations_its_folder_and_its_state(answered: Folder) -> None:
+    response = answered.post("/api/plan", **QUICK)
     assert response["id"] == "studies/classic"
     assert response["state"] == "answered"
     assert response["labels"] == [f"{n} wanderer{'s' * (n > 1)}" for n in range(1, 6)]
-    other = folder.post("/api/plan", **{**QUICK, "vary": {"contact": "touch,ahead"}})
+    other = answered.post("/api/plan", **{**QUICK, "vary": {"contact": "touch,ahead"}})
     assert other["factors"] == [
         {"path": "contact", "values": ["touch", "ahead"], "range": None},
     ]

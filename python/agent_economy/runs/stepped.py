@@ -1,14 +1,16 @@
 """The common base of interactive runs of both engines: they step and take changes."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from threading import RLock
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from agent_economy.runs.outcome import Columns, Outcome, Status, outcome_of
+from agent_economy.runs.outcome import Outcome, Status, outcome_of
 from agent_economy.scenario import Scenario, TomlValue, validation
 from agent_economy.types.brain import BeliefState
+
+if TYPE_CHECKING:
+    from agent_economy import _core
 
 
 class Change(NamedTuple):
@@ -40,26 +42,6 @@ class Snapshot:
     _state: Any = field(repr=False)
 
 
-class CompiledRun(Protocol):
-    """The compiled part of a run, of either engine; its properties are those of `Stepped`."""
-
-    @property
-    def columns(self) -> Columns: ...  # noqa: D102
-    @property
-    def tick(self) -> int: ...  # noqa: D102
-    @property
-    def step_s(self) -> float: ...  # noqa: D102
-    @property
-    def time_s(self) -> float: ...  # noqa: D102
-    @property
-    def is_over(self) -> bool: ...  # noqa: D102
-    @property
-    def hash(self) -> int: ...  # noqa: D102
-    def outcome(self) -> Mapping[str, float] | None: ...  # noqa: D102
-    def snapshot(self) -> Any: ...  # noqa: D102
-    def restore(self, snapshot: Any) -> None: ...  # noqa: D102
-
-
 class Stepped(ABC):
     """An interactive run: the base of `Simulation` and `ClassicSimulation`.
 
@@ -74,7 +56,7 @@ class Stepped(ABC):
     scenario: Scenario
     seed: int
     run: int
-    _run: CompiledRun
+    _run: "_core.CompiledRun"
     _state_type: ClassVar[type]
 
     def __init__(self, scenario: Scenario, seed: int, run: int) -> None:
