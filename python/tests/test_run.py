@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 from alarm import ringing
@@ -105,13 +106,8 @@ def test_other_types_than_scenarios_are_named() -> None:
         ae.run("serach")
 
 
-def test_a_signal_stops_a_long_run() -> None:
-    endless = search(ENDLESS)
-    with ringing(0.5):
-        ae.run(endless)
-
-
-def test_a_signal_stops_a_huge_run() -> None:
-    endless = search(HUGE | ENDLESS)
+@pytest.mark.parametrize("changes", [ENDLESS, HUGE | ENDLESS], ids=["long", "huge"])
+def test_a_signal_stops_a_run(changes: dict[str, Any]) -> None:
+    endless = search(changes)
     with ringing(0.5):
         ae.run(endless)

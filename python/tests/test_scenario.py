@@ -10,6 +10,8 @@ import tomli_w
 from agent_economy import InputError, Scenario
 from agent_economy.scenario import Override
 
+TEAM = ("study", "vary", "robots.wanderer.count")
+
 
 def test_the_bundled_scenario_is_the_2003_experiment(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
@@ -171,25 +173,20 @@ def test_a_value_that_contains_itself_is_an_error(classic_toml: Path) -> None:
 def test_values_are_ranges_and_lists(
     classic_toml: Path, values: str, sizes: tuple[int, ...]
 ) -> None:
-    path = ("study", "vary", "robots.wanderer.count")
-    scenario = Scenario.load(classic_toml, (Override(path, values, "--vary"),))
+    scenario = Scenario.load(classic_toml, (Override(TEAM, values, "--vary"),))
     assert scenario.factors[0].values == sizes
 
 
 @pytest.mark.parametrize("values", ["", "3..1", "1...3", "1,,2", "a b"])
 def test_an_invalid_list_of_values_is_an_error(classic_toml: Path, values: str) -> None:
-    path = ("study", "vary", "robots.wanderer.count")
     with pytest.raises(InputError, match="--vary: .*must be a string of values"):
-        Scenario.load(classic_toml, (Override(path, values, "--vary"),))
+        Scenario.load(classic_toml, (Override(TEAM, values, "--vary"),))
 
 
 @pytest.mark.parametrize("values", ["0..3", "1..251", "x", "-1", "1.0..3.0"])
 def test_values_that_a_factor_cannot_have_are_named(classic_toml: Path, values: str) -> None:
-    path = ("study", "vary", "robots.wanderer.count")
-    changes = (
-        Override(path, values, "--vary"),
-        Override(("study", "design"), "lhs:9", "--design"),
-    )
+    design = Override(("study", "design"), "lhs:9", "--design")
+    changes = (Override(TEAM, values, "--vary"), design)
     message = r"^--vary: robots.wanderer.count = \S+: must be a whole number from 1 to 250"
     with pytest.raises(InputError, match=message):
         Scenario.load(classic_toml, changes)
