@@ -16,9 +16,7 @@ const cache = new WeakMap<BelievedMap, Rasters>();
 /** The selected robot's map over the true world: unknown cells are hatched, occupied ones filled, free ones clear. */
 export const beliefMap: Layer = {
   id: "belief-map",
-  label: "Believed map",
-  switchable: true,
-  on: true,
+  switch: { label: "Believed map", on: true },
   place: "over",
   only: "metric",
   active: ({ map, selected }) => map !== null && selected >= 0,
@@ -33,9 +31,7 @@ export const beliefMap: Layer = {
 /** Where the selected robot may have missed an item. */
 export const unseen: Layer = {
   id: "unseen",
-  label: "Unsearched area",
-  switchable: true,
-  on: false,
+  switch: { label: "Unsearched area", on: false },
   place: "over",
   only: "metric",
   active: ({ map, selected }) => map !== null && selected >= 0,

@@ -8,9 +8,7 @@ const minDeviation_px = 8;
 /** Beliefs and goals of the selected robot, dashed because they may differ from the truth. */
 export const beliefs: Layer = {
   id: "beliefs",
-  label: "Beliefs and goals",
-  switchable: true,
-  on: true,
+  switch: { label: "Beliefs and goals", on: true },
   place: "over",
   only: "metric",
   active: (scene) => !!scene.inspection?.belief_state && scene.selected >= 0,

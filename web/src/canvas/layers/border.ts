@@ -4,9 +4,6 @@ import type { Layer, Pen, Scene } from "./layer";
 /** The ground of the world. */
 export const ground: Layer = {
   id: "ground",
-  label: "World",
-  switchable: false,
-  on: true,
   place: "still",
   active: () => true,
   draw(pen, scene) {
@@ -18,9 +15,6 @@ export const ground: Layer = {
 /** The border of the world; dashed if the world is periodic. */
 export const border: Layer = {
   id: "border",
-  label: "Border",
-  switchable: false,
-  on: true,
   place: "still",
   active: () => true,
   draw(pen, scene) {

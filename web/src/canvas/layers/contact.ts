@@ -3,9 +3,7 @@ import { inWorld, type Layer, outline } from "./layer";
 /** The areas in which robots find items. */
 export const contact: Layer = {
   id: "contact",
-  label: "Detection areas",
-  switchable: true,
-  on: true,
+  switch: { label: "Detection areas", on: true },
   place: "still",
   only: "classic",
   active: ({ setting }) => setting.items.some((item) => item.contact.length > 0),

@@ -5,9 +5,7 @@ import { imagesOf, type Layer, type Pen, poseIn, type Scene, withinWorld } from 
 /** Sensor coverage as reported by the engine: filled for item sensors, outlined for others. */
 export const footprints: Layer = {
   id: "footprints",
-  label: "Sensor coverage",
-  switchable: true,
-  on: true,
+  switch: { label: "Sensor coverage", on: true },
   place: "over",
   only: "metric",
   active: ({ frame }) => (frame?.overlay?.footprints.length ?? 0) > 0,

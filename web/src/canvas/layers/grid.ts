@@ -12,9 +12,7 @@ export function spacing(scale: number): number {
 
 export const grid: Layer = {
   id: "grid",
-  label: "Grid and scale",
-  switchable: true,
-  on: true,
+  switch: { label: "Grid and scale", on: true },
   place: "still",
   active: () => true,
   draw(pen, scene) {

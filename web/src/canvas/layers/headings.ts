@@ -6,9 +6,7 @@ import { type Layer, type Pen } from "./layer";
 /** The heading options of the selected robot, coloured by utility, with the chosen one marked. */
 export const headings: Layer = {
   id: "headings",
-  label: "Heading options",
-  switchable: true,
-  on: true,
+  switch: { label: "Heading options", on: true },
   place: "over",
   only: "metric",
   active: ({ inspection, selected }) => selected >= 0 && !!inspection?.belief_state?.heading_options,

@@ -8,9 +8,7 @@ const half_px = 6;
 /** Items: a hollow diamond until found, then a disc with a tick; a crossed diamond if missed; clutter is a plus. */
 export const items: Layer = {
   id: "items",
-  label: "Items",
-  switchable: true,
-  on: true,
+  switch: { label: "Items", on: true },
   place: "still",
   active: ({ setting }) => setting.items.length > 0,
   draw(pen, { setting, frame, preview }) {

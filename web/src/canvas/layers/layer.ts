@@ -35,10 +35,8 @@ export interface Pen {
  */
 export interface Layer {
   id: string;
-  label: string;
-  /** Whether users can switch it, and its initial state. */
-  switchable: boolean;
-  on: boolean;
+  /** The switch that users have for it, and its initial state; without one, the layer is always on. */
+  switch?: { label: string; on: boolean };
   place: "still" | "over";
   /** The only engine that has this layer; left out: both. */
   only?: Engine;

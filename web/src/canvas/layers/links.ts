@@ -4,9 +4,7 @@ import { imagesOf, type Layer, poseOf, type Scene, withinWorld } from "./layer";
 /** Radio links as reported by the engine: solid if two-way, dashed if one-way. */
 export const links: Layer = {
   id: "links",
-  label: "Radio links",
-  switchable: true,
-  on: false,
+  switch: { label: "Radio links", on: false },
   place: "over",
   only: "metric",
   active: ({ frame }) => (frame?.overlay?.links.length ?? 0) > 0,

@@ -7,9 +7,6 @@ const pictures = new WeakMap<MapView, { colours: Colours; picture: HTMLCanvasEle
 /** Occupancy grid maps of the scenario, cell by cell. */
 export const maps: Layer = {
   id: "maps",
-  label: "Maps",
-  switchable: false,
-  on: true,
   place: "still",
   active: ({ setting }) => setting.maps.length > 0,
   draw(pen, { setting }) {

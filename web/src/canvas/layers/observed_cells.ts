@@ -3,9 +3,7 @@ import { inWorld, type Layer, outline } from "./layer";
 /** The cells that the selected robot's next decision would observe. */
 export const observedCells: Layer = {
   id: "observed-cells",
-  label: "Observed cells",
-  switchable: true,
-  on: true,
+  switch: { label: "Observed cells", on: true },
   place: "over",
   only: "classic",
   active: ({ robot }) => (robot?.examined_cells.length ?? 0) > 0,

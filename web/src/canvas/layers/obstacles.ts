@@ -4,9 +4,6 @@ import { inWorld, type Layer, outline, ring } from "./layer";
 /** Polygons and circles; the layer `maps` draws maps. */
 export const obstacles: Layer = {
   id: "obstacles",
-  label: "Obstacles",
-  switchable: false,
-  on: true,
   place: "still",
   active: ({ world }) => world.obstacles.length > 0,
   draw(pen, { world }) {

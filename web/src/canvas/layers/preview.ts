@@ -3,9 +3,6 @@ import { inWorld, type Layer } from "./layer";
 /** The shape that the current tool would place. */
 export const preview: Layer = {
   id: "preview",
-  label: "Editing",
-  switchable: false,
-  on: true,
   place: "over",
   active: (scene) => scene.preview !== null,
   draw(pen, { preview: path }) {

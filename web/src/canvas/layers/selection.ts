@@ -6,9 +6,6 @@ import { type Layer, poseOf } from "./layer";
 /** Four corners around the selected robot, to be distinct from the mark of a robot in danger. */
 export const selection: Layer = {
   id: "selection",
-  label: "Selection",
-  switchable: false,
-  on: true,
   place: "over",
   active: ({ selected }) => selected >= 0,
   draw({ context, camera, colours }, scene) {

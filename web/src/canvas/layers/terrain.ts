@@ -4,9 +4,7 @@ import { inWorld, type Layer, outline } from "./layer";
 /** Terrain classes with their names. */
 export const terrain: Layer = {
   id: "terrain",
-  label: "Terrain",
-  switchable: true,
-  on: true,
+  switch: { label: "Terrain", on: true },
   place: "still",
   only: "metric",
   active: ({ world }) => world.terrain.length > 0,

@@ -5,9 +5,7 @@ const bands = 4;
 /** Robot positions of the last seconds, fading with age. */
 export const trails: Layer = {
   id: "trails",
-  label: "Trails",
-  switchable: true,
-  on: true,
+  switch: { label: "Trails", on: true },
   place: "over",
   active: ({ trails: kept }) => !kept.isEmpty,
   draw(pen, { trails: kept, world }) {

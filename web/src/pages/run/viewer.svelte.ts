@@ -13,7 +13,9 @@ export const speeds = [0.1, 0.5, 1, 2, 10, 100, null] as const;
 /** A run on the page, and how it is displayed. */
 export class Viewer implements Host {
   readonly session: Session;
-  layers = $state<Record<string, boolean>>(Object.fromEntries(layers.map((layer) => [layer.id, layer.on])));
+  layers = $state<Record<string, boolean>>(
+    Object.fromEntries(layers.map((layer) => [layer.id, layer.switch?.on ?? true])),
+  );
   tool = $state<ToolId>("select");
   /** The kind that the item tool places. */
   itemKind = $state("");
