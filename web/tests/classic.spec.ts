@@ -1,14 +1,17 @@
 import type { Page } from "@playwright/test";
-import { expect, expectAccessible, type RealServer, test } from "./page";
+import {
+  expect,
+  expectAccessiblePanels,
+  hash,
+  openRun,
+  openTab,
+  type RealServer,
+  status,
+  test,
+} from "./page";
 
-const status = (page: Page) => page.locator("#status");
-const hash = async (page: Page) =>
-  (await page.getByTitle("Hash of the run's state").getAttribute("title")) ?? "";
-
-async function open(page: Page, server: RealServer, query = ""): Promise<void> {
-  await page.goto(`${server.url}/#/run?scenario=classic&seed=7${query}`);
-  await expect(status(page)).toContainText("robots");
-}
+const open = (page: Page, server: RealServer, query = "") =>
+  openRun(page, server, `scenario=classic&seed=7${query}`);
 
 test("the experiment of 2003 opens from the gallery and runs until all items are found", async ({
   page,
@@ -42,7 +45,7 @@ test("team and contact change during a run, and the address gives the same run",
   context,
 }) => {
   await open(page, server, "&tick=30");
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openTab(page, "Parameters");
   const slider = page.getByRole("slider", { name: "Count of wanderer, slider" });
   await slider.focus();
   for (let i = 0; i < 3; i += 1) await page.keyboard.press("ArrowRight");
@@ -62,19 +65,16 @@ test("team and contact change during a run, and the address gives the same run",
 test("features that the classic engine lacks are not offered", async ({ page, server }) => {
   await open(page, server);
   await expect(page.getByRole("tab", { name: "Edit" })).toHaveCount(0);
-  await page.getByRole("tab", { name: "Layers" }).click();
+  await openTab(page, "Layers");
   await expect(page.getByRole("checkbox", { name: "Observed cells" })).toBeVisible();
   await expect(page.getByRole("checkbox", { name: "Radio links" })).toHaveCount(0);
   await expect(page.getByText("battery empty")).toHaveCount(0);
 });
 
-for (const tab of ["Results", "Robot", "Parameters", "Layers", "Changes"]) {
-  test(`the panel ${tab} of a classic run passes axe`, async ({ page, server }) => {
-    await open(page, server, "&tick=60&changes=[[0,%22contact%22,%22ahead%22]]&robot=wanderer/0");
-    await page.getByRole("tab", { name: tab }).click();
-    await expectAccessible(page);
-  });
-}
+test("the panels of a classic run pass axe", async ({ page, server }) => {
+  await open(page, server, "&tick=60&changes=[[0,%22contact%22,%22ahead%22]]&robot=wanderer/0");
+  await expectAccessiblePanels(page, ["Results", "Robot", "Parameters", "Layers", "Changes"]);
+});
 
 test("a run is saved, listed, and opened as the same run", async ({ page, server }) => {
   await open(page, server, `&tick=90&changes=[[30,"robots.wanderer.count",7],[60,"contact","ahead"]]`);
@@ -99,8 +99,8 @@ test("changes that do not fit into an address are saved, and the address names t
   server,
 }) => {
   const many = Array.from({ length: 400 }, (_, i) => [0, "robots.wanderer.count", 2 + (i % 7)]);
-  await page.goto(`${server.url}/#/run?scenario=classic&changes=${JSON.stringify(many)}`);
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openRun(page, server, `scenario=classic&changes=${JSON.stringify(many)}`);
+  await openTab(page, "Parameters");
   await page.getByRole("slider", { name: /^Count of/ }).fill("9");
   await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/classic-0-0-");
   await page.reload();

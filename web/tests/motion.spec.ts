@@ -1,5 +1,5 @@
 import type { Page } from "@playwright/test";
-import { expect, runAt, test } from "./page";
+import { expect, runAt, status, test } from "./page";
 
 /** Counts the pictures drawn of robots, and the frames and states received, while a run plays. */
 async function play(
@@ -22,7 +22,7 @@ async function play(
     socket.on("framereceived", ({ payload }) => (states += /"type": ?"state"/.test(String(payload)) ? 1 : 0));
   });
   await page.goto(url);
-  await expect(page.locator("#status")).toContainText("4 robots");
+  await expect(status(page)).toContainText("4 robots");
   // Slow, so that a busy machine too draws several pictures between two steps.
   await page.getByRole("combobox", { name: "Speed" }).selectOption({ index: 1 });
   await page.getByRole("application").focus();

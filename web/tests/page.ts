@@ -1,6 +1,6 @@
 import type { ServerMessage } from "../src/api/protocol";
 import AxeBuilder from "@axe-core/playwright";
-import { test as base, expect, type Page, type WebSocketRoute } from "@playwright/test";
+import { test as base, type Download, expect, type Page, type WebSocketRoute } from "@playwright/test";
 import { RealServer } from "../dev/real-server.mjs";
 
 async function withServer(use: (server: RealServer) => Promise<void>): Promise<void> {
@@ -44,6 +44,57 @@ export { expect, type RealServer };
 
 export function runAt({ url }: { url: string }, query: string): string {
   return `${url}/#/run?${query}`;
+}
+
+export const status = (page: Page) => page.locator("#status");
+export const hash = (page: Page) => page.getByTitle("Hash of the run's state").getAttribute("title");
+export const time_s = async (page: Page) => Number.parseFloat((await status(page).textContent()) ?? "");
+
+/** Opens a run, until its status contains a text. */
+export async function openRun(
+  page: Page,
+  server: { url: string },
+  query: string,
+  text: string | RegExp = "robots",
+): Promise<void> {
+  await page.goto(runAt(server, query));
+  await expect(status(page)).toContainText(text);
+}
+
+export const openTab = (page: Page, name: string) => page.getByRole("tab", { name }).click();
+
+/** Opens each panel of a run in turn, and expects no violation of axe's rules in it. */
+export async function expectAccessiblePanels(page: Page, names: string[]): Promise<void> {
+  for (const name of names) {
+    await openTab(page, name);
+    await expectAccessible(page);
+  }
+}
+
+/** Opens a file of the user's own in the gallery. */
+export async function openFile(
+  page: Page,
+  { url }: { url: string },
+  content: string | Buffer,
+): Promise<void> {
+  await page.goto(url);
+  const file = { name: "my.toml", mimeType: "application/toml", buffer: Buffer.from(content) };
+  await page.locator("input[type=file]").setInputFiles(file);
+}
+
+/** What a click downloads. */
+export async function downloaded(page: Page, click: () => Promise<void>): Promise<Download> {
+  const [download] = await Promise.all([page.waitForEvent("download"), click()]);
+  return download;
+}
+
+/** Makes the page as narrow as on a phone. */
+export const asOnPhone = (page: Page) => page.setViewportSize({ width: 360, height: 740 });
+
+/** Expects the page not to be wider than a phone. */
+export async function expectToFit(page: Page): Promise<void> {
+  const widths = () => [document.documentElement.scrollWidth, document.body.scrollWidth];
+  expect(await page.evaluate(widths)).toEqual([360, 360]);
 }
 
 /** Routes the page's connections to the server through the test; the returned function drops them. */

@@ -2,11 +2,25 @@ import { mkdir, readFile, rename, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
 import type { Refused, Saved } from "../src/api/protocol";
-import { altered, expect, expectAccessible, ownScenario, type RealServer, runAt, test } from "./page";
+import {
+  altered,
+  asOnPhone,
+  downloaded,
+  expect,
+  expectAccessible,
+  expectToFit,
+  hash,
+  openFile,
+  openRun,
+  openTab,
+  ownScenario,
+  type RealServer,
+  runAt,
+  status,
+  test,
+} from "./page";
 
 const scenario = "scenario=search-beliefs&seed=7&run=2";
-const status = (page: Page) => page.locator("#status");
-const hash = (page: Page) => page.getByTitle("Hash of the run's state").getAttribute("title");
 
 async function choose(page: Page, name: string): Promise<void> {
   await page.locator("summary", { hasText: "Export" }).click();
@@ -14,16 +28,15 @@ async function choose(page: Page, name: string): Promise<void> {
 }
 
 /** Saves a run, and renames its recording. */
-async function record(page: Page, { url, folder }: RealServer, name: string): Promise<void> {
+async function record(page: Page, server: RealServer, name: string): Promise<void> {
   const query = "scenario=search&seed=3&changes=[[20,%22robots.rover.count%22,6]]&tick=40";
-  await page.goto(runAt({ url }, query));
-  await expect(status(page)).toContainText("4.0 s, 6 robots");
+  await openRun(page, server, query, "4.0 s, 6 robots");
   await choose(page, "Save recording");
   const saved = await page
     .getByText(/^Saved as/)
     .locator("code")
     .textContent();
-  await rename(join(folder, saved ?? ""), join(folder, name));
+  await rename(join(server.folder, saved ?? ""), join(server.folder, name));
 }
 
 test("a run is saved, and its recording opens as that run, to the bit", async ({ page, server }) => {
@@ -33,8 +46,12 @@ test("a run is saved, and its recording opens as that run, to the bit", async ({
     if (message.type === "saved") await checked;
     return message;
   });
-  await page.goto(runAt(server, `${scenario}&changes=[[5,%22robots.rover.count%22,6]]&tick=20`));
-  await expect(status(page)).toContainText("2.0 s, 6 robots");
+  await openRun(
+    page,
+    server,
+    `${scenario}&changes=[[5,%22robots.rover.count%22,6]]&tick=20`,
+    "2.0 s, 6 robots",
+  );
   const there = await hash(page);
   await choose(page, "Save recording");
   await expect(page.getByRole("progressbar", { name: "Saving the run" })).toBeVisible();
@@ -93,17 +110,14 @@ test("recordings are listed, opened and downloaded", async ({ page, server }) =>
   await expect(page.getByRole("cell", { name: /Cannot be opened: it is not an MCAP file/ })).toBeVisible();
   await expect(page.getByRole("row", { name: /^listed.mcap search 3 0 40/ })).toBeVisible();
   await expectAccessible(page);
-  const [file] = await Promise.all([
-    page.waitForEvent("download"),
-    page.getByRole("link", { name: "Download listed.mcap" }).click(),
-  ]);
+  const file = await downloaded(page, () => page.getByRole("link", { name: "Download listed.mcap" }).click());
   expect(await readFile(await file.path())).toEqual(await readFile(join(server.folder, "listed.mcap")));
   await page.getByRole("link", { name: "listed.mcap", exact: true }).click();
   await expect(page.getByText("seed 3, run 0, recorded")).toBeVisible();
-  await page.setViewportSize({ width: 360, height: 740 });
+  await asOnPhone(page);
   await page.goto(`${server.url}/#/recordings`);
   await expect(page.getByRole("link", { name: "listed.mcap", exact: true })).toBeVisible();
-  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+  await expectToFit(page);
   await expectAccessible(page);
 });
 
@@ -115,8 +129,7 @@ test("changes that do not fit into an address are saved, and the address names t
   const corner = (i: number) => [12 + 8 * Math.cos(i / 100), 12 + 8 * Math.sin(i / 100)];
   const area = Array.from({ length: 600 }, (_, i) => corner(i).map((at) => Number(at.toFixed(6))));
   const changes = JSON.stringify([[1, "terrain.mud", { areas_m: [area] }]]);
-  await page.goto(runAt(server, `${scenario}&tick=3&changes=${changes}`));
-  await expect(status(page)).toContainText("0.3 s");
+  await openRun(page, server, `${scenario}&tick=3&changes=${changes}`, "0.3 s");
   await expect
     .poll(() => page.url(), { timeout: 15_000 })
     .toMatch(/recording=recordings\/search-beliefs-7-2-\w+\.mcap&tick=3/);
@@ -131,11 +144,7 @@ test("a large file of the user's own is saved, so that its address works elsewhe
   context,
 }) => {
   const noise = Array.from({ length: 9000 }, (_, i) => ((i * 2654435761) >>> 0).toString(36)).join("\n# ");
-  const buffer = Buffer.from(`${ownScenario}# ${noise}`);
-  await page.goto(server.url);
-  await page
-    .locator("input[type=file]")
-    .setInputFiles({ name: "my.toml", mimeType: "application/toml", buffer });
+  await openFile(page, server, `${ownScenario}# ${noise}`);
   await expect(status(page)).toContainText("4 robots");
   await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/");
   await page.getByRole("application").press(".");
@@ -150,9 +159,8 @@ test("a change in a recorded run makes a new run, whose address has all changes"
   server,
 }) => {
   await record(page, server, "changed.mcap");
-  await page.goto(runAt(server, "recording=changed.mcap&tick=30"));
-  await expect(status(page)).toContainText("3.0 s, 6 robots");
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openRun(page, server, "recording=changed.mcap&tick=30", "3.0 s, 6 robots");
+  await openTab(page, "Parameters");
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("2");
   await page.keyboard.press("Enter");
   await expect(status(page)).toContainText("2 robots");
@@ -172,15 +180,16 @@ test("a missing recording is reported", async ({ page, server }) => {
 });
 
 test("the scenario with its changes is saved as a file, and the file opens", async ({ page, server }) => {
-  await page.goto(runAt(server, `${scenario}&tick=20&changes=[[0,%22robots.rover.count%22,3]]`));
-  await expect(status(page)).toContainText("2.0 s, 3 robots");
-  const [saved] = await Promise.all([page.waitForEvent("download"), choose(page, "Scenario with changes")]);
+  await openRun(
+    page,
+    server,
+    `${scenario}&tick=20&changes=[[0,%22robots.rover.count%22,3]]`,
+    "2.0 s, 3 robots",
+  );
+  const saved = await downloaded(page, () => choose(page, "Scenario with changes"));
   expect(saved.suggestedFilename()).toBe("search-beliefs-20.toml");
   const buffer = await readFile(await saved.path());
   expect(buffer.toString()).toContain("# From search-beliefs, seed 7, run 2, at tick 20");
-  await page.goto(server.url);
-  await page
-    .locator("input[type=file]")
-    .setInputFiles({ name: "again.toml", mimeType: "application/toml", buffer });
+  await openFile(page, server, buffer);
   await expect(status(page)).toContainText("3 robots");
 });

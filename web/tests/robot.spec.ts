@@ -1,15 +1,24 @@
 import type { Page } from "@playwright/test";
-import { altered, expect, expectAccessible, type RealServer, runAt, test } from "./page";
+import {
+  altered,
+  asOnPhone,
+  expect,
+  expectAccessible,
+  expectToFit,
+  openRun,
+  type RealServer,
+  status,
+  test,
+} from "./page";
 
 const sections = ["Command", "Percept", "Goals", "Headings", "Items", "Map"];
 
 /** Opens a run and makes five steps: a selected robot has a percept from its next decision on. */
 async function open(page: Page, server: RealServer, scenario = "search-beliefs"): Promise<void> {
-  await page.goto(runAt(server, `scenario=${scenario}&seed=7&robot=rover/1&tick=90`));
-  await expect(page.locator("#status")).toContainText("9.0 s");
+  await openRun(page, server, `scenario=${scenario}&seed=7&robot=rover/1&tick=90`, "9.0 s");
   for (let i = 1; i <= 5; i += 1) {
     await page.keyboard.press(".");
-    await expect(page.locator("#status")).toContainText(`9.${i} s`);
+    await expect(status(page)).toContainText(`9.${i} s`);
   }
 }
 
@@ -67,10 +76,10 @@ test("a followed robot stays in the centre until the view is panned", async ({ p
   await page.keyboard.press("f");
   await expect(box).toBeChecked();
   await page.keyboard.press("Space");
-  await expect(page.locator("#status")).toContainText("running");
-  await expect(page.locator("#status")).not.toHaveText(/^9\.5 s/);
+  await expect(status(page)).toContainText("running");
+  await expect(status(page)).not.toHaveText(/^9\.5 s/);
   await page.keyboard.press("Space");
-  await expect(page.locator("#status")).toContainText("paused");
+  await expect(status(page)).toContainText("paused");
   const picture = page.getByRole("application");
   const frame = await picture.boundingBox();
   if (!frame) throw new Error("there is no picture");
@@ -102,10 +111,10 @@ test("the panel passes axe with all sections open, also on a phone", async ({ pa
     if ((await section.getAttribute("open")) === null) await section.locator("summary").click();
   }
   await expectAccessible(page);
-  await page.setViewportSize({ width: 360, height: 740 });
+  await asOnPhone(page);
   await page.getByRole("button", { name: "Panels", exact: true }).click();
   await expectAccessible(page);
-  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+  await expectToFit(page);
   const panel = page.getByRole("tabpanel");
   expect(await panel.evaluate((element) => element.scrollWidth - element.clientWidth)).toBe(0);
 });

@@ -1,39 +1,108 @@
-import { expect, expectAccessible, runAt, test } from "./page";
+import {
+  asOnPhone,
+  downloaded,
+  expect,
+  expectAccessible,
+  expectAccessiblePanels,
+  expectToFit,
+  hash,
+  openRun,
+  openTab,
+  runAt,
+  status,
+  test,
+  time_s,
+} from "./page";
 
 const scenario = "scenario=search-beliefs&seed=7&run=2";
 
-test("a run plays, pauses and steps, and the status follows", async ({ page, server }) => {
-  await page.goto(runAt(server, scenario));
-  const status = page.locator("#status");
-  await expect(status).toHaveText(/^0\.0 s, 4 robots: .*; 0 of 4 items found; paused\.$/);
+test("a run plays, pauses, steps, and returns to the same state, and the status follows", async ({
+  page,
+  server,
+}) => {
+  await openRun(page, server, scenario, /^0\.0 s, 4 robots: .*; 0 of 4 items found; paused\.$/);
   await page.keyboard.press("Space");
-  await expect(status).toContainText("running at 1 × real time");
+  await expect(status(page)).toContainText("running at 1 × real time");
+  await expect.poll(() => time_s(page)).toBeGreaterThan(1);
   await page.keyboard.press("Space");
-  await expect(status).toContainText("paused");
-  const words = (await status.textContent()) ?? "";
+  await expect(status(page)).toContainText("paused");
+  const [there, where] = [await hash(page), (await status(page).textContent()) ?? ""];
   await page.keyboard.press(".");
-  await expect(status).not.toHaveText(words);
+  await expect(status(page)).not.toHaveText(where);
+  await expect.poll(() => hash(page)).not.toBe(there);
+  const slider = page.getByRole("slider", { name: "Time" });
+  await slider.fill("3");
+  await expect(status(page)).toContainText("0.3 s");
+  await slider.fill((await slider.getAttribute("max")) ?? "");
   await page.keyboard.press(",");
-  await expect(status).toHaveText(words);
+  await expect(status(page)).toHaveText(where);
+  await expect.poll(() => hash(page)).toBe(there);
 });
 
-test("the address opens the same run at the same tick with the same changes and view", async ({
+test("an address opens the same run with the same changes and view in another tab, which is independent", async ({
   page,
   server,
   context,
 }) => {
-  await page.goto(runAt(server, scenario));
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openRun(page, server, scenario);
+  await page.keyboard.press("Space");
+  await expect.poll(() => time_s(page)).toBeGreaterThan(0.5);
+  await openTab(page, "Parameters");
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("9");
   await page.keyboard.press("Enter");
-  await expect(page.locator("#status")).toContainText("9 robots");
+  await expect(status(page)).toContainText("9 robots");
   await page.getByRole("application").focus();
-  for (const key of ["ArrowLeft", "+", ".", ".", "."]) await page.keyboard.press(key);
-  await expect.poll(() => page.url()).toContain("tick=3");
+  for (const key of ["ArrowLeft", "+", "Space"]) await page.keyboard.press(key);
+  await expect(status(page)).toContainText("paused");
+  const [there, where] = [await hash(page), (await status(page).textContent()) ?? ""];
+  await expect.poll(() => page.url()).toContain(`tick=${Math.round(10 * (await time_s(page)))}`);
   const other = await context.newPage();
   await other.goto(page.url());
-  await expect(other.locator("#status")).toContainText("0.3 s, 9 robots");
+  await expect(status(other)).toHaveText(where);
+  await expect.poll(() => hash(other)).toBe(there);
   await expect.poll(() => other.url()).toBe(page.url());
+  await other.keyboard.press(".");
+  await expect.poll(() => hash(other)).not.toBe(there);
+  expect(await hash(page)).toBe(there);
+});
+
+test("each parameter of the schema can be found and changed; an invalid value is refused; changes are undone", async ({
+  page,
+  server,
+}) => {
+  await openRun(page, server, `${scenario}&tick=10`);
+  await openTab(page, "Parameters");
+  await page.getByRole("searchbox").fill("camera range_m");
+  const box = page.getByRole("spinbutton", { name: "robots.rover.sensors.camera.range_m" });
+  const before = await box.inputValue();
+  await box.fill("5.123");
+  await box.press("Enter");
+  await expect.poll(() => page.url()).toContain("5.123");
+  await box.fill("-1");
+  await box.press("Enter");
+  await expect.poll(() => box.evaluate((input: HTMLInputElement) => input.validity.valid)).toBe(false);
+  await openTab(page, "Changes");
+  await expect(page.getByRole("cell", { name: "robots.rover.sensors.camera.range_m" })).toHaveCount(1);
+  await page.keyboard.press("Control+z");
+  await expect(page.getByText("No changes yet")).toBeVisible();
+  await openTab(page, "Parameters");
+  await page.getByRole("searchbox").fill("camera range_m");
+  await expect(box).toHaveValue(before);
+});
+
+test("dialogs open with a key and close with Escape, and a new run starts", async ({ page, server }) => {
+  await openRun(page, server, scenario, "0.0 s, 4 robots");
+  const first = await hash(page);
+  await page.keyboard.press("?");
+  await expect(page.getByRole("dialog", { name: "Keyboard shortcuts" })).toBeVisible();
+  await expectAccessible(page);
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "New run" }).click();
+  await expectAccessible(page);
+  await page.getByRole("textbox", { name: "Seed" }).fill("12345678901234567890");
+  await page.getByRole("button", { name: "Start" }).click();
+  await expect.poll(() => page.url()).toContain("seed=12345678901234567890&run=3");
+  await expect.poll(() => hash(page)).not.toBe(first);
 });
 
 test("the error of a refused change is displayed beside its switch, which stays unchanged", async ({
@@ -41,7 +110,7 @@ test("the error of a refused change is displayed beside its switch, which stays 
   server,
 }) => {
   await page.goto(runAt(server, scenario));
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openTab(page, "Parameters");
   const flock = page.getByRole("checkbox", { name: "Flock" });
   await flock.click();
   await expect(page.getByText('flock needs, for example, eye = { kind = "robots"').first()).toBeVisible();
@@ -52,31 +121,17 @@ test("the error of a refused change is displayed beside its switch, which stays 
   await expect(flock).toBeEnabled();
 });
 
-test("each parameter of the schema can be found and changed, and undone", async ({ page, server }) => {
-  await page.goto(runAt(server, scenario));
-  await page.getByRole("tab", { name: "Parameters" }).click();
-  await page.getByRole("searchbox").fill("camera range_m");
-  const box = page.getByRole("spinbutton", { name: "robots.rover.sensors.camera.range_m" });
-  await box.fill("5");
-  await box.press("Enter");
-  await page.getByRole("tab", { name: "Changes" }).click();
-  await expect(page.getByRole("cell", { name: "robots.rover.sensors.camera.range_m" })).toBeVisible();
-  await page.keyboard.press("Control+z");
-  await expect(page.getByText("No changes yet")).toBeVisible();
-});
-
 test("a robot is selected by address and by button, and its brain is displayed", async ({ page, server }) => {
   await page.goto(runAt(server, `${scenario}&robot=rover/1`));
   await expect(page.getByRole("combobox", { name: "Robot", exact: true })).toHaveValue("rover/1");
   await expect(page.getByRole("cell", { name: "bayesian_search" }).first()).toBeVisible();
   await page.getByRole("button", { name: "Next" }).click();
   await expect.poll(() => page.url()).toContain("robot=rover/2");
-  await expectAccessible(page);
 });
 
 test("obstacles are added on the canvas, and removed in the list", async ({ page, server }) => {
   await page.goto(runAt(server, scenario));
-  await page.getByRole("tab", { name: "Edit" }).click();
+  await openTab(page, "Edit");
   await page.getByRole("button", { name: "Add circle" }).click();
   await page.mouse.move(450, 330);
   await page.mouse.down();
@@ -84,7 +139,6 @@ test("obstacles are added on the canvas, and removed in the list", async ({ page
   await page.mouse.up();
   const added = page.getByRole("button", { name: /^Remove circle/ });
   await expect(added).toHaveCount(3);
-  await expectAccessible(page);
   await added.last().click();
   await expect(added).toHaveCount(2);
 });
@@ -100,21 +154,22 @@ test("a full server is reported, and the run can be reopened", async ({ page, se
   await expectAccessible(page);
 });
 
-for (const tab of ["Results", "Robot", "Parameters", "Layers", "Edit", "Changes"]) {
-  test(`the panel ${tab} passes axe`, async ({ page, server }) => {
-    await page.goto(runAt(server, `${scenario}&changes=[[0,%22robots.rover.count%22,6]]`));
-    await page.getByRole("tab", { name: tab }).click();
-    if (tab === "Parameters") await page.getByRole("searchbox").fill("rover");
-    if (tab === "Results") await page.getByRole("button", { name: "Table" }).click();
-    await expectAccessible(page);
-  });
-}
+test("the panels of a run pass axe", async ({ page, server }) => {
+  await openRun(page, server, `${scenario}&changes=[[0,%22robots.rover.count%22,6]]`);
+  await expectAccessiblePanels(page, ["Layers", "Edit", "Changes"]);
+  await openTab(page, "Parameters");
+  await page.getByRole("searchbox").fill("rover");
+  await expectAccessible(page);
+  await openTab(page, "Results");
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Table" }).click();
+  await expectAccessible(page);
+});
 
 test("the page is usable on a phone", async ({ page, server }) => {
-  await page.setViewportSize({ width: 360, height: 740 });
-  await page.goto(runAt(server, scenario));
-  await expect(page.locator("#status")).toContainText("4 robots");
-  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+  await asOnPhone(page);
+  await openRun(page, server, scenario);
+  await expectToFit(page);
   await page.getByRole("button", { name: "Panels", exact: true }).click();
   await expect(page.getByRole("tab", { name: "Results" })).toBeVisible();
   await expectAccessible(page);
@@ -122,31 +177,14 @@ test("the page is usable on a phone", async ({ page, server }) => {
   await expect(page.getByRole("tab", { name: "Results" })).toBeHidden();
 });
 
-test("dialogs open with a key and close with Escape", async ({ page, server }) => {
-  await page.goto(runAt(server, scenario));
-  await page.keyboard.press("?");
-  await expect(page.getByRole("dialog", { name: "Keyboard shortcuts" })).toBeVisible();
-  await expectAccessible(page);
-  await page.keyboard.press("Escape");
-  await page.getByRole("button", { name: "New run" }).click();
-  await expectAccessible(page);
-  await page.getByRole("textbox", { name: "Seed" }).fill("12");
-  await page.getByRole("button", { name: "Start" }).click();
-  await expect.poll(() => page.url()).toContain("seed=12&run=3");
-});
-
 test("the picture and the time series can be saved", async ({ page, server }) => {
-  await page.goto(runAt(server, `${scenario}&tick=20`));
-  await expect(page.locator("#status")).toContainText("2.0 s");
+  await openRun(page, server, `${scenario}&tick=20`, "2.0 s");
   for (const [name, file] of [
     ["Picture", "search-beliefs-20.png"],
     ["Time series", "search-beliefs-20.csv"],
   ] as const) {
     await page.locator("summary", { hasText: "Export" }).click();
-    const [saved] = await Promise.all([
-      page.waitForEvent("download"),
-      page.getByRole("button", { name }).click(),
-    ]);
+    const saved = await downloaded(page, () => page.getByRole("button", { name }).click());
     expect(saved.suggestedFilename()).toBe(file);
   }
 });
@@ -159,8 +197,7 @@ test("robots are drawn without WebGL2", async ({ page, server }) => {
       return kind === "webgl2" ? null : get.call(this, kind, options);
     };
   });
-  await page.goto(runAt(server, "scenario=flock"));
-  await expect(page.locator("#status")).toContainText("400 robots");
+  await openRun(page, server, "scenario=flock", "400 robots");
   const blue = await page
     .locator("canvas")
     .first()

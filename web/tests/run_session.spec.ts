@@ -1,33 +1,17 @@
 import type { Page } from "@playwright/test";
-import { expect, expectAccessible, type RealServer, test } from "./page";
+import { expect, expectAccessible, hash, openRun, openTab, status, test, time_s } from "./page";
 
-const status = (page: Page) => page.locator("#status");
-const hash = async (page: Page) =>
-  (await page.getByTitle("Hash of the run's state").getAttribute("title")) ?? "";
-const time_s = async (page: Page) => Number.parseFloat((await status(page).textContent()) ?? "");
-
-async function open(page: Page, server: RealServer, query: string): Promise<void> {
-  await page.goto(`${server.url}/#/run?${query}`);
-  await expect(status(page)).toContainText("robots");
+/** The address of a run that continues for long, as nothing is left to find. */
+function endless(seed: number, tick: number, changes: [number, string, number][] = []): string {
+  const all = [[0, "clock.time_limit_s", 100_000], [0, "items.mine.count", 0], ...changes];
+  const text = encodeURIComponent(JSON.stringify(all));
+  return `scenario=search-beliefs&seed=${seed}&changes=${text}&tick=${tick}`;
 }
 
-test("a scenario of the gallery becomes a run, and then another", async ({ page, server }) => {
-  await page.goto(server.url);
-  await page.getByRole("link", { name: /^search-beliefs/ }).click();
-  await expect(status(page)).toContainText("0.0 s, 4 robots");
-  const first = await hash(page);
-  await page.getByRole("button", { name: "New run" }).click();
-  await page.getByRole("textbox", { name: "Seed" }).fill("12345678901234567890");
-  await page.getByRole("button", { name: "Start" }).click();
-  await expect.poll(() => page.url()).toContain("seed=12345678901234567890&run=1");
-  await expect.poll(() => hash(page)).not.toBe(first);
-});
-
 test("the slider changes the team during a run", async ({ page, server }) => {
-  await open(page, server, "scenario=search&seed=3&tick=40");
-  await expect(status(page)).toContainText("4.0 s");
+  await openRun(page, server, "scenario=search&seed=3&tick=40", "4.0 s");
   await page.keyboard.press("Space");
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openTab(page, "Parameters");
   const slider = page.getByRole("slider", { name: /^Count of/ });
   const before = Number(await slider.inputValue());
   await slider.focus();
@@ -40,10 +24,9 @@ test("dragging a slider while the run is paused is one change, which one undo re
   page,
   server,
 }) => {
-  await open(page, server, "scenario=search&seed=3&tick=40");
-  await expect(status(page)).toContainText("4.0 s, 4 robots");
+  await openRun(page, server, "scenario=search&seed=3&tick=40", "4.0 s, 4 robots");
   const before = await hash(page);
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openTab(page, "Parameters");
   const slider = page.getByRole("slider", { name: /^Count of/ });
   const box = await slider.boundingBox();
   if (!box) throw new Error("there is no slider");
@@ -55,7 +38,7 @@ test("dragging a slider while the run is paused is one change, which one undo re
     await expect(status(page)).toContainText(`4.0 s, ${await slider.inputValue()} robots`);
   }
   await page.mouse.up();
-  await page.getByRole("tab", { name: "Changes" }).click();
+  await openTab(page, "Changes");
   await expect(page.getByRole("row")).toHaveCount(2);
   await page.getByRole("application").focus();
   await page.keyboard.press("Control+z");
@@ -64,14 +47,7 @@ test("dragging a slider while the run is paused is one change, which one undo re
 });
 
 test("a page that is reloaded while computing towards a tick reaches it", async ({ page, server }) => {
-  const changes = encodeURIComponent(
-    JSON.stringify([
-      [0, "clock.time_limit_s", 100_000],
-      [0, "items.mine.count", 0],
-      [0, "robots.rover.count", 50],
-    ]),
-  );
-  await open(page, server, `scenario=search-beliefs&seed=3&changes=${changes}&tick=3000`);
+  await openRun(page, server, endless(3, 3000, [[0, "robots.rover.count", 50]]));
   await expect.poll(() => time_s(page)).toBeGreaterThan(2);
   // The address has been updated: the page adds its view.
   await expect.poll(() => page.url()).toContain("view=");
@@ -80,104 +56,12 @@ test("a page that is reloaded while computing towards a tick reaches it", async 
   await expect(status(page)).toContainText("300.0 s", { timeout: 40_000 });
 });
 
-test("a run plays, pauses, steps, and returns to the same state", async ({ page, server }) => {
-  await open(page, server, "scenario=search-beliefs&seed=7");
-  await page.keyboard.press("Space");
-  await expect.poll(() => time_s(page)).toBeGreaterThan(1);
-  await page.keyboard.press("Space");
-  await expect(status(page)).toContainText("paused");
-  const [there, where] = [await hash(page), (await status(page).textContent()) ?? ""];
-  await page.keyboard.press(".");
-  await expect.poll(() => hash(page)).not.toBe(there);
-  const slider = page.getByRole("slider", { name: "Time" });
-  await slider.fill("3");
-  await expect(status(page)).toContainText("0.3 s");
-  await slider.fill((await slider.getAttribute("max")) ?? "");
-  await page.keyboard.press(",");
-  await expect(status(page)).toHaveText(where);
-  await expect.poll(() => hash(page)).toBe(there);
-});
-
-test("a parameter changes during a run, an invalid value is refused, and the change can be undone", async ({
-  page,
-  server,
-}) => {
-  await open(page, server, "scenario=search-beliefs&seed=7&tick=10");
-  await page.getByRole("tab", { name: "Parameters" }).click();
-  await page.getByRole("searchbox").fill("max_speed");
-  const box = page.getByRole("spinbutton", { name: /rover.*max_speed_m_s/ });
-  const before = await box.inputValue();
-  await box.fill("0.123");
-  await box.press("Enter");
-  await expect.poll(() => page.url()).toContain("0.123");
-  await box.fill("-1");
-  await box.press("Enter");
-  await expect.poll(() => box.evaluate((input: HTMLInputElement) => input.validity.valid)).toBe(false);
-  await page.getByRole("application").focus();
-  await page.keyboard.press("Control+z");
-  await expect(box).toHaveValue(before);
-});
-
-test("an address reproduces the run in another tab, which is independent", async ({
-  page,
-  server,
-  context,
-}) => {
-  await open(page, server, "scenario=search-beliefs&seed=7&run=2");
-  await page.keyboard.press("Space");
-  await expect.poll(() => time_s(page)).toBeGreaterThan(0.5);
-  await page.getByRole("tab", { name: "Parameters" }).click();
-  await page.getByRole("spinbutton", { name: "Count of rover" }).fill("9");
-  await page.keyboard.press("Enter");
-  await expect(status(page)).toContainText("9 robots");
-  await page.getByRole("application").focus();
-  await page.keyboard.press("Space");
-  await expect(status(page)).toContainText("paused");
-  const there = await hash(page);
-  const tick = Math.round(10 * (await time_s(page)));
-  await expect.poll(() => page.url()).toContain(`tick=${tick}`);
-  const other = await context.newPage();
-  await other.goto(page.url());
-  await expect.poll(() => hash(other)).toBe(there);
-  // The tabs are independent.
-  await other.keyboard.press(".");
-  await expect.poll(() => hash(other)).not.toBe(there);
-  expect(await hash(page)).toBe(there);
-});
-
-test("the errors of an invalid file are listed with lines, and a valid file opens", async ({
-  page,
-  server,
-}) => {
-  const file = (text: string) => ({
-    name: "my.toml",
-    mimeType: "application/toml",
-    buffer: Buffer.from(text),
-  });
-  await page.goto(server.url);
-  const input = page.locator("input[type=file]");
-  await input.setInputFiles(file('engine = "metric"\nsumary = "x"\n[clock]\nstep_s = -1\n'));
-  await expect(page.getByRole("heading", { name: /my.toml has \d errors/ })).toBeVisible();
-  await expect(page.getByRole("button", { name: "Line 2" })).toBeVisible();
-  await expect(page.getByRole("button", { name: "Line 4" })).toBeVisible();
-  await page.goto(server.url);
-  await input.setInputFiles(
-    file(
-      [
-        'engine = "metric"\nsummary = "Three rovers."\nmerit = "equation-5.2"\nclock = { time_limit_s = 60 }',
-        'world = { size_m = [20, 20] }\nitems.mine.count = 2\n[robots.rover]\nmodel = "ugv"\ncount = 3\n',
-      ].join("\n"),
-    ),
-  );
-  await expect(status(page)).toContainText("3 robots");
-});
-
 test("a killed server is reported at once, and the run is restored when it is back", async ({
   page,
   ownServer,
 }) => {
-  await open(page, ownServer, "scenario=search-beliefs&seed=7&tick=20");
-  await page.getByRole("tab", { name: "Parameters" }).click();
+  await openRun(page, ownServer, "scenario=search-beliefs&seed=7&tick=20");
+  await openTab(page, "Parameters");
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("6");
   await page.keyboard.press("Enter");
   await expect(status(page)).toContainText("2.0 s, 6 robots");
@@ -190,14 +74,7 @@ test("a killed server is reported at once, and the run is restored when it is ba
 });
 
 test("a run that was playing when its server was killed continues playing", async ({ page, ownServer }) => {
-  const changes = encodeURIComponent(
-    JSON.stringify([
-      [0, "clock.time_limit_s", 100_000],
-      [0, "items.mine.count", 0],
-    ]),
-  );
-  await open(page, ownServer, `scenario=search-beliefs&seed=7&changes=${changes}&tick=200`);
-  await expect(status(page)).toContainText("20.0 s");
+  await openRun(page, ownServer, endless(7, 200), "20.0 s");
   await page.keyboard.press("Space");
   await expect.poll(() => time_s(page)).toBeGreaterThan(21);
   const there = await time_s(page);

@@ -16,7 +16,7 @@ const request: StudyRequest = {
   seed: "2",
 };
 /** Is answered within seconds. */
-const short: StudyRequest = { ...request, vary: { "robots.rover.count": "1..5" }, delta: 0.1 };
+const short: StudyRequest = { ...request, vary: { "robots.rover.count": "1..5" }, delta: 0.3 };
 /** Runs until it is stopped. */
 const long: StudyRequest = {
   ...request,

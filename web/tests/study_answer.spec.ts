@@ -1,5 +1,8 @@
-import { expect, expectAccessible } from "./page";
+import type { Page } from "@playwright/test";
+import { downloaded, expect, expectAccessible, status, time_s } from "./page";
 import { openAnswer, sentence, test } from "./studies";
+
+const meritChart = (page: Page) => page.getByRole("img", { name: /^Figure of merit with its interval/ });
 
 test("an answer has its sentence, guarantee, charts with tables, and files", async ({
   page,
@@ -8,34 +11,22 @@ test("an answer has its sentence, guarantee, charts with tables, and files", asy
 }) => {
   await openAnswer(page, server, answered);
   await expect(page.getByText("selected one with 95% confidence")).toBeVisible();
-  await expect(
-    page.getByRole("img", { name: /^Figure of merit with its interval/ }).locator("svg"),
-  ).toBeVisible();
+  await expect(meritChart(page).locator("svg")).toBeVisible();
   await expect(page.getByRole("row", { name: /^4 rovers/ }).first()).toBeVisible();
   const prices = page.getByRole("region", { name: "Price, time and failures" });
   await prices.getByText("Table of values").click();
   await expect(prices.getByRole("columnheader", { name: "mean time, s" })).toBeVisible();
   await expectAccessible(page);
-  const [saved] = await Promise.all([
-    page.waitForEvent("download"),
-    page.getByRole("link", { name: "Report (HTML)" }).click(),
-  ]);
+  const saved = await downloaded(page, () => page.getByRole("link", { name: "Report (HTML)" }).click());
   expect(saved.suggestedFilename()).toMatch(/^search.*-report\.html$/);
 });
 
 test("charts follow the theme and the width of the window", async ({ page, server, answered }) => {
   await openAnswer(page, server, answered);
-  const chart = page.getByRole("img", { name: /^Figure of merit with its interval/ });
-  const width = () =>
-    chart
-      .locator("svg")
-      .first()
-      .evaluate((svg) => svg.getBoundingClientRect().width);
-  const ink = () =>
-    chart
-      .locator(".role-axis-title text")
-      .first()
-      .evaluate((text) => getComputedStyle(text).fill);
+  const chart = meritChart(page);
+  const [svg, title] = [chart.locator("svg").first(), chart.locator(".role-axis-title text").first()];
+  const width = () => svg.evaluate((element) => element.getBoundingClientRect().width);
+  const ink = () => title.evaluate((text) => getComputedStyle(text).fill);
   await expect.poll(width).toBeGreaterThan(900);
   const before = await ink();
   await page.setViewportSize({ width: 700, height: 800 });
@@ -50,7 +41,7 @@ test("a click on a point of a chart opens the runs of its configuration, and fro
   answered,
 }) => {
   await openAnswer(page, server, answered);
-  const chart = page.getByRole("img", { name: /^Figure of merit with its interval/ });
+  const chart = meritChart(page);
   await chart.locator(".mark-symbol.role-mark path").nth(3).click();
   const dialog = page.getByRole("dialog", { name: "Runs of 4 rovers" });
   await expect(dialog.getByRole("row", { name: /^worst/ })).toBeVisible();
@@ -59,16 +50,15 @@ test("a click on a point of a chart opens the runs of its configuration, and fro
   // It ends before 100 s, from where on the table rounds to seconds.
   const row = dialog.getByRole("row", { name: /^best/ });
   const run = (await row.getByRole("link").textContent()) ?? "";
-  const time_s = Number(await row.getByRole("cell").nth(2).textContent());
+  const tabled_s = Number(await row.getByRole("cell").nth(2).textContent());
   await row.getByRole("link").click();
   await expect(page.getByRole("heading", { name: `Run ${run} of search, 4 rovers` })).toBeVisible();
-  await expect(page.locator("#status")).toContainText("4 robots");
+  await expect(status(page)).toContainText("4 robots");
   await expectAccessible(page);
   await page.getByRole("combobox", { name: /[Ss]peed/ }).selectOption({ index: 6 });
   await page.getByRole("button", { name: "Play", exact: true }).click();
-  await expect(page.locator("#status")).toContainText("finished", { timeout: 30_000 });
-  const ended_s = Number.parseFloat((await page.locator("#status").textContent()) ?? "");
-  expect(Math.abs(ended_s - time_s)).toBeLessThan(0.2);
+  await expect(status(page)).toContainText("finished", { timeout: 30_000 });
+  expect(Math.abs((await time_s(page)) - tabled_s)).toBeLessThan(0.2);
   await page.getByRole("link", { name: "Back to the study" }).click();
   await expect(dialog).toBeVisible();
   await page.keyboard.press("Escape");

@@ -1,7 +1,7 @@
 import { rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { expect, expectAccessible, ownScenario, runAt } from "./page";
-import { formAt, sentence, test } from "./studies";
+import { asOnPhone, expect, expectAccessible, expectToFit, openFile, openRun, ownScenario } from "./page";
+import { formAt, openAnswer, sentence, test } from "./studies";
 
 test("a study is defined, started and answered by keyboard alone, and its confidence is raised", async ({
   page,
@@ -15,7 +15,9 @@ test("a study is defined, started and answered by keyboard alone, and its confid
   await team.focus();
   await page.keyboard.press("Control+a");
   await page.keyboard.type("1..6");
-  await expect(page.getByText("factorial: 6 configurations; delta 0.2")).toBeVisible();
+  await page.getByRole("textbox", { name: "Delta" }).focus();
+  await page.keyboard.type("0.5");
+  await expect(page.getByText("factorial: 6 configurations; delta 0.5")).toBeVisible();
   await page.keyboard.press("Enter");
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expect(page.getByText(/^\d of 6$/)).toBeVisible();
@@ -127,40 +129,36 @@ test("a missing server is reported on the form, which recovers by itself", async
 });
 
 test("a scenario can be studied from its run, also a dropped one", async ({ page, server }) => {
-  await page.goto(runAt(server, "scenario=search&seed=7"));
+  await openRun(page, server, "scenario=search&seed=7");
   await page.getByRole("link", { name: "Study this scenario" }).click();
   await expect(page.getByRole("heading", { name: "New study of search" })).toBeVisible();
-  await page.goto(server.url);
-  const file = { name: "my.toml", mimeType: "application/toml", buffer: Buffer.from(ownScenario) };
-  await page.locator("input[type=file]").setInputFiles(file);
+  await openFile(page, server, ownScenario);
   await page.getByRole("link", { name: "Study this scenario" }).click();
   await expect(page.getByRole("heading", { name: "New study of scenario" })).toBeVisible();
 });
 
-test("studies are usable on a phone", async ({ page, server }) => {
-  await page.setViewportSize({ width: 360, height: 740 });
-  const fits = async () =>
-    expect(
-      await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth]),
-    ).toEqual([360, 360]);
+test("studies are usable on a phone", async ({ page, server, answered }) => {
+  await asOnPhone(page);
   await page.goto(formAt(server));
   await expect(page.getByText("factorial: 20 configurations")).toBeVisible();
-  await fits();
+  await expectToFit(page);
   await expectAccessible(page);
-  await page.getByRole("textbox", { name: "Number of rovers" }).fill("1..5");
-  await expect(page.getByText("factorial: 5 configurations")).toBeVisible();
+  await page.getByRole("textbox", { name: "Number of rovers" }).fill("1..9");
+  await page.getByRole("textbox", { name: "Delta" }).fill("0.0001");
   await page.getByRole("button", { name: "Start" }).click();
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
-  await fits();
-  await expect(sentence(page)).toBeVisible({ timeout: 60_000 });
+  await expectToFit(page);
+  await page.getByRole("button", { name: "Stop" }).click();
+  await expect(page.getByRole("button", { name: "Resume" })).toBeVisible();
+  await openAnswer(page, server, answered);
   await expect(page.getByRole("img", { name: /^Runs per/ }).locator("svg")).toBeVisible();
-  await fits();
+  await expectToFit(page);
   await expectAccessible(page);
   await page.getByRole("link", { name: "3 rovers" }).first().click();
   await expect(page.getByRole("dialog")).toBeVisible();
-  await fits();
+  await expectToFit(page);
   await page.goto(`${server.url}/#/studies`);
   await expect(page.getByRole("listitem").first()).toBeVisible();
-  await fits();
+  await expectToFit(page);
   await expectAccessible(page);
 });
