@@ -50,7 +50,7 @@ export const status = (page: Page) => page.locator("#status");
 export const hash = (page: Page) => page.getByTitle("Hash of the run's state").getAttribute("title");
 export const time_s = async (page: Page) => Number.parseFloat((await status(page).textContent()) ?? "");
 
-/** Opens a run, until its status contains a text. */
+/** Opens a run and waits until its status contains `text`. */
 export async function openRun(
   page: Page,
   server: { url: string },
