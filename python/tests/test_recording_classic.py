@@ -9,7 +9,7 @@ import jsonschema
 import numpy as np
 import pytest
 from command_line import refuse, run, run_python
-from recorded import SECOND_NS, contents
+from recorded import SECOND_NS, Message, contents
 
 import agent_economy as ae
 from agent_economy import ClassicSimulation, InputError, Scenario
@@ -22,6 +22,17 @@ CHANGES: list[tuple[int, str, Any]] = [
     (90, "clock.paints_per_s", 1000),
     (120, "clock.time_limit_s", 1),
 ]
+
+
+Topics = dict[str, list[Message]]
+
+
+@pytest.fixture(scope="module")
+def topics(tmp_path_factory: pytest.TempPathFactory) -> Topics:
+    """Return the topics of a recorded run."""
+    path = tmp_path_factory.mktemp("topics") / "run.mcap"
+    ae.run("classic", 5, record=path)
+    return contents(path).topics
 
 
 def changed(path: Path, every: int = 1) -> ClassicSimulation:
@@ -62,9 +73,7 @@ def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
     assert first.read_bytes() != other.read_bytes()
 
 
-def test_every_paint_is_recorded_with_its_robots(mcap: Path) -> None:
-    ae.run("classic", 5, record=mcap)
-    topics = contents(mcap).topics
+def test_every_paint_is_recorded_with_its_robots(topics: Topics) -> None:
     simulation = ClassicSimulation("classic", 5)
     moments = zip(topics["/tf"], topics["/robots"], topics["/run"], strict=True)
     for frames, robots, at in moments:
@@ -95,9 +104,7 @@ def test_every_paint_is_recorded_with_its_robots(mcap: Path) -> None:
     assert topics["/run"][-1].content["tick"] == simulation.tick
 
 
-def test_the_scene_is_the_classic_world_with_y_upwards(mcap: Path) -> None:
-    ae.run("classic", 5, record=mcap)
-    topics = contents(mcap).topics
+def test_the_scene_is_the_classic_world_with_y_upwards(topics: Topics) -> None:
     assert set(topics) == {
         "/tf", "/robots", "/run", "/team", "/scene/world", "/scene/robots", "/scene/items",
         "/scene/found/0", "/log", "/outcome",
@@ -115,9 +122,7 @@ def test_the_scene_is_the_classic_world_with_y_upwards(mcap: Path) -> None:
     assert [each.frame_id for each in bodies] == [f"wanderer/{number}" for number in range(4)]
 
 
-def test_bodies_have_the_colours_of_the_robots(mcap: Path) -> None:
-    ae.run("classic", 5, record=mcap)
-    topics = contents(mcap).topics
+def test_bodies_have_the_colours_of_the_robots(topics: Topics) -> None:
     states = {each.time_ns: each.content["colour"] for each in topics["/robots"]}
     painted = {"blue": set(), "yellow": set(), "red": set()}  # type: dict[str, set[float]]
     for time_ns, scene in topics["/scene/robots"]:
