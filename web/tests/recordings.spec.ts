@@ -114,6 +114,8 @@ test("recordings are listed, opened and downloaded", async ({ page, server }) =>
   expect(await readFile(await file.path())).toEqual(await readFile(join(server.folder, "listed.mcap")));
   await page.getByRole("link", { name: "listed.mcap", exact: true }).click();
   await expect(page.getByText("seed 3, run 0, recorded")).toBeVisible();
+  // The address has been updated, so that it does not change again while the next page opens.
+  await expect.poll(() => page.url()).toContain("view=");
   await asOnPhone(page);
   await page.goto(`${server.url}/#/recordings`);
   await expect(page.getByRole("link", { name: "listed.mcap", exact: true })).toBeVisible();

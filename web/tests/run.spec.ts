@@ -159,11 +159,11 @@ test("the panels of a run pass axe", async ({ page, server }) => {
   await expectAccessiblePanels(page, ["Layers", "Edit", "Changes"]);
   await openTab(page, "Parameters");
   await page.getByRole("searchbox").fill("rover");
-  await expectAccessible(page);
+  await expectAccessible(page, "aside");
   await openTab(page, "Results");
-  await expectAccessible(page);
+  await expectAccessible(page, "aside");
   await page.getByRole("button", { name: "Table" }).click();
-  await expectAccessible(page);
+  await expectAccessible(page, "aside");
 });
 
 test("the page is usable on a phone", async ({ page, server }) => {
