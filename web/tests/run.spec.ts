@@ -66,6 +66,20 @@ test("an address opens the same run with the same changes and view in another ta
   expect(await hash(page)).toBe(there);
 });
 
+test("a page opened while the run's address changes stays open", async ({ page, server }) => {
+  // The browser tells the page of its new address only after the run has written its own.
+  await page.addInitScript(() => {
+    const listen = window.addEventListener.bind(window) as (type: string, listener: () => void) => void;
+    window.addEventListener = (type: string, listener: () => void) =>
+      listen(type, type === "hashchange" ? () => setTimeout(listener, 3000) : listener);
+  });
+  await openRun(page, server, "scenario=flock&tick=20");
+  await page.keyboard.press("ArrowRight");
+  await page.evaluate(() => (location.hash = "#/recordings"));
+  await expect(page.getByRole("heading", { name: "Recordings" })).toBeVisible();
+  expect(page.url()).toContain("#/recordings");
+});
+
 test("each parameter of the schema can be found and changed; an invalid value is refused; changes are undone", async ({
   page,
   server,

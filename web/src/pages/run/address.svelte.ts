@@ -11,9 +11,12 @@ export function keepAddress(viewer: Viewer): void {
   const names = new RecordedNames(viewer);
   let timer: ReturnType<typeof setTimeout> | undefined;
   let written = 0;
+  let own = location.hash;
 
   function write(): void {
     timer = undefined;
+    // The user has just opened another page, which is about to replace this one.
+    if (location.hash !== own) return;
     const link = viewer.currentLink;
     const hash = writeLink(link);
     const isTooLong = hash.length > maxLinkLength || isStoredInTab(link.text);
@@ -22,6 +25,7 @@ export function keepAddress(viewer: Viewer): void {
     if (!kept || kept === location.hash) return;
     written = performance.now();
     history.replaceState(history.state, "", kept);
+    own = location.hash;
   }
 
   $effect(() => {
