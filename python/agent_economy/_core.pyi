@@ -28,7 +28,6 @@ __all__ = [
     "drawn_links",
     "equal_allocation",
     "exhaust",
-    "files_wanted",
     "footprints",
     "frame",
     "inspect",
@@ -36,6 +35,7 @@ __all__ = [
     "links",
     "mean_bounds",
     "mean_exceeds",
+    "missing_files",
     "random_start",
     "read_classic",
     "read_configuration",
@@ -133,7 +133,7 @@ class _Source(Protocol):
     @property
     def files(self) -> Mapping[str, bytes | str]: ...
 
-def files_wanted(source: _Source) -> list[str]: ...
+def missing_files(source: _Source) -> list[str]: ...
 def read_scenario(source: _Source) -> dict[str, Any]: ...
 def read_document(source: _Source) -> dict[str, Any]: ...
 def check_page_message(kind: str, message: Mapping[str, Any]) -> None: ...

@@ -67,11 +67,13 @@ test("an address opens the same run with the same changes and view in another ta
 });
 
 test("a page opened while the run's address changes stays open", async ({ page, server }) => {
-  // The browser tells the page of its new address only after the run has written its own.
+  // The browser reports the new address to the page only after the run has written its own.
   await page.addInitScript(() => {
-    const listen = window.addEventListener.bind(window) as (type: string, listener: () => void) => void;
-    window.addEventListener = (type: string, listener: () => void) =>
-      listen(type, type === "hashchange" ? () => setTimeout(listener, 3000) : listener);
+    addEventListener("hashchange", (event) => {
+      if (!event.isTrusted) return;
+      event.stopImmediatePropagation();
+      setTimeout(() => dispatchEvent(new HashChangeEvent("hashchange")), 3000);
+    });
   });
   await openRun(page, server, "scenario=flock&tick=20");
   await page.keyboard.press("ArrowRight");

@@ -24,14 +24,14 @@ pub(crate) fn frame<'py>(
 }
 
 fn drawn(run: &mut Run) -> Vec<u8> {
-    let in_danger = run.in_danger();
+    let collision_warnings = run.collision_warnings();
     let (state, scenario) = (run.state(), run.scenario());
-    let robots = state.each_robot(scenario).zip(in_danger);
+    let robots = state.each_robot(scenario).zip(collision_warnings);
     let mut bytes = Vec::with_capacity(16 * state.robots());
-    for (robot, is_in_danger) in robots {
+    for (robot, is_warned) in robots {
         #[expect(clippy::cast_possible_truncation, reason = "for display")]
         let [x, y, heading] = [robot.at.x, robot.at.y, robot.heading_rad].map(|it| it as f32);
-        for number in [x, y, heading, display_state(&robot, is_in_danger)] {
+        for number in [x, y, heading, display_state(&robot, is_warned)] {
             bytes.extend(number.to_le_bytes());
         }
     }
@@ -44,12 +44,12 @@ fn drawn(run: &mut Run) -> Vec<u8> {
     bytes
 }
 
-fn display_state(robot: &Robot, is_in_danger: bool) -> f32 {
+fn display_state(robot: &Robot, is_warned: bool) -> f32 {
     match robot.status {
         Status::Broken => 4.0,
         Status::Empty => 3.0,
         Status::Active if robot.is_touching => 2.0,
-        Status::Active if is_in_danger => 1.0,
+        Status::Active if is_warned => 1.0,
         Status::Active => 0.0,
     }
 }

@@ -48,8 +48,8 @@ pub(crate) fn read_scenario<'py>(
 
 /// The files that a source refers to and lacks. Once it has them, it may refer to more.
 #[pyfunction]
-pub(crate) fn files_wanted(source: Source) -> PyResult<Vec<String>> {
-    Ok(base::scenario::files_wanted(&ENGINES, &source.document()?))
+pub(crate) fn missing_files(source: Source) -> PyResult<Vec<String>> {
+    Ok(base::scenario::missing_files(&ENGINES, &source.document()?))
 }
 
 /// The document of a source, unchecked, as dicts, lists and values.

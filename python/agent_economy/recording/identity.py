@@ -114,7 +114,7 @@ def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> I
         message = f"is damaged: its scenario, {name}, is not UTF-8 text"
         raise InputError(message) from None
     source = Source(name, text, read_overrides(run), files)
-    if missing := _core.files_wanted(source):
+    if missing := _core.missing_files(source):
         message = f"lacks files that the scenario refers to: {', '.join(missing)}"
         raise InputError(message)
     seed, number = run.whole("seed"), run.whole("run")

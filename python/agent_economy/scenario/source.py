@@ -90,7 +90,7 @@ class Source:
     def complete(self) -> "Source":
         """Return the source with all files that it names, read relative to its own folder."""
         source = self
-        while wanted := _core.files_wanted(source):
+        while wanted := _core.missing_files(source):
             folder, limit = Path(self.file).parent, _core.MAX_IMAGE_BYTES
             found = {name: read_file(folder / name, limit) for name in wanted}
             source = replace(source, files={**source.files, **found})

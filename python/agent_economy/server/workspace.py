@@ -67,7 +67,7 @@ class Workspace:
         """
         source = Source(name, lines(text), ())
         beside = (self.folder / name).parent
-        while wanted := _core.files_wanted(source):
+        while wanted := _core.missing_files(source):
             found = {each: self._content(beside / each) for each in wanted}
             source = Source(name, source.text, (), {**source.files, **found})
         return Scenario.of(source)

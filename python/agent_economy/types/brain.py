@@ -156,16 +156,16 @@ class GoalState(TypedDict):
     Attributes:
         behaviour: Index of its behaviour in the brain's list.
         to: Its position in the world.
-        precedence: Its current utility: value x likely / (1 + time / 10 s).
+        precedence: Its current utility: value x `battery_probability` / (1 + time / 10 s).
         value: Value of being there.
-        likely: Probability that the battery lasts, 0 to 1.
+        battery_probability: Probability that the battery lasts, 0 to 1.
         time_s: Time for the straight way.
         within_m: It is reached within this distance.
         verdict: Its fitness verdict.
-        left_m: Remaining path length in the last step, and the minimum so far.
-        best_m: See `left_m`.
+        remaining_m: Remaining path length in the last step, and the minimum so far.
+        min_remaining_m: See `remaining_m`.
         stuck_s: Time without coming nearer.
-        rests_s: Time for which it still counts as impossible, so that other goals are served.
+        retry_s: Time for which it still counts as impossible, so that other goals are served.
         is_pursued: Whether the robot pursues it now.
     """
 
@@ -173,14 +173,14 @@ class GoalState(TypedDict):
     to: Point
     precedence: float
     value: float
-    likely: float
+    battery_probability: float
     time_s: float
     within_m: float
     verdict: Verdict
-    left_m: float
-    best_m: float
+    remaining_m: float
+    min_remaining_m: float
     stuck_s: float
-    rests_s: float
+    retry_s: float
     is_pursued: bool
 
 

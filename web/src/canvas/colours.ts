@@ -10,7 +10,7 @@ const names = [
   "terrain",
   "terrain-text",
   "robot-clear",
-  "robot-danger",
+  "robot-warning",
   "robot-collided",
   "robot-empty",
   "robot-broken",
@@ -35,7 +35,7 @@ export type Colours = Record<ColourName, string>;
 
 export const robotColours: ColourName[] = [
   "robot-clear",
-  "robot-danger",
+  "robot-warning",
   "robot-collided",
   "robot-empty",
   "robot-broken",

@@ -10,7 +10,7 @@ export interface Range {
 }
 
 /** Labels of robot states, indexed by the number in frames. */
-export const stateLabels = ["clear", "in danger", "collided", "battery empty", "broken"];
+export const stateLabels = ["clear", "about to collide", "collided", "battery empty", "broken"];
 
 const ranges = new WeakMap<Setting, Range[]>();
 

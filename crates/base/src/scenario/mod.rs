@@ -110,7 +110,7 @@ impl Scenario {
 
 /// The files that a document refers to and that have not been read yet.
 #[must_use]
-pub fn files_wanted(engines: &[&dyn Engine], document: &Document) -> Vec<String> {
+pub fn missing_files(engines: &[&dyn Engine], document: &Document) -> Vec<String> {
     engine_of(engines, document).map_or_else(|_| Vec::new(), |engine| engine.files(document))
 }
 

@@ -93,7 +93,7 @@ impl Ready {
             OVERHEAD_S + outlook.measurements(MEASURED_NATS) * beliefs.observation_period_s();
         let time_s = |way_m: f64| overhead_s + way_m / self.destination.max_speed_m_s.max(1e-6);
         let apart = apart(situation.body, map);
-        let worth = |cell: usize, way_m: f64, least: f64| {
+        let value = |cell: usize, way_m: f64, least: f64| {
             let [column, row] = map.field.column_and_row_of(cell);
             let share = part.share(&map.field, cell);
             let place = map.field.centre(cell);
@@ -110,7 +110,7 @@ impl Ready {
             }
             rate * outlook.expected(map, place, way, pose.blur_m())
         };
-        survey.best((map, situation.body), pose.at, worth, |way_m| {
+        survey.best((map, situation.body), pose.at, value, |way_m| {
             outlook.max / time_s(way_m)
         })
     }

@@ -62,14 +62,14 @@ fn nearest(
 ) -> Option<Point> {
     let (at, near_m) = (beliefs.pose()?.at, 4.0 * map.field.cell_m);
     let nearness = |way_m: f64| 1.0 / way_m.max(map.field.cell_m);
-    let worth = |cell, way_m, _| {
+    let value = |cell, way_m, _| {
         if map.coverage.of(cell) > UNSEEN {
             nearness(way_m) * share(beliefs, at, map.field.centre(cell), near_m)
         } else {
             0.0
         }
     };
-    survey.best((map, situation.body), at, worth, nearness)
+    survey.best((map, situation.body), at, value, nearness)
 }
 
 fn is_unseen(map: &Map, place: Point) -> bool {

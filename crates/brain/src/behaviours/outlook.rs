@@ -31,14 +31,16 @@ struct Sample {
     at: Point,
     area_m2: f64,
     /// Detection probability.
-    seen: f64,
+    probability: f64,
 }
 
 impl Outlook {
     /// The view of a body with these detectors.
     pub(crate) fn new(detectors: &[Detector]) -> Self {
         let samples: Vec<Sample> = detectors.iter().flat_map(samples).collect();
-        let expected = samples.iter().map(|sample| sample.area_m2 * sample.seen);
+        let expected = samples
+            .iter()
+            .map(|sample| sample.area_m2 * sample.probability);
         Self {
             max: expected.sum(),
             needs_line_of_sight: detectors.iter().any(|one| one.needs_line_of_sight),
@@ -81,7 +83,7 @@ impl Outlook {
         let found = self.samples.iter().filter_map(|sample| {
             let place = at.plus(turned(sample.at, front));
             let cell = map.field.cell(place)?;
-            let left = sample.area_m2 * sample.seen * map.coverage.of(cell);
+            let left = sample.area_m2 * sample.probability * map.coverage.of(cell);
             (left > 0.0 && counts(place)).then_some(left)
         });
         found.sum()
@@ -104,7 +106,7 @@ fn samples(detector: &Detector) -> impl Iterator<Item = Sample> {
         .map(move |at| Sample {
             at,
             area_m2: apart_m * apart_m,
-            seen: detector.min_probability(at.length()),
+            probability: detector.min_probability(at.length()),
         })
 }
 
@@ -120,16 +122,16 @@ mod tests {
     const HERE: Point = Point { x: 10.1, y: 10.1 };
     const AHEAD: Point = Point { x: 1.0, y: 0.0 };
 
-    fn eye() -> Detector {
+    fn camera() -> Detector {
         Detector {
             needs_line_of_sight: true,
             ..detector(3.0, 1.2, 1.0)
         }
     }
 
-    fn scan(eye: &Detector) -> DetectorScan<'_> {
+    fn scan(camera: &Detector) -> DetectorScan<'_> {
         DetectorScan {
-            detector: eye,
+            detector: camera,
             at: HERE,
             heading_rad: 0.0,
             trust: 1.0,
@@ -139,16 +141,17 @@ mod tests {
     }
 
     fn expected(map: &Map, way: Point, blur_m: f64) -> f64 {
-        Outlook::new(&[eye()]).expected(map, HERE, way, blur_m)
+        Outlook::new(&[camera()]).expected(map, HERE, way, blur_m)
     }
 
     #[test]
     fn expected_detections_are_those_of_unobserved_area_in_the_direction_of_the_path() {
-        let (mut map, eye) = (map(), eye());
+        let (mut map, camera) = (map(), camera());
         let [ahead, back] = [AHEAD, AHEAD.times(-1.0)];
         let [before, behind] = [ahead, back].map(|way| expected(&map, way, 0.0));
         assert!((before - 5.4).abs() < 0.8, "{before}");
-        map.coverage.update(&map.field, &map.occupancy, &scan(&eye));
+        map.coverage
+            .update(&map.field, &map.occupancy, &scan(&camera));
         assert!(expected(&map, ahead, 0.0) < 0.5 * before);
         assert!((expected(&map, back, 0.0) - behind).abs() < 1e-9);
     }

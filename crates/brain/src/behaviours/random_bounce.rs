@@ -60,14 +60,14 @@ pub(crate) struct Ready {
 #[derive(Debug, Clone)]
 pub(crate) enum Memory {
     /// Moving straight on, for this time in seconds.
-    Going {
+    Straight {
         since_s: f32,
     },
     Turning(Turn),
 }
 
 /// The initial state.
-const GOING: Memory = Memory::Going { since_s: 0.0 };
+const STRAIGHT: Memory = Memory::Straight { since_s: 0.0 };
 
 impl Ready {
     pub(super) fn new(spec: &RandomBounce, body: &Body) -> Self {
@@ -85,7 +85,7 @@ impl Behaviour for Ready {
     type Memory = Memory;
 
     fn memory(&self) -> Memory {
-        GOING
+        STRAIGHT
     }
 
     fn hold_s(&self) -> f64 {
@@ -103,7 +103,7 @@ impl Behaviour for Ready {
 
     #[inline]
     fn suppressed(&self, memory: &mut Memory) {
-        *memory = GOING;
+        *memory = STRAIGHT;
     }
 }
 
@@ -111,7 +111,7 @@ impl Ready {
     #[inline]
     fn next_motion(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         match memory {
-            Memory::Going { since_s } => {
+            Memory::Straight { since_s } => {
                 let straight_s = f64::from(*since_s);
                 *since_s += situation.period_s();
                 let near_m = (self.turn_at_m + situation.stopping_m()).min(self.half_sight_m);
@@ -122,7 +122,7 @@ impl Ready {
             Memory::Turning(turn) => {
                 let motion = turn.next_motion(situation);
                 if motion.is_none() {
-                    *memory = GOING;
+                    *memory = STRAIGHT;
                 }
                 motion
             }

@@ -32,7 +32,7 @@ pub(crate) struct Survey {
 
 impl Survey {
     /// The place with the highest value, by its cell and the path length; `None` if no value is
-    /// positive. `worth` also gets the best value found; it may return any lower value if it is
+    /// positive. `value` also gets the best value found; it may return any lower value if it is
     /// not exceeded.
     ///
     /// `at_most` bounds the value by the path length. Places where the body does not fit, which can
@@ -41,41 +41,41 @@ impl Survey {
         &mut self,
         (map, body): (&Map, &Body),
         at: Point,
-        worth: impl Fn(usize, f64, f64) -> f64,
+        value: impl Fn(usize, f64, f64) -> f64,
         at_most: impl Fn(f64) -> f64,
     ) -> Option<Point> {
         let room_m = body.radius_m + CELL_ROOM * map.field.cell_m;
         let (known, abandoned) = ((&map.field, &map.occupancy), &self.abandoned);
         let mut best = Best::default();
         let mut offer = |cell, way_m| {
-            let worth = worth(cell, way_m, best.worth);
-            if worth > best.worth {
-                best.offer(map.field.centre(cell), worth, abandoned, map.field.cell_m);
+            let value = value(cell, way_m, best.value);
+            if value > best.value {
+                best.offer(map.field.centre(cell), value, abandoned, map.field.cell_m);
             }
             best
         };
         self.wavefront.expand(known, at, room_m, |cell, way_m| {
-            at_most(way_m) > offer(cell, way_m).worth
+            at_most(way_m) > offer(cell, way_m).value
         });
         if best.place.is_none() {
-            self.beside(map, &worth, &mut best);
+            self.beside(map, &value, &mut best);
         }
         best.place
     }
 
     /// The best place among cells where the body does not fit.
-    fn beside(&self, map: &Map, worth: impl Fn(usize, f64, f64) -> f64, best: &mut Best) {
+    fn beside(&self, map: &Map, value: impl Fn(usize, f64, f64) -> f64, best: &mut Best) {
         let (field, cells) = (&map.field, 0..map.field.cells());
         for cell in cells.filter(|cell| self.wavefront.is_blocked(field, *cell)) {
             let place = field.centre(cell);
-            let is_worth_it = worth(cell, 0.0, best.worth) > best.worth;
-            if let Some((_, way_m)) = is_worth_it
+            let is_better = value(cell, 0.0, best.value) > best.value;
+            if let Some((_, way_m)) = is_better
                 .then(|| self.wavefront.exit(field, &map.occupancy, place))
                 .flatten()
             {
                 best.offer(
                     place,
-                    worth(cell, way_m, best.worth),
+                    value(cell, way_m, best.value),
                     &self.abandoned,
                     field.cell_m,
                 );
@@ -104,16 +104,16 @@ impl Survey {
 /// The best place found.
 #[derive(Debug, Clone, Copy, Default)]
 struct Best {
-    worth: f64,
+    value: f64,
     place: Option<Point>,
 }
 
 impl Best {
     /// Keeps a place with a higher value, unless it is near an abandoned one.
-    fn offer(&mut self, place: Point, worth: f64, abandoned: &[Point], near_m: f64) {
+    fn offer(&mut self, place: Point, value: f64, abandoned: &[Point], near_m: f64) {
         let is_near = |other: &Point| other.to(place).length_squared() < near_m * near_m;
-        if worth > self.worth && !abandoned.iter().any(is_near) {
-            (self.worth, self.place) = (worth, Some(place));
+        if value > self.value && !abandoned.iter().any(is_near) {
+            (self.value, self.place) = (value, Some(place));
         }
     }
 }

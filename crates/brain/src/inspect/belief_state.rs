@@ -34,12 +34,12 @@ pub struct GoalState {
     pub behaviour: u32,
     /// Its position in the world.
     pub to: Point,
-    /// Its current utility: value x likely / (1 + time / 10 s).
+    /// Its current utility: value x `battery_probability` / (1 + time / 10 s).
     pub precedence: f64,
     /// Value of being there.
     pub value: f64,
     /// Probability that the battery lasts, 0 to 1.
-    pub likely: f64,
+    pub battery_probability: f64,
     /// Time for the straight way.
     pub time_s: f64,
     /// It is reached within this distance.
@@ -47,13 +47,13 @@ pub struct GoalState {
     /// Its fitness verdict.
     pub verdict: Verdict,
     /// Remaining path length in the last step, and the minimum so far.
-    pub left_m: f64,
-    /// See `left_m`.
-    pub best_m: f64,
+    pub remaining_m: f64,
+    /// See `remaining_m`.
+    pub min_remaining_m: f64,
     /// Time without coming nearer.
     pub stuck_s: f64,
     /// Time for which it still counts as impossible, so that other goals are served.
-    pub rests_s: f64,
+    pub retry_s: f64,
     /// Whether the robot pursues it now.
     pub is_pursued: bool,
 }
@@ -91,14 +91,14 @@ impl GoalState {
             to: destination.at,
             precedence: goal.precedence,
             value: destination.value,
-            likely: reachable_probability(time_s, beliefs.battery_s()),
+            battery_probability: reachable_probability(time_s, beliefs.battery_s()),
             time_s,
             within_m: destination.tolerance_m,
             verdict: goal.verdict,
-            left_m: fitness.last_m,
-            best_m: fitness.best_m,
+            remaining_m: fitness.last_m,
+            min_remaining_m: fitness.best_m,
             stuck_s: fitness.stuck_s,
-            rests_s: fitness.rest_s.max(0.0),
+            retry_s: fitness.rest_s.max(0.0),
             is_pursued: selection.is_pursued(goal),
         }
     }

@@ -87,9 +87,9 @@ impl Flocking {
     }
 }
 
-/// What all robots know before the mission.
+/// What a kind depends on besides its own keys.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Briefing<'a> {
+pub(crate) struct KindContext<'a> {
     pub(crate) item_kinds: &'a [String],
     pub(crate) robots: &'a BTreeMap<String, RobotSpec>,
     pub(crate) field: Rectangle,
@@ -98,10 +98,10 @@ pub(crate) struct Briefing<'a> {
 
 impl Kind {
     /// The kind that `spec` describes.
-    pub(crate) fn new(name: &str, spec: &RobotSpec, briefing: &Briefing) -> Self {
-        let Briefing {
+    pub(crate) fn new(name: &str, spec: &RobotSpec, context: &KindContext) -> Self {
+        let KindContext {
             item_kinds, step_s, ..
-        } = *briefing;
+        } = *context;
         let sensors: Vec<Sensor> = spec
             .sensors
             .iter()
@@ -121,7 +121,7 @@ impl Kind {
                 .iter()
                 .filter_map(|sensor| ring(sensor, step_s))
                 .collect(),
-            detectors: detectors(spec, briefing),
+            detectors: detectors(spec, context),
             position_noise_m: noise(&sensors, |measure| match measure {
                 Measure::Position { noise_m } => Some(*noise_m),
                 _ => None,
@@ -135,8 +135,8 @@ impl Kind {
                 _ => None,
             }),
             item_kinds: item_kinds.to_vec(),
-            others: others(spec.layer, briefing),
-            field: Some(briefing.field),
+            others: others(spec.layer, context),
+            field: Some(context.field),
         };
         let mut kind = Self {
             all_on_w: 0.0,
@@ -264,21 +264,21 @@ fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
     noises.fold(0.0, f64::max)
 }
 
-fn others(layer: Layer, briefing: &Briefing) -> Vec<Other> {
+fn others(layer: Layer, context: &KindContext) -> Vec<Other> {
     let other = |spec: &RobotSpec| Other {
         radius_m: spec.radius_m,
-        max_acceleration_m_s2: Drive::new(&spec.drive, briefing.step_s).max_acceleration_m_s2,
+        max_acceleration_m_s2: Drive::new(&spec.drive, context.step_s).max_acceleration_m_s2,
         is_in_the_way: spec.layer == layer,
-        detectors: detectors(spec, briefing),
+        detectors: detectors(spec, context),
     };
-    briefing.robots.values().map(other).collect()
+    context.robots.values().map(other).collect()
 }
 
-fn detectors(spec: &RobotSpec, briefing: &Briefing) -> Vec<Detector> {
+fn detectors(spec: &RobotSpec, context: &KindContext) -> Vec<Detector> {
     let detector = |(number, sensor): (u16, &SensorSpec)| match &sensor.measures {
         Measures::Items(items) => {
-            let period_s = Schedule::new(sensor.rate_hz, briefing.step_s).period_s(briefing.step_s);
-            Some(items.detector(number, briefing.item_kinds, period_s))
+            let period_s = Schedule::new(sensor.rate_hz, context.step_s).period_s(context.step_s);
+            Some(items.detector(number, context.item_kinds, period_s))
         }
         _ => None,
     };

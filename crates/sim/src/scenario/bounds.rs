@@ -3,7 +3,7 @@
 use super::ready::Scenario;
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
-use crate::world::terrain::{Going, Terrain};
+use crate::world::terrain::{Terrain, TerrainFactors};
 
 /// Rounding in a sum of many steps, and a step that begins before the time limit, must not exceed
 /// the bound.
@@ -22,7 +22,10 @@ pub(crate) struct Bounds {
 
 impl Scenario {
     pub(crate) fn bounds(&self) -> Bounds {
-        let hardest = self.terrain.as_ref().map_or(Going::EASY, Terrain::most);
+        let hardest = self
+            .terrain
+            .as_ref()
+            .map_or(TerrainFactors::NO_EFFECT, Terrain::most);
         let of_team = |of_one: &dyn Fn(&Kind) -> f64| {
             self.kinds
                 .iter()
@@ -45,7 +48,7 @@ impl Scenario {
         HAIR * (self.time_limit_s + self.step_s)
     }
 
-    fn max_distance_m(&self, kind: &Kind, hardest: Going) -> f64 {
+    fn max_distance_m(&self, kind: &Kind, hardest: TerrainFactors) -> f64 {
         let speed = if kind.layer == Layer::Ground {
             hardest.speed
         } else {
@@ -58,7 +61,7 @@ impl Scenario {
         fastest * speed * self.longest_s()
     }
 
-    fn max_energy_j(&self, kind: &Kind, hardest: Going) -> f64 {
+    fn max_energy_j(&self, kind: &Kind, hardest: TerrainFactors) -> f64 {
         let Some(battery) = &kind.battery else {
             return 0.0;
         };

@@ -43,6 +43,9 @@ impl ScenarioSpec {
     /// The files that a document names and that have not been read.
     pub(crate) fn files(document: &Document) -> Vec<String> {
         let spec: Result<Self, InputErrors> = Self::filled(document).typed(&SCHEMA);
-        spec.map_or_else(|_| Vec::new(), |spec| checks::files_wanted(&spec, document))
+        spec.map_or_else(
+            |_| Vec::new(),
+            |spec| checks::missing_files(&spec, document),
+        )
     }
 }

@@ -3,13 +3,13 @@
 
 use super::spec::ScenarioSpec;
 use crate::bodies::Layer;
-use crate::bodies::kind::{Briefing, Kind};
+use crate::bodies::kind::{Kind, KindContext};
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::items::ItemKind;
 use crate::world::obstacles::Solid;
 use crate::world::static_geometry::{StaticGeometry, Wall};
-use crate::world::terrain::{Area, Going, Terrain};
+use crate::world::terrain::{Area, Terrain, TerrainFactors};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 use base::random::Entity;
 use brain::{Brain, RobotId};
@@ -62,7 +62,7 @@ impl Scenario {
         let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
         let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
         let world = Rectangle::spanned(Point::default(), size_m);
-        let briefing = Briefing {
+        let context = KindContext {
             item_kinds: &names,
             robots: &spec.robots,
             field: world,
@@ -70,7 +70,7 @@ impl Scenario {
         };
         let kinds = spec.robots.iter();
         let mut kinds: Vec<Kind> = kinds
-            .map(|(name, spec)| Kind::new(name, spec, &briefing))
+            .map(|(name, spec)| Kind::new(name, spec, &context))
             .collect();
         if spec.world.periodic && solids.is_empty() {
             for kind in &mut kinds {
@@ -234,10 +234,10 @@ impl Scenario {
 
     /// The effect of the terrain on a robot of a layer.
     #[inline]
-    pub(crate) fn going(&self, place: Point, layer: Layer) -> Going {
+    pub(crate) fn terrain_factors(&self, place: Point, layer: Layer) -> TerrainFactors {
         match &self.terrain {
             Some(terrain) if layer == Layer::Ground => terrain.at(place),
-            _ => Going::EASY,
+            _ => TerrainFactors::NO_EFFECT,
         }
     }
 

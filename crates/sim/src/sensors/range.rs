@@ -103,19 +103,30 @@ impl Ring {
     ///
     /// One pass in the widest vectors of the machine.
     #[inline]
-    pub(crate) fn measure(&self, frame: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
-        self.look_with(instruction_set(), frame, room, to);
+    pub(crate) fn measure(
+        &self,
+        frame: &SensorFrame,
+        buffers: &mut RingBuffers,
+        to: &mut Vec<f64>,
+    ) {
+        self.look_with(instruction_set(), frame, buffers, to);
     }
 
     #[inline]
-    fn look_with(&self, arch: Arch, frame: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
+    fn look_with(
+        &self,
+        arch: Arch,
+        frame: &SensorFrame,
+        buffers: &mut RingBuffers,
+        to: &mut Vec<f64>,
+    ) {
         to.resize(self.rays.groups() * GROUP, 0.0);
-        room.deviations.resize(self.rays.groups(), [0.0; GROUP]);
+        buffers.deviations.resize(self.rays.groups(), [0.0; GROUP]);
         let (to_groups, _) = to.as_chunks_mut();
         arch.dispatch(RingLook {
             ring: self,
             frame,
-            room,
+            buffers,
             to: to_groups,
         });
         to.truncate(self.bearings_rad.len());
@@ -124,7 +135,7 @@ impl Ring {
 
 /// Buffers for measurements of rings, kept so that nothing is allocated.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Room {
+pub(crate) struct RingBuffers {
     pub(crate) near: Near,
     /// Normal deviates of the rays.
     deviations: Vec<[f64; GROUP]>,
@@ -143,7 +154,7 @@ pub(crate) use tests::instruction_set;
 struct RingLook<'a> {
     ring: &'a Ring,
     frame: &'a SensorFrame<'a>,
-    room: &'a mut Room,
+    buffers: &'a mut RingBuffers,
     to: &'a mut [[f64; GROUP]],
 }
 
@@ -155,10 +166,10 @@ impl WithSimd for RingLook<'_> {
         let Self {
             ring,
             frame,
-            room,
+            buffers,
             to,
         } = self;
-        let Room { near, deviations } = room;
+        let RingBuffers { near, deviations } = buffers;
         // First, because it waits for nothing: the processor continues with it while rays are cast.
         if ring.is_noisy() {
             deviate(frame, deviations);

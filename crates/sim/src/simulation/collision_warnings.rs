@@ -14,7 +14,7 @@ impl Simulation {
     ///
     /// Static geometry between the path of its centre and those of its sides is not checked: a post
     /// thinner than the robot's radius may be missed.
-    pub fn in_danger(&mut self) -> Vec<bool> {
+    pub fn collision_warnings(&mut self) -> Vec<bool> {
         let robots = self.state().robots();
         if self.scenario().is_of_flocks_of_points() {
             return vec![false; robots];
@@ -24,13 +24,13 @@ impl Simulation {
         let fastest_m_s = body_states
             .map(|body_state| body_state.speed_m_s.abs())
             .fold(0.0, f64::max);
-        let is_in_danger = |robot: usize| {
+        let is_warned = |robot: usize| {
             let (body_state, disc) = (&self.state().body_states[robot], &self.state().discs[robot]);
             body_state.speed_m_s != 0.0
                 && disc.radius_m > 0.0
                 && (self.goes_at_a_wall(robot) || self.goes_at_a_robot(robot, fastest_m_s))
         };
-        (0..robots).map(is_in_danger).collect()
+        (0..robots).map(is_warned).collect()
     }
 
     fn goes_at_a_wall(&self, robot: usize) -> bool {

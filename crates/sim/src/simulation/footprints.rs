@@ -4,7 +4,7 @@ use super::{NoRobot, Simulation};
 use crate::run::agent::is_on;
 use crate::sensors::Measure;
 use crate::sensors::items::ItemDetector;
-use crate::sensors::range::{Ring, Room, spread};
+use crate::sensors::range::{Ring, RingBuffers, spread};
 use crate::step::measurement::gather;
 use crate::step::view::View;
 use base::geometry::Point;
@@ -104,11 +104,11 @@ impl View<'_> {
             facing_rad: ring.facing_rad,
             ranges_m: vec![0.0; bearings(ring.width_rad) as usize],
         };
-        let mut room = Room::default();
-        gather(self, robot, &mut room.near);
+        let mut buffers = RingBuffers::default();
+        gather(self, robot, &mut buffers.near);
         let frame = self.sensor_frame(robot, sensor, self.tick);
         let exact = ring.exact(footprint.bearings_rad());
-        exact.measure(&frame, &mut room, &mut footprint.ranges_m);
+        exact.measure(&frame, &mut buffers, &mut footprint.ranges_m);
         let ranges_m = footprint.ranges_m.iter_mut();
         // A ray that meets nothing has no return.
         ranges_m.for_each(|range_m| *range_m = range_m.min(ring.range_m));

@@ -4,7 +4,7 @@ use super::destination::Destination;
 use super::view::View;
 use crate::sensors::backlog::Backlog;
 use crate::sensors::items::ItemDetector;
-use crate::sensors::range::Room;
+use crate::sensors::range::RingBuffers;
 use crate::sensors::rays::Near;
 use crate::sensors::robots::RobotDetector;
 use crate::sensors::sensor_frame::{NoisePurpose, SensorFrame};
@@ -18,7 +18,7 @@ use brain::{Contact, Neighbour, Observation, Percept, Reading};
 #[derive(Debug, Clone, Default)]
 pub(super) struct Buffers {
     /// With what the rays of the robot can meet, once one of its range sensors has measured.
-    room: Room,
+    rays: RingBuffers,
     is_near_known: bool,
     /// The values of a measurement.
     pub(super) values: Vec<f64>,
@@ -103,10 +103,10 @@ impl Measurement<'_> {
         match &self.sensor.measure {
             Measure::Range(ring) => {
                 if !buffers.is_near_known {
-                    gather(self.view, self.robot, &mut buffers.room.near);
+                    gather(self.view, self.robot, &mut buffers.rays.near);
                     buffers.is_near_known = true;
                 }
-                ring.measure(frame, &mut buffers.room, values);
+                ring.measure(frame, &mut buffers.rays, values);
             }
             Measure::Position { noise_m } => {
                 let [x, y] = deviations(frame).map(|deviation| deviation * noise_m);

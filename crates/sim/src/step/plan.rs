@@ -8,7 +8,7 @@ use crate::bodies::path::{Orientation, Path};
 use crate::run::agent::Agent;
 use crate::run::state::{BodyState, Status};
 use crate::scenario::Scenario;
-use crate::world::terrain::Going;
+use crate::world::terrain::TerrainFactors;
 use base::geometry::Disc;
 
 /// What one robot is about to do.
@@ -68,11 +68,11 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
             ..Plan::REST
         };
     }
-    let going = scenario.going(disc.centre, kind.layer);
+    let terrain_factors = scenario.terrain_factors(disc.centre, kind.layer);
     let driven = kind.drive.step(
         state.speed_m_s,
         agent.setpoint,
-        going.speed,
+        terrain_factors.speed,
         scenario.step_s,
     );
     let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
@@ -102,7 +102,7 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
     Plan {
         path,
         driven,
-        effort: going.energy,
+        effort: terrain_factors.energy,
         sensing_w,
         stop: meeting.map_or(Stop::Nothing, |_| Stop::Still),
     }
@@ -112,7 +112,7 @@ impl Plan {
     pub(crate) const REST: Self = Self {
         path: Path::rest(base::geometry::Point { x: 0.0, y: 0.0 }),
         driven: Driven::REST,
-        effort: Going::EASY.energy,
+        effort: TerrainFactors::NO_EFFECT.energy,
         sensing_w: 0.0,
         stop: Stop::Nothing,
     };

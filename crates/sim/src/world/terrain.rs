@@ -26,15 +26,15 @@ fn one() -> f64 {
 
 /// The effect of the terrain on a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Going {
+pub(crate) struct TerrainFactors {
     /// Factor on the maximum speed.
     pub(crate) speed: f64,
     /// Factor on the energy of motion.
     pub(crate) energy: f64,
 }
 
-impl Going {
-    pub(crate) const EASY: Self = Self {
+impl TerrainFactors {
+    pub(crate) const NO_EFFECT: Self = Self {
         speed: 1.0,
         energy: 1.0,
     };
@@ -44,22 +44,25 @@ impl Going {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Area {
     polygon: Polygon,
-    going: Going,
+    terrain_factors: TerrainFactors,
 }
 
 impl Area {
     /// An area of the class that `spec` describes.
     #[must_use]
     pub fn new(polygon: Polygon, spec: &TerrainSpec) -> Self {
-        let going = Going {
+        let terrain_factors = TerrainFactors {
             speed: spec.speed,
             energy: spec.energy,
         };
-        Self { polygon, going }
+        Self {
+            polygon,
+            terrain_factors,
+        }
     }
 
     pub(crate) fn speed(&self) -> f64 {
-        self.going.speed
+        self.terrain_factors.speed
     }
 }
 
@@ -93,20 +96,20 @@ impl Terrain {
     }
 
     /// The largest factors anywhere, at least 1.
-    pub(crate) fn most(&self) -> Going {
-        let most = |most: Going, area: &Area| Going {
-            speed: most.speed.max(area.going.speed),
-            energy: most.energy.max(area.going.energy),
+    pub(crate) fn most(&self) -> TerrainFactors {
+        let most = |most: TerrainFactors, area: &Area| TerrainFactors {
+            speed: most.speed.max(area.terrain_factors.speed),
+            energy: most.energy.max(area.terrain_factors.energy),
         };
-        self.areas.iter().fold(Going::EASY, most)
+        self.areas.iter().fold(TerrainFactors::NO_EFFECT, most)
     }
 
     #[inline]
-    pub(crate) fn at(&self, place: Point) -> Going {
+    pub(crate) fn at(&self, place: Point) -> TerrainFactors {
         let numbers = self.near.at(place).iter().rev();
         let mut areas = numbers.map(|number| &self.areas[*number as usize]);
         let area = areas.find(|area| area.polygon.contains(place));
-        area.map_or(Going::EASY, |area| area.going)
+        area.map_or(TerrainFactors::NO_EFFECT, |area| area.terrain_factors)
     }
 }
 
@@ -138,7 +141,7 @@ mod tests {
             }).collect();
             let place = Point::from([place.0, place.1]);
             let last = areas.iter().rev().find(|area| area.polygon.contains(place));
-            let expected = last.map_or(Going::EASY, |area| area.going);
+            let expected = last.map_or(TerrainFactors::NO_EFFECT, |area| area.terrain_factors);
             let terrain = Terrain::new(Point { x: 10.0, y: 10.0 }, areas.clone());
             prop_assert_eq!(terrain.at(place), expected);
             let most = terrain.most();

@@ -74,12 +74,12 @@ export interface GoalState {
   behaviour: number;
   /** Its position in the world. */
   to: Point;
-  /** Its current utility: value x likely / (1 + time / 10 s). */
+  /** Its current utility: value x `battery_probability` / (1 + time / 10 s). */
   precedence: number;
   /** Value of being there. */
   value: number;
   /** Probability that the battery lasts, 0 to 1. */
-  likely: number;
+  battery_probability: number;
   /** Time for the straight way. */
   time_s: number;
   /** It is reached within this distance. */
@@ -87,13 +87,13 @@ export interface GoalState {
   /** Its fitness verdict. */
   verdict: Verdict;
   /** Remaining path length in the last step, and the minimum so far. */
-  left_m: number;
-  /** See `left_m`. */
-  best_m: number;
+  remaining_m: number;
+  /** See `remaining_m`. */
+  min_remaining_m: number;
   /** Time without coming nearer. */
   stuck_s: number;
   /** Time for which it still counts as impossible, so that other goals are served. */
-  rests_s: number;
+  retry_s: number;
   /** Whether the robot pursues it now. */
   is_pursued: boolean;
 }

@@ -3,7 +3,7 @@ import { toScreen } from "../camera";
 import { drawnRadius } from "../painter";
 import { type Layer, poseOf } from "./layer";
 
-/** Four corners around the selected robot, to be distinct from the mark of a robot in danger. */
+/** Four corners around the selected robot, to be distinct from the ring of a collision warning. */
 export const selection: Layer = {
   id: "selection",
   place: "over",

@@ -21,7 +21,7 @@ const state: State = {
 
 test("the status summarises the run in one sentence", () => {
   expect(statusText(state, [3, 1, 0, 0, 0], 4, "open")).toBe(
-    "12.3 s, 4 robots: 1 in danger; 2 of 4 items found; running at 3.1 × real time.",
+    "12.3 s, 4 robots: 1 about to collide; 2 of 4 items found; running at 3.1 × real time.",
   );
 });
 

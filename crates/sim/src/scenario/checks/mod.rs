@@ -66,7 +66,7 @@ pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Chec
 }
 
 /// The files of obstacles that have not been read.
-pub(super) fn files_wanted(spec: &ScenarioSpec, document: &Document) -> Vec<String> {
+pub(super) fn missing_files(spec: &ScenarioSpec, document: &Document) -> Vec<String> {
     let wanted = RefCell::new(Vec::new());
     let open = |name: &str| {
         if !document.has_file(name) {

@@ -35,9 +35,9 @@ fn measurements(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
     let walls: Vec<Wall> = Wall::of(&segment).into_iter().collect();
     let geometry = StaticGeometry::new(size_m, &walls, &[], RANGE_M);
     let ring = Ring::new(spec);
-    let mut room = Room::default();
-    room.near.begin(Point::default(), RANGE_M);
-    room.near.take_walls(walls.iter());
+    let mut buffers = RingBuffers::default();
+    buffers.near.begin(Point::default(), RANGE_M);
+    buffers.near.take_walls(walls.iter());
     let mut ranges_m = Vec::new();
     let measurement = |measurement| {
         let frame = SensorFrame {
@@ -49,7 +49,7 @@ fn measurements(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
             geometry: &geometry,
             is_clear: false,
         };
-        ring.measure(&frame, &mut room, &mut ranges_m);
+        ring.measure(&frame, &mut buffers, &mut ranges_m);
         ranges_m.clone()
     };
     (0..count).flat_map(measurement).collect()
@@ -214,9 +214,9 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
         centre: Point { x: 0.0, y: 2.0 },
         radius_m: 0.5,
     };
-    let mut room = Room::default();
-    room.near.begin(Point::default(), RANGE_M);
-    room.near.take_apart([disc].into_iter());
+    let mut buffers = RingBuffers::default();
+    buffers.near.begin(Point::default(), RANGE_M);
+    buffers.near.take_apart([disc].into_iter());
     let ring = Ring::new(&spec(4));
     let geometry = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
     let measurement = |heading_rad: f64| {
@@ -231,7 +231,7 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
             is_clear: false,
         };
         let mut ranges_m = Vec::new();
-        ring.measure(&frame, &mut room, &mut ranges_m);
+        ring.measure(&frame, &mut buffers, &mut ranges_m);
         ranges_m.iter().position(|range_m| range_m.is_finite())
     };
     // The disc is to the left, ahead, behind, and to the right.
@@ -277,11 +277,11 @@ fn a_measurement_gives_the_same_bits_in_every_instruction_set() {
             is_clear: false,
         };
         let in_set = |arch: Arch| -> Vec<u64> {
-            let (mut room, mut ranges_m) = (Room::default(), Vec::new());
-            room.near.begin(frame.at, RANGE_M);
-            room.near.take_overlapping(discs.iter().copied());
-            room.near.take_walls(walls.iter());
-            ring.look_with(arch, &frame, &mut room, &mut ranges_m);
+            let (mut buffers, mut ranges_m) = (RingBuffers::default(), Vec::new());
+            buffers.near.begin(frame.at, RANGE_M);
+            buffers.near.take_overlapping(discs.iter().copied());
+            buffers.near.take_walls(walls.iter());
+            ring.look_with(arch, &frame, &mut buffers, &mut ranges_m);
             ranges_m.iter().map(|range_m| range_m.to_bits()).collect()
         };
         let plain = in_set(Arch::Scalar);

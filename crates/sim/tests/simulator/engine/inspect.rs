@@ -84,9 +84,9 @@ fn the_reasons_of_a_decision_are_reported() {
         let belief_state = decision.belief_state.unwrap();
         for goal in &belief_state.goals {
             let [time_s, value] = [goal.time_s, goal.value];
-            let precedence = value * goal.likely / (1.0 + time_s / 10.0);
+            let precedence = value * goal.battery_probability / (1.0 + time_s / 10.0);
             assert!((goal.precedence - precedence).abs() < 1e-9, "{goal:?}");
-            assert!(goal.best_m <= goal.left_m + 0.1, "{goal:?}");
+            assert!(goal.min_remaining_m <= goal.remaining_m + 0.1, "{goal:?}");
         }
         let leads = |behaviour| decision.leading == Some(behaviour);
         let first = belief_state.goals.iter().find(|goal| goal.is_pursued);

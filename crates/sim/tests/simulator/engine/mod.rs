@@ -3,10 +3,10 @@
 mod battery;
 mod change;
 mod change_pending;
+mod collision_warnings;
 mod collisions;
 mod contact;
 mod correct;
-mod danger;
 mod dead_end;
 mod determinism;
 mod external;
