@@ -14,10 +14,10 @@ const MAX_CONFIGURATIONS: usize = 100_000;
 ///
 /// Its callers in Python check what users pass; a wrong argument here is a bug.
 #[pyclass(frozen, module = "agent_economy._core")]
-pub(crate) struct Procedure(Mutex<Box<dyn select::Procedure + Send>>);
+pub(crate) struct Procedure(Mutex<Box<dyn select::Exclude + Send>>);
 
 impl Procedure {
-    fn with<T>(&self, act: impl FnOnce(&mut (dyn select::Procedure + Send)) -> T) -> T {
+    fn with<T>(&self, act: impl FnOnce(&mut (dyn select::Exclude + Send)) -> T) -> T {
         let mut procedure = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         act(procedure.as_mut())
     }
@@ -47,6 +47,11 @@ impl Procedure {
         let merits: Vec<f64> = merits.readonly().as_array().iter().copied().collect();
         py.detach(|| self.with(|procedure| procedure.record(&merits)));
         Ok(())
+    }
+
+    /// Removes configurations that cannot be run, before the first `record`; at least one remains.
+    fn exclude(&self, configurations: Vec<usize>) {
+        self.with(|procedure| procedure.exclude(&configurations));
     }
 
     /// The selected configuration, or the currently leading one.
@@ -103,7 +108,7 @@ pub(crate) fn selection(
         delta,
         confidence,
     };
-    let procedure: Box<dyn select::Procedure + Send> = match guarantee {
+    let procedure: Box<dyn select::Exclude + Send> = match guarantee {
         "indifference" => Box::new(Race::new(problem)),
         "pgs" => Box::new(Strict::new(problem)),
         other => {

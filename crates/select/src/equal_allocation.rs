@@ -1,6 +1,6 @@
 //! Equal allocation: a fixed number of runs per configuration; the best mean is selected.
 
-use crate::procedure::{Elimination, Procedure, Request};
+use crate::procedure::{Elimination, Exclude, Procedure, Request};
 
 /// Maximum number of runs in one request, of all its configurations together, so that they fit in
 /// memory.
@@ -12,6 +12,8 @@ const MAX_ROWS: usize = 1 << 20;
 #[derive(Debug, Clone)]
 pub struct EqualAllocation {
     means: Vec<f64>,
+    /// The configurations that run, ascending.
+    configurations: Vec<usize>,
     runs: u64,
     recorded: u64,
 }
@@ -23,6 +25,7 @@ impl EqualAllocation {
         debug_assert!(configurations >= 1 && runs >= 1);
         Self {
             means: vec![0.0; configurations],
+            configurations: (0..configurations).collect(),
             runs,
             recorded: 0,
         }
@@ -34,7 +37,7 @@ impl Procedure for EqualAllocation {
         let max_runs = (MAX_ROWS / self.means.len()).max(1);
         let missing = usize::try_from(self.runs - self.recorded).unwrap_or(max_runs);
         (missing > 0).then(|| Request {
-            configurations: (0..self.means.len()).collect(),
+            configurations: self.configurations.clone(),
             first_run: self.recorded,
             runs: missing.min(max_runs),
         })
@@ -43,7 +46,12 @@ impl Procedure for EqualAllocation {
     #[expect(clippy::cast_precision_loss, reason = "runs are far fewer than 2^53")]
     fn record(&mut self, merits: &[f64]) {
         let Some(request) = self.next() else { return };
-        for (mean, row) in self.means.iter_mut().zip(merits.chunks_exact(request.runs)) {
+        for (&each, row) in self
+            .configurations
+            .iter()
+            .zip(merits.chunks_exact(request.runs))
+        {
+            let mean = &mut self.means[each];
             let counts = self.recorded + 1..;
             for (merit, count) in row.iter().zip(counts) {
                 *mean += (merit - *mean) / count as f64;
@@ -54,7 +62,8 @@ impl Procedure for EqualAllocation {
 
     /// The first of those with the greatest mean.
     fn best(&self) -> usize {
-        (0..self.means.len()).fold(0, |best, each| {
+        let first = self.configurations.first().copied().unwrap_or_default();
+        self.configurations.iter().fold(first, |best, &each| {
             if self.means[each] > self.means[best] {
                 each
             } else {
@@ -64,15 +73,26 @@ impl Procedure for EqualAllocation {
     }
 
     fn runs(&self) -> Vec<u64> {
-        vec![self.recorded; self.means.len()]
+        let mut runs = vec![0; self.means.len()];
+        for &each in &self.configurations {
+            runs[each] = self.recorded;
+        }
+        runs
     }
 
     fn survivors(&self) -> Vec<usize> {
-        (0..self.means.len()).collect()
+        self.configurations.clone()
     }
 
     fn eliminations(&self) -> Vec<Elimination> {
         Vec::new()
+    }
+}
+
+impl Exclude for EqualAllocation {
+    fn exclude(&mut self, configurations: &[usize]) {
+        self.configurations
+            .retain(|each| !configurations.contains(each));
     }
 }
 

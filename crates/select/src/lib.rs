@@ -22,6 +22,6 @@ pub mod strict;
 
 pub use equal_allocation::EqualAllocation;
 pub use problem::{Bounds, Problem};
-pub use procedure::{Elimination, Procedure, Request};
+pub use procedure::{Elimination, Exclude, Procedure, Request};
 pub use race::Race;
 pub use strict::Strict;

@@ -43,3 +43,10 @@ pub trait Procedure {
     /// The eliminated configurations, in the order of their elimination.
     fn eliminations(&self) -> Vec<Elimination>;
 }
+
+/// A procedure whose first runs may show that some configurations cannot be run.
+pub trait Exclude: Procedure {
+    /// Removes configurations before the first `record`: they are neither requested nor selected. At
+    /// least one configuration must remain.
+    fn exclude(&mut self, configurations: &[usize]);
+}

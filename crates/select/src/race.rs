@@ -14,7 +14,7 @@
 use crate::betting_test::BettingTest;
 use crate::interim_analyses::next_analysis;
 use crate::problem::Problem;
-use crate::procedure::{Elimination, Procedure, Request};
+use crate::procedure::{Elimination, Exclude, Procedure, Request};
 use crate::samples::Samples;
 use std::collections::BTreeMap;
 
@@ -174,5 +174,11 @@ impl Procedure for Race {
 
     fn eliminations(&self) -> Vec<Elimination> {
         self.eliminations.clone()
+    }
+}
+
+impl Exclude for Race {
+    fn exclude(&mut self, configurations: &[usize]) {
+        self.survivors.retain(|each| !configurations.contains(each));
     }
 }

@@ -14,8 +14,9 @@
 use crate::betting_test::BettingTest;
 use crate::interim_analyses::next_analysis;
 use crate::problem::{Bounds, Problem};
-use crate::procedure::{Elimination, Procedure, Request};
+use crate::procedure::{Elimination, Exclude, Procedure, Request};
 use crate::samples::Samples;
+use std::collections::BTreeSet;
 
 /// The strict procedure, between two of its rounds.
 #[derive(Debug, Clone)]
@@ -27,6 +28,7 @@ pub struct Strict {
     challengers: Vec<usize>,
     /// The leader's tests against all.
     tests: Vec<BettingTest>,
+    excluded: BTreeSet<usize>,
 }
 
 impl Strict {
@@ -39,6 +41,7 @@ impl Strict {
             leader: 0,
             challengers: (1..configurations).collect(),
             tests: Vec::new(),
+            excluded: BTreeSet::new(),
             problem,
         }
     }
@@ -58,7 +61,7 @@ impl Strict {
         let threshold = self.problem.threshold();
         self.challengers.clear();
         for (other, test) in self.tests.iter_mut().enumerate() {
-            if other == self.leader {
+            if other == self.leader || self.excluded.contains(&other) {
                 continue;
             }
             let (leader, challenger) = (self.samples.of(self.leader), self.samples.of(other));
@@ -128,5 +131,17 @@ impl Procedure for Strict {
             .collect();
         eliminations.sort_by_key(|elimination| (elimination.runs, elimination.configuration));
         eliminations
+    }
+}
+
+impl Exclude for Strict {
+    fn exclude(&mut self, configurations: &[usize]) {
+        self.excluded.extend(configurations);
+        let mut remaining = self.survivors();
+        remaining.retain(|each| !self.excluded.contains(each));
+        if let Some((leader, challengers)) = remaining.split_first() {
+            self.leader = *leader;
+            self.challengers = challengers.to_vec();
+        }
     }
 }
