@@ -79,10 +79,10 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
         One row per run: `run`, `time_s` (time of the last find; the time limit if a target was not
         found), `complete` (whether all targets were found), the other columns of the engine, and
         `merit`. The metric engine has `robots`, `price`, `found` and `missed` (of the targets),
-        `false_alarms`, `collisions`, `energy_j`, `distance_m`, `robots_stopped`, and `found_KIND`
-        and `missed_KIND` for each item kind. Counts are int64, `complete` is a bool. In a
-        quarantined run (see `Outcome.status`), all columns but `run` are null; a time of something
-        that never happened is null.
+        `false_alarms`, `collisions`, `energy_j` (null if no robot has a battery), `distance_m`,
+        `robots_stopped`, and `found_KIND` and `missed_KIND` for each item kind. Counts are int64,
+        `complete` is a bool. In a quarantined run (see `Outcome.status`), all columns but `run` are
+        null; a time of something that never happened is null.
 
     Raises:
         InputError: If the scenario has errors or an argument is out of range; it lists all errors.

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import time
 from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pytest
@@ -14,6 +15,31 @@ from metric import ENDLESS, FULL
 from pyarrow import csv, parquet
 
 import agent_economy as ae
+from agent_economy import Scenario
+
+CROWDED = """
+engine = "metric"
+summary = "A crowded room."
+merit = "equation-5.2"
+[clock]
+time_limit_s = 5
+[world]
+size_m = [3, 3]
+[items.mine]
+count = 1
+[robots.rover]
+count = 8
+radius_m = 0.4
+drive = { max_speed_m_s = 0.5 }
+[robots.rover.sensors.sonar]
+kind = "range"
+rays = 8
+range_m = 3
+[robots.rover.sensors.detector]
+kind = "items"
+range_m = 0.5
+"""
+"""Seven of the first twenty runs have no room for eight rovers."""
 
 
 def test_run_prints_the_outcome() -> None:
@@ -70,18 +96,76 @@ def test_replicate_as_json_has_an_interval_of_each_mean(tmp_path: Path) -> None:
     assert csv.read_csv(out)["paints"].equals(ae.replicate("classic", 25)["paints"])
 
 
-def test_a_single_run_has_a_mean_and_no_interval() -> None:
+def test_a_single_run_has_a_mean_with_a_wide_interval() -> None:
     printed = json.loads(run("replicate", "search", "--runs", "1", "--json").stdout)
     time_s = next(each for each in printed["columns"] if each["column"] == "time_s")
     assert time_s["mean"] == ae.run("search").time_s
-    assert (time_s["low"], time_s["high"]) == (None, None)
+    assert 0 <= time_s["low"] < time_s["mean"] - 30
+    assert time_s["mean"] < time_s["high"] <= 120
 
 
-def test_quarantined_runs_are_reported_and_not_counted(tmp_path: Path) -> None:
+def summary(*arguments: str | Path) -> dict[str, dict[str, Any]]:
+    """Return the summary of `replicate` by column, and the number of runs that it counts."""
+    printed = json.loads(succeed("replicate", *arguments, "--json").stdout)
+    columns = {each.pop("column"): each for each in printed["columns"]}
+    return {**columns, "head": {key: printed[key] for key in ("runs", "quarantined")}}
+
+
+def test_intervals_contain_possible_values_only_and_have_a_width(tmp_path: Path) -> None:
+    never = tmp_path / "never.toml"
+    never.write_text(CROWDED.replace("count = 8", "count = 1").replace("= 0.5", "= 0.001"))
+    found = summary(never, "--runs", "20")
+    assert found["complete"]["mean"] == 0
+    # As up to 17% of runs may be complete, the mean time may be below the time limit.
+    assert found["time_s"]["low"] < found["time_s"]["mean"] == found["time_s"]["high"] == 5
+    assert found["merit"]["low"] == pytest.approx(found["merit"]["mean"])
+    assert found["merit"]["mean"] < found["merit"]["high"] < 0
+    assert found["found"] == found["found_mine"]
+    assert (found["found"]["low"], found["robots_stopped"]["low"]) == (0, 0)
+    assert 0 < found["found"]["high"] < 1
+    assert (found["robots"]["low"], found["robots"]["high"]) == (1, 1)
+    assert (found["false_alarms"]["low"], found["false_alarms"]["high"]) == (None, None)
+    few = summary(never, "--runs", "3")
+    for name, column in few.items():
+        if name != "head" and column["low"] is not None:
+            assert column["low"] <= column["mean"] <= column["high"]
+
+
+def test_quarantined_runs_count_as_the_worst_and_are_counted(tmp_path: Path) -> None:
+    crowded = tmp_path / "crowded.toml"
+    crowded.write_text(CROWDED)
+    found = summary(crowded, "--runs", "20")
+    assert found["head"] == {"runs": 20, "quarantined": 7}
+    runs = [row for row in ae.replicate(crowded, 20).to_pylist() if row["complete"] is not None]
+    assert len(runs) == 13
+    time_s = (sum(row["time_s"] for row in runs) + 7 * 5) / 20
+    assert found["time_s"]["mean"] == pytest.approx(time_s)
+    assert found["complete"]["mean"] == sum(row["complete"] for row in runs) / 20
+    assert found["merit"]["minimum"] == pytest.approx(-0.03 * 5 - 0.2 * 8 - 5)
+    assert [found[name]["runs"] for name in ("found", "missed", "merit")] == [20] * 3
+    assert [found[name]["runs"] for name in ("distance_m", "collisions")] == [13] * 2
+    answer = ae.study.run(Scenario.load(crowded), runs=20)
+    assert answer.results[0].time_s.value == pytest.approx(found["time_s"]["mean"])
+    assert answer.results[0].merit.value == pytest.approx(found["merit"]["mean"])
+    note = succeed("replicate", crowded, "--runs", "20").stderr
+    assert note.startswith("7 of 20 runs were quarantined (robots.rover: the run has no room for")
+
+
+def test_energy_without_a_battery_is_not_counted(tmp_path: Path) -> None:
+    crowded = tmp_path / "crowded.toml"
+    crowded.write_text(CROWDED.replace("count = 8", "count = 2"))
+    assert "not counted: no robot has a battery" in succeed("run", crowded).stdout
+    assert "not counted" in succeed("replicate", crowded, "--runs", "2").stdout
+    assert ae.run(crowded).energy_j is None
+    assert summary(crowded, "--runs", "2")["energy_j"]["mean"] is None
+    assert "not counted" not in succeed("run", "search").stdout
+
+
+def test_quarantined_runs_are_reported(tmp_path: Path) -> None:
     full = tmp_path / "full.toml"
     full.write_text(FULL)
     printed = json.loads(run("replicate", full, "--runs", "3", "--json").stdout)
-    assert {each["runs"] for each in printed["columns"]} == {0}
+    assert printed["quarantined"] == 3
     alone = run("run", full)
     assert alone.returncode == 0
     assert "run 0: quarantined" in alone.stdout

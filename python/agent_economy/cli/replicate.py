@@ -5,9 +5,8 @@ import json
 import os
 import time
 from collections.abc import Callable
-from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import pyarrow as pa
@@ -18,15 +17,15 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy import api, arrow
+from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.answer_table import WIDE
 from agent_economy.cli.errors import error_exits
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
+from agent_economy.cli.run_summary import Summary, quarantined, summarised
+from agent_economy.runs.quarantine import reason
 from agent_economy.scenario import Scenario
-from agent_economy.study.answer import estimate
-from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.store.folder import check_writable, write_whole
 
 WRITERS: dict[str, Callable[[pa.Table, io.BytesIO], None]] = {
@@ -41,10 +40,11 @@ PART_S = 1.0
 PER_THREAD = 4
 """Minimum number of runs per thread in a block: some take longer than others."""
 
+NOT_COUNTED = "not counted"
+"""The mean of a quantity that no robot has."""
+
 WHOLE = 1000
 """Numbers from here on are shown without a fraction."""
-
-Summary = list[dict[str, Any]]
 
 
 def replicate(  # noqa: PLR0913  (typer's options are arguments)
@@ -89,9 +89,12 @@ def replicate(  # noqa: PLR0913  (typer's options are arguments)
             buffer = io.BytesIO()
             writer(table, buffer)
             write_whole(out, buffer.getvalue())
-    summary = summarized(table)
+    summary, note = summarised(given, table), quarantine_note(given, seed, table)
+    if note:
+        typer.echo(note, err=True)
     if as_json:
         head = {"scenario": given.name, "seed": seed, "runs": count}
+        head |= {"quarantined": int(quarantined(table).sum())}
         typer.echo(json.dumps({**head, "columns": summary}, indent=2, allow_nan=False))
     else:
         show(f"{given.name}, seed {seed}, {count:,} runs", summary)
@@ -140,31 +143,16 @@ def watched(scenario: Scenario, count: int, seed: int, threads: int | None) -> p
     return pa.concat_tables(tables)
 
 
-def summarized(table: pa.Table) -> Summary:
-    """Return the mean of each column with its 95% interval; for a flag, the share."""
-    columns = [name for name in table.column_names if name != "run"]
-    return [{"column": name, **summary_of(table[name].drop_null())} for name in columns]
-
-
-def summary_of(values: pa.ChunkedArray) -> dict[str, Any]:
-    """Return the number of runs with a value, their mean, its interval, minimum and maximum."""
-    count = len(values)
-    if count == 0:
-        return dict.fromkeys(("mean", "low", "high", "minimum", "maximum")) | {"runs": 0}
-    if pa.types.is_boolean(values.type):
-        share = estimate.share(int(arrow.numbers(values).sum()), count)
-        return {"runs": count, **renamed(share), "minimum": None, "maximum": None}
-    numbers = arrow.numbers(values).astype(np.float64)
-    ends = {"minimum": float(numbers.min()), "maximum": float(numbers.max())}
-    if count == 1:
-        return {"runs": count, "mean": ends["minimum"], "low": None, "high": None, **ends}
-    return {"runs": count, **renamed(estimate.mean(numbers)), **ends}
-
-
-def renamed(interval: Interval) -> dict[str, float]:
-    """Return an interval with the names of a summary."""
-    given = asdict(interval)
-    return {"mean": given.pop("value"), **given}
+def quarantine_note(scenario: Scenario, seed: int, table: pa.Table) -> str:
+    """Return how many runs were quarantined, why the first was, and how they count."""
+    runs = np.flatnonzero(quarantined(table))
+    if not len(runs):
+        return ""
+    return (
+        f"{len(runs):,} of {table.num_rows:,} runs were quarantined "
+        f"({reason(scenario, seed, int(runs[0]))}). They count as the worst possible in time, "
+        "completion, found and missed items and merit; other means leave them out."
+    )
 
 
 def show(title: str, summary: Summary) -> None:
@@ -177,7 +165,8 @@ def show(title: str, summary: Summary) -> None:
         low, high = row["low"], row["high"]
         interval = "" if low is None else f"{cell(low)} .. {cell(high)}"
         ends = [cell(row["minimum"]), cell(row["maximum"])]
-        table.add_row(row["column"], f"{row['runs']:,}", cell(row["mean"]), interval, *ends)
+        mean = NOT_COUNTED if row["column"] == "energy_j" and not row["runs"] else cell(row["mean"])
+        table.add_row(row["column"], f"{row['runs']:,}", mean, interval, *ends)
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = WIDE
@@ -188,4 +177,4 @@ def cell(value: float | None) -> str:
     """Return a number with a readable number of digits."""
     if value is None:
         return ""
-    return f"{value:,.0f}" if abs(value) >= WHOLE else f"{value:.4g}"
+    return f"{value:,.0f}" if abs(value) >= WHOLE else f"{value + 0.0:.4g}"

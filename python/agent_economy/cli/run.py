@@ -150,7 +150,7 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
     rows: dict[str, str | None] = {
         **found,
         "time": f"{outcome.time_s:.1f} s of {scenario.time_limit_s:g} s",
-        "energy": number(outcome.energy_j, "J"),
+        "energy": energy(outcome),
         "distance": number(outcome.distance_m, "m"),
         "collisions": number(outcome.collisions),
         "false alarms": number(outcome.false_alarms),
@@ -160,6 +160,13 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
         "merit": None if outcome.merit is None else f"{outcome.merit:.3f}",
     }
     return [(name, text) for name, text in rows.items() if text is not None]
+
+
+def energy(outcome: Outcome) -> str | None:
+    """Return the energy that was used; None if the engine has none."""
+    if outcome.energy_j is None and "energy_j" in outcome.row:
+        return "not counted: no robot has a battery"
+    return number(outcome.energy_j, "J")
 
 
 def counts(outcome: Outcome, kind: str) -> str:

@@ -39,7 +39,7 @@ class Outcome:
         false_alarms: Reported finds without an item.
         collisions: New contacts between two robots, or of a robot with an obstacle; in the classic
             engine, decisions of robots on shared cells.
-        energy_j: Energy used by all robots.
+        energy_j: Energy used by all robots; None if no robot has a battery.
         distance_m: Distance travelled by all robots.
         robots_stopped: Robots that stopped because they were empty or broken.
         row: The complete outcome by column, as in `replicate`.
@@ -82,15 +82,21 @@ def outcome_of(
 def table(
     columns: Columns, values: Mapping[str, NDArray[np.float64]], merit: Merit, first_run: int
 ) -> pa.Table:
-    """Return outcomes as a table, with null for values that are not finite."""
+    """Return outcomes as a table, with null for values that are not finite, or not counted."""
     time_s, failed = (values[name] for name in COMMON)
     others = [(name, kind) for name, kind, _, _ in columns if name not in COMMON]
+    # Energy is taken from batteries. Without any, it is not known to be 0.
+    nothing = np.full(len(time_s), np.nan)
+    are_counted = {name: name != "energy_j" or high != 0 for name, _, _, high in columns}
     return arrow.table(
         {
             "run": first_run + np.arange(len(time_s), dtype=np.int64),
             "time_s": as_array(time_s, "real"),
             "complete": as_array(1 - failed, "flag"),
-            **{name: as_array(values[name], kind) for name, kind in others},
+            **{
+                name: as_array(values[name] if are_counted[name] else nothing, kind)
+                for name, kind in others
+            },
             "merit": as_array(merit.score(values), "real"),
         }
     )

@@ -107,7 +107,7 @@ export interface Result {
   label: string;
   runs: number;
   merit: Interval;
-  verdict: "best" | "tied" | "not better" | "undecided" | "worse";
+  verdict: "best" | "tied" | "not better" | "undecided" | "worse" | "impossible";
   eliminated: boolean;
 }
 

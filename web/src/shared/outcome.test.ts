@@ -23,6 +23,10 @@ test("found is given out of all, and the terms of the merit come first, with uni
   ]);
 });
 
+test("energy without a battery is not counted, rather than nothing", () => {
+  expect(outcomeRows({ energy_j: null }, 4)).toEqual([{ name: "energy", value: "not counted", unit: "" }]);
+});
+
 test("unknown values are left out, and text is unchanged", () => {
   expect(outcomeRows({ merit: null, status: "running" }, 4)).toEqual([
     { name: "status", value: "running", unit: "" },

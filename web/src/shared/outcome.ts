@@ -37,6 +37,7 @@ export function named(column: string): { words: string; unit: string } {
 }
 
 function row(name: string, value: Outcome[string] | undefined): OutcomeRow[] {
+  if (name === "energy_j" && value === null) return [{ name: "energy", value: "not counted", unit: "" }];
   if (value === null || value === undefined || typeof value === "object") return [];
   const { words, unit } = named(name);
   if (typeof value !== "number") return [{ name: words, value: String(value), unit: "" }];
