@@ -93,8 +93,11 @@ def study(
         blocks[index].append(columns)
         return columns["merit"]
 
-    def sample(indices: NDArray[np.int64], first_run: int, count: int) -> Floats:
-        return np.stack([block(index, first_run, count) for index in indices.tolist()])
+    def sample(
+        indices: NDArray[np.int64], first_run: int, count: int
+    ) -> tuple[Floats, NDArray[np.int64]]:
+        merits = np.stack([block(index, first_run, count) for index in indices.tolist()])
+        return merits, np.zeros(len(merits), dtype=np.int64)
 
     teams = [float(simulator(each, 0, 1)["robots"][0]) for each in configurations]
     bounds = np.array([limits(robots)["merit"] for robots in teams])
@@ -133,7 +136,7 @@ def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
     return Answer(
         scenario=scenario,
         seed=0,
-        sentence=sentence(scenario, delta, ending.best, found),
+        sentence=sentence(scenario, delta, ending, found, has_prices=False),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,
         delta=delta,

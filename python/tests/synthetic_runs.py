@@ -5,15 +5,15 @@ import os
 import resource
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from multiprocessing.queues import Queue
 from pathlib import Path
 
 import numpy as np
 
 from agent_economy import InputError
-from agent_economy.study.run_block import Columns, RunBlock
-from agent_economy.study.store import Column, Store
+from agent_economy.study.run_block import Columns, Part, Partwise, RunBlock
+from agent_economy.study.store import Column, Store, staging
 from agent_economy.study.store.ledger import Ledger
 
 COLUMNS = (Column("time_s", "real"), Column("failed", "flag"), Column("paints", "whole"))
@@ -96,8 +96,34 @@ def write_study(folder: Path, boundaries: int = 8) -> None:
             store.note(number, {"survivors": list(block.configurations)})
 
 
+def write_in_parts(folder: Path) -> None:
+    """Compute a study of three blocks, each in parts."""
+
+    def parts(block: RunBlock) -> Generator[Part]:
+        for run in range(block.first_run, block.end, 4):
+            part = RunBlock(block.configurations, run, min(4, block.end - run))
+            yield part, outcomes(part)
+
+    with Store.open(folder, "seed = 1\n", COLUMNS) as store:
+        for block in requested(3):
+            assert same(store.block(block, Partwise(parts)), outcomes(block))
+
+
+def write_in_parts_and_die(folder: Path, calls: int) -> None:
+    """Compute a study in parts, staged at once, killed at the nth call that touches the disk."""
+    staging.STAGE_S = 0.0
+    die_at_call(calls)
+    write_in_parts(folder)
+
+
 def write_and_die(folder: Path, calls: int) -> None:
     """Compute a study, killed at the nth call that touches the disk."""
+    die_at_call(calls)
+    write_study(folder, 3)
+
+
+def die_at_call(calls: int) -> None:
+    """Kill this process at the nth call that touches the disk."""
     left = itertools.count(calls, -1)
 
     def before(work: Callable[..., object]) -> Callable[..., object]:
@@ -111,8 +137,8 @@ def write_and_die(folder: Path, calls: int) -> None:
     for name in ("open", "write", "fsync", "replace", "mkdir", "close"):
         setattr(os, name, before(getattr(os, name)))
     Ledger.enter = before(Ledger.enter)  # type: ignore[method-assign, assignment]
-    Path.replace = before(Path.replace)  # type: ignore[method-assign, assignment]
-    write_study(folder, 3)
+    for name in ("replace", "unlink"):
+        setattr(Path, name, before(getattr(Path, name)))
 
 
 def write_on_a_small_disk(folder: Path, max_bytes: int, answer: "Queue[str]") -> None:

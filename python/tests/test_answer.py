@@ -1,18 +1,22 @@
 """Answers: verdicts, dominance, saturation, sensitivity and predicted efforts."""
 
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
 
 import in_memory_study
 import numpy as np
 import pytest
 
-from agent_economy.study.answer.effort import efforts
+from agent_economy.study.answer import sensitivity as sensitivity_module
+from agent_economy.study.answer.effort import Effort, efforts
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.front import front
 from agent_economy.study.answer.labels import label, recommendation
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
-from agent_economy.study.answer.ties import Verdict, standings
+from agent_economy.study.answer.side_statements import SideStatements
+from agent_economy.study.answer.ties import Standing, Verdict, standings
 
 TEAM = "robots.rover.count"
 UNIT = (0.0, 1.0)
@@ -141,6 +145,74 @@ def test_a_factor_without_effect_has_no_influence() -> None:
     assert weak.first_order < 0.1
     assert sensitivity(evidence(*samples)) == found
     assert found.noise < 0.02
+
+
+@pytest.mark.parametrize("rows", range(1, 13))
+def test_the_influence_of_factors_is_finite_or_left_out_with_a_reason(
+    rows: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sensitivity_module, "RESAMPLES", 2)
+    rng = np.random.default_rng(rows)
+    for columns in range(1, 13):
+        samples = []
+        for size in range(rows):
+            for limit_s in range(columns):
+                merits = 0.1 * size + 0.05 * limit_s + rng.random(10)
+                values = {TEAM: size, "clock.ends_step": limit_s}
+                samples.append(Sample(values, {"merit": merits}, {}, 0))
+        side = SideStatements()
+        found = side.make("sensitivity", partial(sensitivity, evidence(*samples)))
+        if found is None and rows > 1 < columns and rows * columns >= 30:
+            (omission,) = side.omissions
+            assert omission.statement == "sensitivity"
+            assert omission.reason.startswith(f"{rows * columns} configurations are too few")
+        else:
+            assert not side.omissions
+        shares = [(each.first_order, each.total) for each in found.influences] if found else []
+        assert np.isfinite(shares).all()
+
+
+def test_a_side_statement_that_fails_or_is_not_strict_json_is_left_out_with_its_reason() -> None:
+    side = SideStatements()
+    assert side.make("efforts", lambda: (Effort(0.1, 20),)) == (Effort(0.1, 20),)
+    assert side.make("efforts", lambda: (Effort(float("nan"), 20),)) is None
+    assert side.make("saturations", lambda: 1 / 0) is None
+    first, second = side.omissions
+    assert first.statement == "efforts"
+    assert "not JSON compliant" in first.reason
+    assert (second.statement, second.reason) == (
+        "saturations",
+        "ZeroDivisionError: division by zero",
+    )
+
+
+def test_the_price_decides_who_dominates_and_not_the_number_of_robots() -> None:
+    few = sample(0.5, 3000, time_s=0.2, failed=0.1, robots=1.0)
+    many = sample(0.5, 3000, time_s=0.6, failed=0.4, robots=2.0)
+    priced = [
+        replace(each, columns={**each.columns, "price": np.full(each.runs, price)})
+        for each, price in ((few, 900.0), (many, 30.5))
+    ]
+    assert [place.price for place in front(evidence(*priced))] == [900.0, 30.5]
+    assert [place.dominated_by for place in front(evidence(*priced))] == [None, None]
+    # Without prices, robots count.
+    free = [
+        replace(each, columns={**each.columns, "price": np.zeros(3000)}) for each in (few, many)
+    ]
+    assert [place.price for place in front(evidence(*free))] == [1.0, 2.0]
+    assert [place.dominated_by for place in front(evidence(*free))] == [None, 0]
+
+
+def test_a_configuration_that_cannot_be_run_has_no_standing_and_no_part_in_other_statements() -> (
+    None
+):
+    possible = [sample(0.5, 300, {TEAM: size}) for size in (1, 2)]
+    impossible = replace(sample(0.0, 10, {TEAM: 3}), quarantined=10)
+    seen = evidence(*possible, impossible)
+    assert standings(seen, 0, 0.1)[2] == Standing(None, "impossible")
+    assert saturations(seen, 0, 0.1)[0].sizes == (1, 2)
+    assert efforts(seen, 0, 0.1)
+    assert efforts(evidence(impossible, possible[0]), 1, 0.1) == ()
 
 
 def test_labels_of_configurations_read_naturally() -> None:

@@ -120,6 +120,40 @@ def test_a_run_without_a_finite_merit_counts_as_the_worst_and_is_counted() -> No
     assert found.quarantined[0] == 0 < found.quarantined[2] < found.runs[2]
 
 
+@pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
+@pytest.mark.parametrize("common", [True, False])
+def test_a_configuration_without_a_finite_merit_is_never_selected(
+    guarantee: Any,
+    common: Any,
+) -> None:
+    def sample(configurations: Integers, _: int, runs: int) -> Floats:
+        merits: Floats = np.full((len(configurations), runs), 0.5)
+        merits[configurations == 1] = np.nan
+        return merits
+
+    # The worst merit of configuration 1 is above the best of the others.
+    found = select_best(
+        sample,
+        3,
+        bounds=[(0, 1), (5, 6), (0, 1)],
+        delta=0.1,
+        guarantee=guarantee,
+        common_random_numbers=common,
+    )
+    assert found.best in {0, 2}
+    assert 1 not in found.survivors
+    assert (found.runs[1], found.quarantined[1]) == (10, 10)
+    assert all(each.by != 1 for each in found.eliminations)
+
+
+def test_a_sampler_without_any_finite_merit_selects_nothing() -> None:
+    def sample(configurations: Integers, _: int, runs: int) -> Floats:
+        return np.full((len(configurations), runs), np.nan)
+
+    with pytest.raises(InputError, match="first 10 runs of every configuration are quarantined"):
+        select_best(sample, 3, bounds=(0, 1), delta=0.1)
+
+
 def test_decisive_bounds_need_the_first_round_only() -> None:
     zeros = bernoulli([0, 0, 0])
 

@@ -473,3 +473,35 @@ def test_a_partly_created_ledger_is_created_again(tmp_path: Path) -> None:
     ledger = Ledger.read(tmp_path / "ledger.sqlite")
     assert len(ledger.block_files()) == 1
     ledger.close()
+
+
+ODD_NAMES = [
+    "night[1]",
+    "star*",
+    "q?",
+    "~",
+    "[!a]",
+    "k=v",
+    "it's",
+    'a"b',
+    "back\\slash",
+    "%20",
+    "é",
+]
+
+
+@pytest.mark.parametrize("name", [*ODD_NAMES, os.fsdecode(b"caf\xe9")])
+def test_a_folder_of_any_name_has_its_own_runs_only(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for sibling in ("night1", "starX", "qA", "b", "v"):
+        with opened(tmp_path / sibling) as store:
+            store.block(RunBlock((1,), 0, 7), outcomes)
+    with opened(tmp_path / name) as store:
+        store.block(AREA, outcomes)
+    monkeypatch.chdir(tmp_path)
+    for folder in (Path(name), tmp_path / name):
+        runs = read(folder).runs()
+        assert runs.columns == ["configuration", "run", *outcomes(AREA), "quarantined"]
+        found = runs.project("configuration, run").order("configuration, run").fetchall()
+        assert found == [(each, run) for each in (0, 3, 7) for run in range(10, 50)]

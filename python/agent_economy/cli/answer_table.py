@@ -60,19 +60,22 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
         box=box.SIMPLE_HEAD,
     )
     table.add_column("configuration", overflow="fold", min_width=NAME)
-    for name in ("runs", "time, s", "failed", "merit", "behind", ""):
+    has_quarantined = any(result.quarantined for result in answer.results)
+    names = ["runs", "quarantined"] if has_quarantined else ["runs"]
+    for name in (*names, "time, s", "failed", "merit", "behind", ""):
         table.add_column(name, justify="right", no_wrap=True)
     for result in shown:
-        is_best = result is answer.results[answer.best]
+        counts = [result.runs, result.quarantined][: len(names)]
+        is_possible = result.standing.verdict != "impossible"
         table.add_row(
             Text(result.label),
-            f"{result.runs:,}",
-            cell(result.time_s, ".1f"),
-            cell(result.failed, ".2%"),
-            cell(result.merit, ".2f"),
-            f"{result.standing.behind.value:.3f}" if result.standing.behind else "",
+            *(f"{count:,}" for count in counts),
+            cell(result.time_s, "z.1f") if is_possible else "",
+            cell(result.failed, "z.2%") if is_possible else "",
+            cell(result.merit, "z.2f") if is_possible else "",
+            f"{result.standing.behind.value:z.3f}" if result.standing.behind else "",
             result.standing.verdict,
-            style="bold" if is_best else None,
+            style="bold" if result is answer.results[answer.best] else None,
         )
     return table
 
@@ -83,4 +86,8 @@ def best_first(answer: Answer) -> list[Result]:
         return list(answer.results)
     chosen = answer.results[answer.best]
     others = [result for result in answer.results if result is not chosen]
-    return [chosen, *sorted(others, key=lambda result: -result.merit.value)]
+
+    def rank(result: Result) -> tuple[bool, float]:
+        return result.standing.verdict == "impossible", -result.merit.value
+
+    return [chosen, *sorted(others, key=rank)]

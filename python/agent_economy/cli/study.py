@@ -225,7 +225,8 @@ def compute_answer(
     except KeyboardInterrupt:
         is_stored = (folder / "study.toml").exists()
         advice = f"; all are stored. Resume with: agent-economy study --resume {folder}"
-        typer.echo(f"\nStopped after {display.runs:,} runs{advice if is_stored else '.'}", err=True)
+        count = studies.open(folder).count() if is_stored else 0
+        typer.echo(f"\nStopped after {count:,} runs{advice if is_stored else '.'}", err=True)
         raise typer.Exit(INTERRUPTED) from None
 
 

@@ -22,12 +22,11 @@ MAX_NAMED = 3
 
 
 class ProgressDisplay:
-    """Prints progress on standard error, and keeps the run count for when the study is stopped."""
+    """Prints progress on standard error."""
 
     def __init__(self, names: Sequence[str]) -> None:
-        """Start at no runs; `names` are the labels of the configurations."""
+        """Start; `names` are the labels of the configurations."""
         self.names = names
-        self.runs = 0
         self._left: float | None = None
         self._estimated_at = -math.inf
 
@@ -37,12 +36,7 @@ class ProgressDisplay:
         console = Console(stderr=True)
         show = self._table if console.is_terminal else self._lines
         with show(console) as on_progress:
-
-            def remember(progress: Progress) -> None:
-                self.runs = progress.runs
-                on_progress(progress)
-
-            yield remember
+            yield on_progress
 
     @contextmanager
     def _table(self, console: Console) -> Iterator[OnProgress]:

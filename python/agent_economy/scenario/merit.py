@@ -28,7 +28,8 @@ class Term:
 
     def score(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return what each value adds; NaN for NaN."""
-        return self.weight * (values if self.max is None else np.minimum(values, self.max))
+        # A negative weight of nothing is nothing, not -0.0.
+        return self.weight * (values if self.max is None else np.minimum(values, self.max)) + 0.0
 
     def bounds(self, least: float | None, greatest: float | None) -> tuple[float, float]:
         """Return the minimum and maximum contribution of values within bounds."""

@@ -53,8 +53,9 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             no guarantee. None for no limit.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
         out: Folder of the study; None stores nothing.
-        compute: Computes blocks of runs, such as `Workers.columns`; None for threads of this
-            process.
+        compute: Computes blocks of runs, always the same for the same block. `Workers.columns`
+            computes them on several workers; any other function is called for about half a second
+            of runs at a time. None for threads of this process.
         on_progress: Called after each round, and about every second during a long one.
 
     Raises:
@@ -179,11 +180,8 @@ def load_plan(folder: str | Path) -> Plan:
 def refuse(folder: str | Path) -> Compute:
     """Return a `compute` for finished studies: it raises an error if runs are missing."""
 
-    def compute(block: RunBlock) -> Any:
-        message = (
-            f"{folder}: is not finished ({block} are missing): resume it with "
-            f"agent-economy study --resume {folder}"
-        )
+    def compute(_: RunBlock) -> Any:
+        message = f"{folder}: is not finished: resume it with agent-economy study --resume {folder}"
         raise InputError(message)
 
     return compute

@@ -12,3 +12,7 @@ class StoreError(StudyError, InputError):
 
     It is also an `InputError`, so that callers can catch all errors of a folder as one type.
     """
+
+
+class NoConfigurationError(InputError):
+    """No configuration of a study can be run, so nothing can be selected."""

@@ -41,10 +41,12 @@ def as_json(answer: Answer) -> str:
 
 
 def as_dict(answer: Answer) -> dict[str, Any]:
-    """Return an answer as JSON values."""
+    """Return an answer as JSON values; `omissions` only if there are any."""
     values = asdict(answer)
     scenario = values.pop("scenario")
     del scenario["source"]
+    if not answer.omissions:
+        del values["omissions"]
     results = [
         {"configuration": index, **result} for index, result in enumerate(values.pop("results"))
     ]

@@ -6,12 +6,14 @@ not, and repeating a finished study computes nothing.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from pathlib import Path
 
 import numpy as np
 
 from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.runs import quarantine
 from agent_economy.scenario.validation import check
 from agent_economy.study.answer.conclude import Answer, conclude
 from agent_economy.study.answer.effort import remaining_runs
@@ -19,14 +21,15 @@ from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
+from agent_economy.study.errors import NoConfigurationError
 from agent_economy.study.plan import Plan, digest, is_same_data
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress
-from agent_economy.study.run_block import Compute, RunBlock
+from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import Elimination, Integers, drive, guarantee_text, within
 from agent_economy.study.store import Store, StoredRuns
 
-REPORTED = ("time_s", "failed", "robots")
-"""Columns that an answer uses besides the merit."""
+REPORTED = ("time_s", "failed", "robots", "price")
+"""Columns that an answer uses besides the merit, of those that the simulator has."""
 
 LEADERS = 10
 """Leaders in a progress report."""
@@ -92,65 +95,100 @@ class Race:
         """Start without runs."""
         self._plan = plan
         self._store = store
-        self._compute = compute or in_chunks(plan.engine, self._on_chunk)
+        source = compute or plan.engine
+        self._source = source if isinstance(source, Partwise) else in_chunks(source)
+        self._compute = Partwise(self._parts)
         self._on_progress = on_progress
         self._start = self._reported_at = time.monotonic()
         self._procedure = procedure_of(plan)
-        self._rounds = self._computed = self._pending = 0
+        self._rounds = 0
         self._eliminated: set[int] = set()
         count = len(plan.configurations)
         self._limits = [plan.engine.limits(index) for index in range(count)]
         self._columns: list[dict[str, list[Floats]]] = [
-            {name: [] for name in ("merit", *REPORTED)} for _ in range(count)
+            {name: [] for name in ("merit", *REPORTED) if name in {"merit", *self._limits[0]}}
+            for _ in range(count)
         ]
+        self._runs = np.zeros(count, dtype=np.int64)
         self._sums = np.zeros(count)
         self._quarantined = np.zeros(count, dtype=np.int64)
 
     def run(self) -> tuple[Evidence, Ending]:
-        """Run it to its end."""
+        """Run it to its end.
+
+        Raises:
+            InputError: If no configuration can be run.
+        """
+        try:
+            self._rounds_until_over()
+        except NoConfigurationError as error:
+            why = quarantine.reason(self._plan.alone(0), self._plan.seed, 0)
+            message = f"no configuration can be run: {error} ({why})"
+            raise InputError(message) from None
+        return self.evidence(), self._ending()
+
+    def _rounds_until_over(self) -> None:
         procedure = self._procedure
         for number, _ in enumerate(drive(procedure, self._merits, self._plan.max_runs)):
             self._rounds = number + 1
-            self._computed, self._pending = self._store.computed, 0
+            self._store.pending = 0
             progress = self._progress()
             self._store.note(number, progress.facts())
             self._report(progress)
+
+    def _ending(self) -> Ending:
+        procedure = self._procedure
         eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
         is_over = self._plan.runs is None and procedure.next() is None
-        guarantee = plan_guarantee(self._plan, procedure)
-        return self.evidence(), Ending(procedure.best, eliminations, guarantee, is_over)
+        impossible = np.flatnonzero(self._quarantined == self._runs).tolist()
+        why = ""
+        if impossible:
+            why = quarantine.reason(self._plan.alone(impossible[0]), self._plan.seed, 0)
+        return Ending(
+            procedure.best,
+            eliminations,
+            plan_guarantee(self._plan, procedure, len(impossible)),
+            is_over,
+            why,
+        )
 
     def _report(self, progress: Progress) -> None:
         if self._on_progress:
             self._reported_at = time.monotonic()
             self._on_progress(progress)
 
-    def _on_chunk(self, rows: int) -> None:
-        self._pending = self._store.computed - self._computed + rows
-        if time.monotonic() - self._reported_at > ROUND_S:
-            self._report(self._progress())
+    def _parts(self, block: RunBlock) -> Generator[Part]:
+        """Yield the parts of a block, and report progress after each."""
+        for part in self._source.parts(block):
+            yield part
+            if time.monotonic() - self._reported_at > ROUND_S:
+                self._report(self._progress())
 
     def evidence(self) -> Evidence:
         """Return the runs until now."""
         samples = [self._sample(index) for index in range(len(self._columns))]
         return Evidence(tuple(samples), self._plan.confidence)
 
-    def _merits(self, configurations: Integers, first_run: int, runs: int) -> Floats:
+    def _merits(
+        self, configurations: Integers, first_run: int, runs: int
+    ) -> tuple[Floats, Integers]:
         block = RunBlock(tuple(configurations.tolist()), first_run, runs)
         columns = self._store.block(block, self._compute)
         scored = self._plan.scenario.merit.score(columns)
         merits, quarantined = within(self._plan.limits, configurations, scored)
         self._quarantined[configurations] += quarantined
+        self._runs[configurations] += runs
         for row, configuration in enumerate(block.configurations):
             limits = self._limits[configuration]
-            for name in REPORTED:
+            for name, parts in self._columns[configuration].items():
+                if name == "merit":
+                    parts.append(merits[row])
+                    continue
                 # A quarantined run counts as the worst possible: late, failed, and with its cost.
                 values = columns[name][row]
-                known = np.where(np.isnan(values), limits[name][1], values)
-                self._columns[configuration][name].append(known)
-            self._columns[configuration]["merit"].append(merits[row])
+                parts.append(np.where(np.isnan(values), limits[name][1], values))
             self._sums[configuration] += merits[row].sum()
-        return merits
+        return merits, quarantined
 
     def _sample(self, index: int) -> Sample:
         lowest, highest = self._plan.limits[index].tolist()
@@ -166,7 +204,6 @@ class Race:
 
     def _progress(self) -> Progress:
         procedure = self._procedure
-        runs = procedure.runs
         survivors = procedure.survivors
         best = self._best()
         eliminated = tuple(Elimination(*each) for each in procedure.eliminations)
@@ -174,8 +211,8 @@ class Race:
         self._eliminated = {each.configuration for each in eliminated}
         return Progress(
             round=self._rounds,
-            runs=int(runs.sum()) + self._pending,
-            computed=self._computed + self._pending,
+            runs=int(self._runs.sum()) + self._store.pending,
+            computed=self._store.computed,
             seconds=time.monotonic() - self._start,
             survivors=len(survivors),
             leaders=best[:LEADERS],
@@ -187,7 +224,7 @@ class Race:
 
     def _best(self) -> tuple[Leader, ...]:
         """Return the remaining configurations that have runs, the best first."""
-        runs, survivors = self._procedure.runs, self._procedure.survivors
+        runs, survivors = self._runs, self._procedure.survivors
         sampled = survivors[runs[survivors] > 0]
         means = self._sums[sampled] / runs[sampled]
         order = np.argsort(-means, kind="stable")
@@ -205,12 +242,12 @@ class Race:
         if request is None or max_runs is None:
             return request is None
         configurations, _, runs = request
-        return bool(procedure.runs.sum() + len(configurations) * runs > max_runs)
+        return bool(self._runs.sum() + len(configurations) * runs > max_runs)
 
     def _estimate_remaining(self) -> float | None:
         plan, procedure = self._plan, self._procedure
         if plan.runs is not None:
-            missing = float(plan.runs * len(plan.configurations) - procedure.runs.sum())
+            missing = float(plan.runs * len(procedure.survivors) - procedure.runs.sum())
         elif self._rounds:
             survivors = procedure.survivors.tolist()
             evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
@@ -218,7 +255,7 @@ class Race:
             missing = remaining_runs(evidence, survivors.index(procedure.best), plan.delta, rivals)
         else:
             return None
-        return max(0.0, missing - self._pending)
+        return max(0.0, missing - self._store.pending)
 
 
 def procedure_of(plan: Plan) -> _core.Procedure:
@@ -233,13 +270,20 @@ def procedure_of(plan: Plan) -> _core.Procedure:
     return _core.equal_allocation(len(plan.configurations), plan.runs)
 
 
-def plan_guarantee(plan: Plan, procedure: _core.Procedure) -> str:
-    """Return the guarantee of an answer in words."""
+def plan_guarantee(plan: Plan, procedure: _core.Procedure, impossible: int) -> str:
+    """Return the guarantee of an answer in words, with the number of impossible configurations."""
     if len(plan.configurations) == 1:
         return "There is only one configuration, so nothing was selected; the intervals are valid."
+    if len(plan.configurations) - impossible == 1:
+        return (
+            "Only one configuration can be run, so nothing was selected; the intervals are valid."
+        )
     if plan.runs is None:
-        return guarantee_text(procedure, plan.delta, plan.confidence, plan.guarantee)
-    return (
-        "The selection carries no guarantee, because the number of runs was fixed beforehand; the "
-        "intervals are valid."
-    )
+        guarantee = guarantee_text(procedure, plan.delta, plan.confidence, plan.guarantee)
+    else:
+        guarantee = (
+            "The selection carries no guarantee, because the number of runs was fixed beforehand; "
+            "the intervals are valid."
+        )
+    left_out = " Configurations that cannot be run were not compared." if impossible else ""
+    return guarantee + left_out

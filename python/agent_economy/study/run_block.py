@@ -1,9 +1,9 @@
 """Blocks of runs: consecutive runs of some configurations."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,6 +57,106 @@ class RunBlock:
 
 Compute: TypeAlias = Callable[[RunBlock], Columns]
 """Computes the outcomes of a block of runs; always the same for the same block."""
+
+Part: TypeAlias = tuple[RunBlock, Columns]
+"""A part of a block, and its outcomes."""
+
+
+@dataclass(frozen=True)
+class Partwise:
+    """A `Compute` that passes on each part of a block as soon as it is finished.
+
+    Attributes:
+        parts: Yields parts of a block, in any order; together they are the block.
+    """
+
+    parts: Callable[[RunBlock], Generator[Part]]
+
+    def __call__(self, block: RunBlock) -> Columns:
+        """Return the outcomes of a whole block."""
+        gathered = Gathered(block)
+        for part, columns in self.parts(block):
+            gathered.put(part, columns)
+        return gathered.columns
+
+
+def parts_of(compute: Compute, block: RunBlock) -> Generator[Part]:
+    """Yield the parts of a block as they are finished; without `Partwise`, the block is one."""
+    if isinstance(compute, Partwise):
+        yield from compute.parts(block)
+    else:
+        yield block, compute(block)
+
+
+class Gathered:
+    """Outcomes of a block, gathered from parts.
+
+    Attributes:
+        block: The block.
+        columns: Every column, shape of the block; undefined where runs are missing.
+    """
+
+    def __init__(self, block: RunBlock) -> None:
+        """Start without outcomes."""
+        self.block = block
+        self.columns: Columns = {}
+        self._rows = {each: row for row, each in enumerate(block.configurations)}
+        self._known = np.zeros(block.shape, dtype=np.bool_)
+
+    @property
+    def rows(self) -> int:
+        """Number of runs that are known."""
+        return int(self._known.sum())
+
+    def put(
+        self, part: RunBlock, data: Columns, configurations: Sequence[int] | None = None
+    ) -> None:
+        """Add the outcomes of a part, of all its configurations or of some."""
+        if part == self.block and configurations is None:
+            self.columns = dict(data)
+            self._known[:] = True
+            return
+        wanted = part.configurations if configurations is None else configurations
+        rows = {each: row for row, each in enumerate(part.configurations)}
+        source = span([rows[each] for each in wanted])
+        first = part.first_run - self.block.first_run
+        self._fill(
+            (span([self._rows[each] for each in wanted]), slice(first, first + part.runs)),
+            {name: values[source] for name, values in data.items()},
+        )
+
+    def put_runs(
+        self, configurations: NDArray[np.int64], runs: NDArray[np.int64], data: Columns
+    ) -> None:
+        """Add the outcomes of single runs of the block, each array of shape (runs,)."""
+        rows = np.array([self._rows[each] for each in configurations.tolist()], dtype=np.int64)
+        self._fill((rows, runs - self.block.first_run), data)
+
+    def _fill(self, places: Any, data: Columns) -> None:
+        if not self.columns:
+            self.columns = {name: np.empty(self.block.shape) for name in data}
+        if data.keys() != self.columns.keys():
+            message = f"columns {', '.join(data)} differ from those of other parts"
+            raise ValueError(message)
+        for name, values in data.items():
+            self.columns[name][places] = values
+        self._known[places] = True
+
+    def missing(self) -> Iterator[RunBlock]:
+        """Yield the missing runs as blocks."""
+        differs = (self._known[1:] != self._known[:-1]).any(axis=1)
+        starts = [0, *(np.flatnonzero(differs) + 1).tolist(), len(self._known)]
+        for first_row, end_row in pairwise(starts):
+            configurations = self.block.configurations[first_row:end_row]
+            ends = np.flatnonzero(np.diff(self._known[first_row], prepend=True, append=True))
+            for first, end in ends.reshape(-1, 2).tolist():
+                yield RunBlock(configurations, self.block.first_run + first, end - first)
+
+
+def span(rows: list[int]) -> slice | list[int]:
+    """Return rows as a slice if they are consecutive: numpy copies it several times faster."""
+    first, end = rows[0], rows[0] + len(rows)
+    return slice(first, end) if rows == list(range(first, end)) else rows
 
 
 def spans(numbers: Iterable[int]) -> str:

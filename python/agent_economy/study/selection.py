@@ -15,6 +15,7 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario.validation import check
 from agent_economy.study.arguments import Floats, Guarantee, checked_arguments
+from agent_economy.study.errors import NoConfigurationError
 
 Integers = NDArray[np.int64]
 Sampler = Callable[[Integers, int, int], ArrayLike]
@@ -101,11 +102,12 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
         max_runs: Run budget of all configurations together; None for no limit.
 
     Returns:
-        The selection; if the run budget was reached first, the leader without a guarantee.
+        The selection; if the run budget was reached first, the leader without a guarantee. A
+        configuration whose first ten runs are all quarantined is excluded, and never selected.
 
     Raises:
         InputError: If an argument is invalid (it lists all errors), or if the sampler returns
-            another shape, or a merit outside of `bounds`.
+            another shape, a merit outside of `bounds`, or no finite merit.
     """
     check(callable(sampler), "sampler", sampler, SAMPLER)
     limits = checked_arguments(k, bounds, delta, confidence, guarantee, seed, max_runs)
@@ -129,17 +131,35 @@ class Round:
 
 def drive(
     procedure: _core.Procedure,
-    sample: Callable[[Integers, int, int], Floats],
+    sample: Callable[[Integers, int, int], tuple[Floats, Integers]],
     max_runs: int | None = None,
 ) -> Iterator[Round]:
-    """Compute what a procedure requests until it has selected, or would exceed `max_runs`."""
+    """Compute what a procedure requests until it has selected, or would exceed `max_runs`.
+
+    Configurations whose first runs are all quarantined are excluded: they are not selected.
+
+    Args:
+        procedure: Requests the runs.
+        sample: Returns their merits, and the number of quarantined ones per configuration.
+        max_runs: Run budget.
+
+    Raises:
+        NoConfigurationError: If no configuration is left.
+    """
     total = 0
     while request := procedure.next():
         configurations, first_run, runs = request
         total += len(configurations) * runs
         if max_runs is not None and total > max_runs:
             return
-        merits = sample(configurations, first_run, runs)
+        merits, quarantined = sample(configurations, first_run, runs)
+        impossible = (quarantined == runs) & (first_run == 0)
+        if impossible.all():
+            message = f"all of the first {runs} runs of every configuration are quarantined"
+            raise NoConfigurationError(message)
+        if impossible.any():
+            procedure.exclude(configurations[impossible].tolist())
+            configurations, merits = configurations[~impossible], merits[~impossible]
         procedure.record(merits)
         yield Round(configurations, first_run, runs, merits)
 
@@ -155,13 +175,17 @@ class Samples:
         self._merits: list[list[Floats]] = [[] for _ in limits]
         self._quarantined = np.zeros(len(limits), dtype=np.int64)
 
-    def shared(self, configurations: Integers, first_run: int, runs: int) -> Floats:
+    def shared(
+        self, configurations: Integers, first_run: int, runs: int
+    ) -> tuple[Floats, Integers]:
         """Return merits of the same run numbers for all configurations."""
         # A copy, because samplers may modify their arguments.
         merits = self._sampler(configurations.copy(), self._lane * LANE + first_run, runs)
         return self._recorded(configurations, shaped(merits, (len(configurations), runs)))
 
-    def separate(self, configurations: Integers, first_run: int, runs: int) -> Floats:
+    def separate(
+        self, configurations: Integers, first_run: int, runs: int
+    ) -> tuple[Floats, Integers]:
         """Return merits of separate run numbers for each configuration."""
         rows = [
             self._sampler(np.array([each]), (self._lane + int(each)) * LANE + first_run, runs)
@@ -170,12 +194,12 @@ class Samples:
         merits = [shaped(row, (1, runs)) for row in rows]
         return self._recorded(configurations, np.concatenate(merits))
 
-    def _recorded(self, configurations: Integers, merits: Floats) -> Floats:
+    def _recorded(self, configurations: Integers, merits: Floats) -> tuple[Floats, Integers]:
         merits, quarantined = within(self._limits, configurations, merits)
         self._quarantined[configurations] += quarantined
         for configuration, row in zip(configurations, merits, strict=True):
             self._merits[configuration].append(row)
-        return merits
+        return merits, quarantined
 
     def selection(
         self, procedure: _core.Procedure, delta: float, confidence: float, guarantee: Guarantee
@@ -191,7 +215,7 @@ class Samples:
         stopped = procedure.next() is not None
         return Selection(
             best=procedure.best,
-            runs=procedure.runs,
+            runs=np.array([len(row) for row in merits]),
             mean=np.array([row.mean() if len(row) else math.nan for row in merits]),
             lower=lower,
             upper=upper,

@@ -7,7 +7,7 @@ workers finish together. A chunk whose worker dies is given to another.
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from concurrent.futures import (
     FIRST_COMPLETED,
     BrokenExecutor,
@@ -19,16 +19,10 @@ from concurrent.futures import (
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
-from math import ceil
 from typing import Self, TypeAlias
 
-import numpy as np
-
 from agent_economy.study.errors import StudyError
-from agent_economy.study.run_block import Columns, Compute, RunBlock, check_shape
-
-MAX_CHUNKS = 512
-"""Approximate maximum per block, so that the overhead of a chunk does not matter."""
+from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock, check_shape
 
 CHUNK_S = 1.0
 """Intended duration of a chunk."""
@@ -45,9 +39,6 @@ BROKEN_S = 30
 Result: TypeAlias = tuple[Columns, float]
 """Outcomes of a chunk, and its duration in seconds."""
 
-INITIAL_CHUNKS = 16
-"""Chunks per worker while the rate is unknown."""
-
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
@@ -55,12 +46,10 @@ class Chunk:
 
     Attributes:
         runs: The runs of the part.
-        row: Index of its first configuration in the block.
         failures: How often it failed or lost its worker, even if another chunk was the cause.
     """
 
     runs: RunBlock
-    row: int
     failures: int = 0
 
 
@@ -82,20 +71,17 @@ class Throughput:
         self.seconds = 0.93 * self.seconds + seconds
 
     def chunk_rows(self, all_rows: int, unassigned: int, workers: int) -> int:
-        """Return the number of rows of the next chunk."""
-        min_rows = ceil(all_rows / MAX_CHUNKS)
-        if not self.seconds:
-            return ceil(all_rows / (INITIAL_CHUNKS * workers))
-        rate = self.rows / self.seconds
+        """Return the number of rows of the next chunk; one while the rate is unknown."""
+        rate = self.rows / self.seconds if self.seconds else 0.0
         rows = min(rate * CHUNK_S, unassigned / (2 * workers))
         max_rows = max(1, all_rows // workers)
-        return min(max_rows, max(1, min_rows, round(rows), round(rate * MIN_CHUNK_S)))
+        return min(max_rows, max(1, round(rows), round(rate * MIN_CHUNK_S)))
 
 
 class Workers:
     """Workers that compute blocks of runs, on any `concurrent.futures.Executor`.
 
-    Use it as a context manager, and `columns` as the `compute` of a store.
+    Use it as a context manager, and `columns` as the `compute` of a study.
     """
 
     def __init__(self, make_executor: Callable[[], Executor], count: int, task: Compute) -> None:
@@ -124,22 +110,26 @@ class Workers:
         if executor:
             executor.shutdown(wait=False, cancel_futures=True)
 
-    def columns(self, block: RunBlock) -> Columns:
-        """Return the outcomes of a block, the same as from a single call of the task.
+    @property
+    def columns(self) -> Partwise:
+        """Returns the outcomes of a block, the same as from a single call of the task.
 
-        Raises:
-            StudyError: If a chunk failed three times, or the executor is lost.
-            InputError: If the executor cannot be created.
+        It raises a StudyError if a chunk failed three times, or the executor is lost; and an
+        InputError if the executor cannot be created.
         """
+        return Partwise(self._parts)
+
+    def _parts(self, block: RunBlock) -> Generator[Part]:
         job = Job(block)
         try:
             while not job.is_done:
                 self._submit(job)
                 self._collect(job)
+                while job.finished:
+                    yield job.finished.popleft()
         except BaseException:
             self.stop()
             raise
-        return job.columns
 
     def _submit(self, job: "Job") -> None:
         """Submit chunks until every worker has one more pending."""
@@ -203,19 +193,21 @@ class Job:
 
     Attributes:
         block: The requested runs.
-        columns: The outcomes of the completed chunks.
+        finished: The outcomes of completed chunks that were not passed on yet.
         pending: Submitted chunks.
         retries: Chunks that failed.
         assigned: Number of rows submitted at least once.
         computed: Number of rows computed.
+        names: The columns of the first completed chunk.
     """
 
     block: RunBlock
-    columns: Columns = field(default_factory=dict)
+    finished: deque[Part] = field(default_factory=deque)
     pending: dict["Future[Result]", Chunk] = field(default_factory=dict)
     retries: deque[Chunk] = field(default_factory=deque)
     assigned: int = 0
     computed: int = 0
+    names: tuple[str, ...] = ()
 
     @property
     def is_done(self) -> bool:
@@ -245,22 +237,17 @@ class Job:
         return chunk
 
     def put(self, chunk: Chunk, columns: Columns) -> None:
-        """Store the outcomes of a chunk.
+        """Take the outcomes of a chunk.
 
         Raises:
             ValueError: If they have another shape, or other columns than the first chunk.
         """
         check_shape(chunk.runs, columns)
-        if not self.columns:
-            self.columns = {name: np.empty(self.block.shape) for name in columns}
-        if not columns or columns.keys() != self.columns.keys():
+        self.names = self.names or tuple(columns)
+        if not columns or {*columns} != {*self.names}:
             message = f"columns {', '.join(columns)} differ from those of other chunks"
             raise ValueError(message)
-        configurations, runs = chunk.runs.shape
-        first = chunk.runs.first_run - self.block.first_run
-        for name, values in columns.items():
-            rows = slice(chunk.row, chunk.row + configurations)
-            self.columns[name][rows, first : first + runs] = values
+        self.finished.append((chunk.runs, columns))
         self.computed += chunk.runs.rows
 
     def failed(self, chunk: Chunk, error: Exception) -> None:
@@ -283,10 +270,10 @@ def next_part(block: RunBlock, assigned: int, rows: int) -> Chunk:
     if skipped or rows < block.runs:
         runs = min(rows, block.runs - skipped)
         configurations = block.configurations[row : row + 1]
-        return Chunk(RunBlock(configurations, block.first_run + skipped, runs), row)
+        return Chunk(RunBlock(configurations, block.first_run + skipped, runs))
     end = row + rows // block.runs
     configurations = block.configurations[row:end]
-    return Chunk(RunBlock(configurations, block.first_run, block.runs), row)
+    return Chunk(RunBlock(configurations, block.first_run, block.runs))
 
 
 def run(task: Compute, runs: RunBlock, study_version: str) -> Result:

@@ -11,7 +11,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.study import Plan
 from agent_economy.study.question import Question
-from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, read_bytes
+from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, STAGING, read_bytes
 
 State = str
 """running, answered, stopped or damaged."""
@@ -79,7 +79,7 @@ class Summaries:
 def stamp(folder: Path) -> list[tuple[float, int]]:
     """Return the modification times and sizes of the files of a study."""
     found = []
-    for name in (QUESTION, ANSWER, LEDGER, f"{LEDGER}-wal"):
+    for name in (QUESTION, ANSWER, LEDGER, f"{LEDGER}-wal", STAGING):
         try:
             about = (folder / name).stat()
         except OSError:
@@ -165,10 +165,9 @@ def read_answer(folder: Path) -> dict[str, Any] | None:
 
 
 def runs_so_far(folder: Path) -> int:
-    """Return the number of runs of a study after its last round.
+    """Return the number of stored runs of a study.
 
     Raises:
         InputError: If its ledger is damaged.
     """
-    decisions = study.open(folder).decisions()
-    return int(decisions[-1].facts["runs"]) if decisions else 0
+    return study.open(folder).count()

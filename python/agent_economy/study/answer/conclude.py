@@ -11,6 +11,7 @@ from agent_economy.study.answer.results import Ending, Result, results
 from agent_economy.study.answer.saturation import Saturation, saturations
 from agent_economy.study.answer.sensitivity import Sensitivity, sensitivity
 from agent_economy.study.answer.sentence import sentence
+from agent_economy.study.answer.side_statements import Omission, SideStatements
 from agent_economy.study.plan import Plan
 
 
@@ -32,6 +33,7 @@ class Answer:
         sensitivity: Influence of each factor; None if there are too few configurations.
         efforts: Predicted runs for smaller deltas.
         published: Published results, scored with the same merit.
+        omissions: Those of the preceding four that could not be stated, each with the reason.
     """
 
     scenario: Scenario
@@ -47,6 +49,7 @@ class Answer:
     sensitivity: Sensitivity | None
     efforts: tuple[Effort, ...]
     published: tuple[PublishedResult, ...]
+    omissions: tuple[Omission, ...] = ()
 
     @property
     def runs(self) -> int:
@@ -56,19 +59,28 @@ class Answer:
 
 def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
     """Return the answer that follows from the runs of a study."""
-    found = results(evidence, ending, plan.delta)
+    best, delta = ending.best, plan.delta
+    found = results(evidence, ending, delta)
+    side = SideStatements()
+    saturated = side.make("saturations", lambda: saturations(evidence, best, delta))
+    influences = side.make("sensitivity", lambda: sensitivity(evidence))
+    predicted = None
+    if plan.runs is None:
+        predicted = side.make("efforts", lambda: efforts(evidence, best, delta))
+    theirs = side.make("published", lambda: published.results(plan.scenario))
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
-        sentence=sentence(plan.scenario, plan.delta, ending.best, found),
+        sentence=sentence(plan.scenario, delta, ending, found, has_prices=evidence.has_prices),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,
-        delta=plan.delta,
+        delta=delta,
         confidence=plan.confidence,
-        best=ending.best,
+        best=best,
         results=found,
-        saturations=saturations(evidence, ending.best, plan.delta),
-        sensitivity=sensitivity(evidence),
-        efforts=efforts(evidence, ending.best, plan.delta) if plan.runs is None else (),
-        published=published.results(plan.scenario),
+        saturations=saturated or (),
+        sensitivity=influences,
+        efforts=predicted or (),
+        published=theirs or (),
+        omissions=tuple(side.omissions),
     )

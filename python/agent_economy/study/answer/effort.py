@@ -37,8 +37,14 @@ class Effort:
 
 
 def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
-    """Return the predicted runs for smaller deltas; none for one configuration."""
-    if len(evidence.samples) == 1:
+    """Return the predicted runs for smaller deltas; none for one configuration.
+
+    Those that cannot be run are left out.
+    """
+    possible = [each for each, sample in enumerate(evidence.samples) if sample.is_possible]
+    best = possible.index(best)
+    evidence = Evidence(tuple(evidence.samples[each] for each in possible), evidence.confidence)
+    if len(possible) == 1:
         return ()
     total = sum(sample.runs for sample in evidence.samples)
     scale = total / predicted_runs(evidence, best, delta)

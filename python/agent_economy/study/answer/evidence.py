@@ -41,7 +41,8 @@ class Sample:
 
     Attributes:
         values: Values of the varied factors, by path.
-        columns: By name, shape (runs,): each of `QUANTITIES`, and the simulator's other columns.
+        columns: By name, shape (runs,): each of `QUANTITIES`, "robots", and "price" if the
+            simulator has prices.
         limits: By name, the range of a column.
         quarantined: Number of runs without a finite merit, which count as the worst.
     """
@@ -56,6 +57,17 @@ class Sample:
         """Number of runs."""
         return len(self.columns["merit"])
 
+    @property
+    def is_possible(self) -> bool:
+        """Whether it can be run: not all of its runs are quarantined."""
+        return self.quarantined < self.runs
+
+    @property
+    def price(self) -> float:
+        """Price of its robots; 0 if the simulator has no prices."""
+        # Every run has the same one: a mean of it would be rounded.
+        return float(self.columns["price"][0]) if "price" in self.columns else 0.0
+
     def mean(self, name: str) -> float:
         """Return the mean of a column."""
         return float(self.columns[name].mean())
@@ -67,6 +79,16 @@ class Evidence:
 
     samples: tuple[Sample, ...]
     confidence: float
+
+    @cached_property
+    def has_prices(self) -> bool:
+        """Whether robots have prices; otherwise, the price of a team is its number of robots."""
+        return any(sample.price != 0 for sample in self.samples)
+
+    def price(self, configuration: int) -> float:
+        """Return the price of a configuration's team."""
+        sample = self.samples[configuration]
+        return sample.price if self.has_prices else sample.mean("robots")
 
     def alpha_single(self) -> float:
         """Return the allowed error of each side of one configuration's interval."""

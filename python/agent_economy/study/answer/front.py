@@ -11,8 +11,7 @@ import numpy as np
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.arguments import Floats
 
-JUDGED = ("robots", "time_s", "failed")
-TIME = JUDGED.index("time_s")
+TIME = 1
 
 CANDIDATES = 20
 """Maximum number of rivals compared with a configuration, those with the shortest times."""
@@ -20,7 +19,10 @@ CANDIDATES = 20
 
 @dataclass(frozen=True)
 class Place:
-    """A configuration's price in robots, and the index of one that dominates it, if any."""
+    """A configuration's price, and the index of one that dominates it, if any.
+
+    The price is that of the team; if no robot has a price, it is the number of robots.
+    """
 
     price: float
     dominated_by: int | None
@@ -28,10 +30,15 @@ class Place:
 
 def front(evidence: Evidence) -> tuple[Place, ...]:
     """Return the place of each configuration."""
-    means = np.array([[each.mean(name) for name in JUDGED] for each in evidence.samples])
+    means = np.array(
+        [
+            [evidence.price(index), sample.mean("time_s"), sample.mean("failed")]
+            for index, sample in enumerate(evidence.samples)
+        ]
+    )
     return tuple(
-        Place(sample.mean("robots"), dominator(evidence, means, index))
-        for index, sample in enumerate(evidence.samples)
+        Place(evidence.price(index), dominator(evidence, means, index))
+        for index in range(len(evidence.samples))
     )
 
 

@@ -19,12 +19,14 @@ class Ending:
         eliminations: The eliminated configurations, in the order of their elimination.
         guarantee: The guarantee of the selection in words.
         is_guaranteed: Whether there is a guarantee.
+        obstacle: Why some configurations cannot be run; empty if all can.
     """
 
     best: int
     eliminations: tuple[Elimination, ...]
     guarantee: str
     is_guaranteed: bool
+    obstacle: str = ""
 
 
 @dataclass(frozen=True)

@@ -49,12 +49,15 @@ def team_paths(evidence: Evidence) -> list[str]:
 
 
 def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:
-    """Return configurations by team size, ascending, that differ from the best only in it."""
+    """Return configurations by team size, ascending, that differ from the best only in it.
+
+    Those that cannot be run are left out.
+    """
     fixed = {**evidence.samples[best].values, path: None}
     sizes = {
         int(sample.values[path]): index
         for index, sample in enumerate(evidence.samples)
-        if {**sample.values, path: None} == fixed
+        if sample.is_possible and {**sample.values, path: None} == fixed
     }
     return dict(sorted(sizes.items()))
 

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.answer.labels import varied
+from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.answer.labels import listed, varied
+from agent_economy.study.answer.side_statements import NotStatedError
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
 
 MIN_CONFIGURATIONS = 30
@@ -65,47 +66,63 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
 
     Source: Borgonovo (2007), A new uncertainty importance measure, Reliability Engineering and
         System Safety 92; Plischke, Borgonovo and Smith (2013) for given data; as in SALib.
+
+    Raises:
+        NotStatedError: If it is not defined for these configurations.
     """
-    paths = varied([each.values for each in evidence.samples])
-    firsts = np.array([each.columns["merit"][:FIRST_ANALYSIS_RUNS] for each in evidence.samples])
+    samples = [each for each in evidence.samples if each.is_possible]
+    paths = varied([each.values for each in samples])
+    firsts = np.array([each.columns["merit"][:FIRST_ANALYSIS_RUNS] for each in samples])
     means = firsts.mean(axis=1)
     if len(paths) < 2 or len(means) < MIN_CONFIGURATIONS or np.ptp(means) == 0:  # noqa: PLR2004
         return None
     # The common part of a run shifts all means equally; only the rest is noise between them.
     own = firsts - firsts.mean(axis=0)
     noise = own.var(axis=1, ddof=1).mean() / firsts.shape[1] / means.var(ddof=1)
-    return Sensitivity(influences(evidence, paths, means), float(min(noise, 1.0)))
+    return Sensitivity(influences(samples, paths, means), float(min(noise, 1.0)))
 
 
 def influences(
-    evidence: Evidence, paths: Sequence[str], means: NDArray[np.float64]
+    samples: Sequence[Sample], paths: Sequence[str], means: NDArray[np.float64]
 ) -> tuple[Influence, ...]:
-    """Return SALib's results for each factor, the strongest first."""
+    """Return SALib's results for each factor, the strongest first.
+
+    Raises:
+        NotStatedError: If SALib has none for a factor.
+    """
     # SALib imports pandas and matplotlib, which takes a second.
     from SALib.analyze import delta  # noqa: PLC0415
     from threadpoolctl import threadpool_limits  # noqa: PLC0415
 
-    points = np.column_stack([codes(evidence, path) for path in paths])
+    points = np.column_stack([codes(samples, path) for path in paths])
     problem = {
         "num_vars": len(paths),
-        "names": list(paths),
+        # SALib refuses some endings of names.
+        "names": [f"x{number}" for number in range(len(paths))],
         "bounds": [[column.min(), column.max()] for column in points.T],
     }
     # Its matrices are too small for several threads.
     with contained(), threadpool_limits(1):
         found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=SEED)
     named = ("S1", "S1_conf", "delta_balanced", "delta_balanced_conf")
-    rows = zip(paths, *(found[name] for name in named), strict=True)
+    rows = np.array([found[name] for name in named]).T
+    lacking = [path for path, row in zip(paths, rows, strict=True) if not np.isfinite(row).all()]
+    if lacking:
+        message = (
+            f"{len(means)} configurations are too few to be grouped by {listed(lacking)}; compare "
+            "more values"
+        )
+        raise NotStatedError(message)
     every = [
-        Influence(path, *(round(float(number), PLACES) for number in numbers))
-        for path, *numbers in rows
+        Influence(path, *(round(number, PLACES) for number in row))
+        for path, row in zip(paths, rows.tolist(), strict=True)
     ]
     return tuple(sorted(every, key=lambda each: -each.total))
 
 
-def codes(evidence: Evidence, path: str) -> NDArray[np.float64]:
+def codes(samples: Sequence[Sample], path: str) -> NDArray[np.float64]:
     """Return a factor's values as numbers; names by their order of appearance."""
-    values = [each.values[path] for each in evidence.samples]
+    values = [each.values[path] for each in samples]
     if any(isinstance(value, str) for value in values):
         places = {value: place for place, value in enumerate(dict.fromkeys(values))}
         return np.array([places[value] for value in values], dtype=np.float64)

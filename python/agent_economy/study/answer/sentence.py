@@ -4,19 +4,28 @@ from collections.abc import Sequence
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer.labels import listed, recommendation, robot_kind
-from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.answer.ties import Verdict
 
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
 
 
-def sentence(scenario: Scenario, delta: float, best: int, results: Sequence[Result]) -> str:
+def sentence(
+    scenario: Scenario,
+    delta: float,
+    ending: Ending,
+    results: Sequence[Result],
+    *,
+    has_prices: bool,
+) -> str:
     """Return the answer: which team to send, its performance, and how close the others are."""
-    chosen = results[best]
+    chosen = results[ending.best]
     parts = [
         recommendation(chosen.values),
+        *([f"The price of the team is {chosen.place.price:,.12g}"] if has_prices else []),
         performance(chosen),
+        *impossible(results, ending.obstacle),
         *named(results, {"tied"}, f"tied within {delta:g}"),
         *named(results, {"undecided", "not better"}, "too close to decide with these runs", delta),
         *published_choice(scenario, chosen, results),
@@ -27,11 +36,25 @@ def sentence(scenario: Scenario, delta: float, best: int, results: Sequence[Resu
 
 def performance(result: Result) -> str:
     """Return the mean results of a configuration."""
-    merit = result.merit
+    value, low, high = (
+        f"{each:z.2f}" for each in (result.merit.value, result.merit.low, result.merit.high)
+    )
     return (
         f"A run takes {result.time_s.value:.1f} s on average, {result.failed.value:.2%} of runs "
-        f"fail, and the figure of merit is {merit.value:.2f} ({merit.low:.2f} to {merit.high:.2f})"
+        f"fail, and the figure of merit is {value} ({low} to {high})"
     )
+
+
+def impossible(results: Sequence[Result], obstacle: str) -> list[str]:
+    """Return a sentence about the configurations that cannot be run, if any, with the reason."""
+    labels = [each.label for each in results if each.standing.verdict == "impossible"]
+    return [f"Cannot be run: {some(labels)} ({obstacle})"] if labels else []
+
+
+def some(labels: list[str]) -> str:
+    """Return the first of some labels, and how many more there are."""
+    more = len(labels) - MAX_NAMED
+    return listed([*labels[:MAX_NAMED], f"{more} more"] if more > 0 else labels)
 
 
 def named(
@@ -45,11 +68,7 @@ def named(
         and each.standing.behind
         and each.standing.behind.value < max_behind
     ]
-    if not labels:
-        return []
-    more = len(labels) - MAX_NAMED
-    shown = [*labels[:MAX_NAMED], f"{more} more"] if more > 0 else labels
-    return [f"{words.capitalize()}: {listed(shown)}"]
+    return [f"{words.capitalize()}: {some(labels)}"] if labels else []
 
 
 def published_choice(scenario: Scenario, chosen: Result, results: Sequence[Result]) -> list[str]:

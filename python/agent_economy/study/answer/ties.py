@@ -5,7 +5,7 @@ from typing import Literal
 
 from agent_economy.study.answer.evidence import Evidence, Interval
 
-Verdict = Literal["best", "tied", "worse", "not better", "undecided"]
+Verdict = Literal["best", "tied", "worse", "not better", "undecided", "impossible"]
 
 VERDICT_TEXT: dict[Verdict, str] = {
     "best": "selected",
@@ -13,6 +13,7 @@ VERDICT_TEXT: dict[Verdict, str] = {
     "worse": "worse",
     "not better": "not better by delta",
     "undecided": "undecided",
+    "impossible": "cannot be run",
 }
 
 
@@ -21,10 +22,12 @@ class Standing:
     """The comparison of a configuration with the selected one.
 
     Attributes:
-        behind: The selected one's mean merit minus this one's; None for the selected one itself.
+        behind: The selected one's mean merit minus this one's; None for the selected one itself,
+            and for one that cannot be run.
         verdict: The proved statement. "tied": the two differ by at most delta. "worse": its mean
             merit is lower. "not better": it is not better by more than delta, but may be worse.
-            "undecided": none of these.
+            "undecided": none of these. "impossible": all of its runs are quarantined, so it was not
+            compared.
     """
 
     behind: Interval | None
@@ -41,6 +44,8 @@ def standings(evidence: Evidence, best: int, delta: float) -> tuple[Standing, ..
 
 def standing(evidence: Evidence, best: int, other: int, delta: float) -> Standing:
     """Return the comparison of one configuration with the selected one."""
+    if not evidence.samples[other].is_possible:
+        return Standing(None, "impossible")
     behind = evidence.difference(best, other, "merit")
     if -delta <= behind.low and behind.high <= delta:
         return Standing(behind, "tied")

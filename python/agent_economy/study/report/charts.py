@@ -120,9 +120,9 @@ def front(view: View) -> Spec:
     # The selected one is drawn last, on top of the others.
     rows = [front_row(view, index) for index in reversed(view.on_front)]
     space: Spec = {"zero": False, "padding": 16}
-    price = field(
-        "price", title="price (robots)", scale=space, axis={"grid": False, "tickMinStep": 1}
-    )
+    name, *unit = view.price_title
+    title = f"{name} ({unit[0]})" if unit else name
+    price = field("price", title=title, scale=space, axis={"grid": False, "tickMinStep": 1})
     seconds: Spec = {"title": "mean time (s)", "scale": space}
     at = {"x": price, "y": field("value", **seconds)}
     size = field("failed", title="failed", scale={"range": [50, 500], "zero": True})

@@ -59,7 +59,7 @@ def heat(view: View) -> Spec:
             **row_of(view, index),
             "across": result.values[across],
             "down": result.values[down],
-            "value": finite(result.merit.value),
+            "value": finite(result.merit.value) if view.is_possible(index) else None,
         }
         for index, result in enumerate(view.answer.results)
     ]

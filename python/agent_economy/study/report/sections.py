@@ -55,6 +55,8 @@ def sections(view: View) -> Iterator[Section]:
     yield times(view)
     if view.answer.published:
         yield published(view)
+    if view.answer.omissions:
+        yield omissions(view)
 
 
 def merit(view: View) -> Section:
@@ -71,6 +73,11 @@ def merit(view: View) -> Section:
             f"most {brief(view.answer.delta)}; worse, that it is lower; not better by delta, that "
             "it is not higher by more than delta; undecided, that the intervals prove none of "
             "these. The guarantee includes eliminated configurations whose verdict is undecided."
+        )
+    if view.impossible:
+        notes.append(
+            f"{count(len(view.impossible), 'configuration')} cannot be run, because all first runs "
+            "were quarantined, and cannot be selected."
         )
     found = (tables.merit(view),)
     return Section("Figure of merit", tuple(notes), tuple(pictures), found, is_folded=False)
@@ -107,7 +114,7 @@ def together(view: View) -> str:
 
 def cut(view: View, which: str) -> str:
     """Return which configurations are shown if these are not all."""
-    total = len(view.answer.results)
+    total = len(view.ranked)
     if total <= MAX_SHOWN:
         return ""
     return f"{MAX_SHOWN} of {total:,} configurations are shown, {which}; answer.json contains all."
@@ -231,3 +238,9 @@ def published(view: View) -> Section:
     shows = f"Figure of merit in this study and in {source}"
     pictures = (Picture("published", shows),) if view.published_axis else ()
     return Section(source, (note,), pictures, (tables.published(view),))
+
+
+def omissions(view: View) -> Section:
+    """Return the section on side statements that could not be made."""
+    notes = (f"{each.statement}: {each.reason}." for each in view.answer.omissions)
+    return Section("Left out", tuple(notes))

@@ -9,7 +9,7 @@ from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
 from agent_economy.study.report.formatting import NOTHING, UNKNOWN, brief, decimal, percent
-from agent_economy.study.report.view import View, factor_name
+from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
 
 WIDEST = 10
 """Maximum number of columns of a heat map's table."""
@@ -91,7 +91,7 @@ def merit(view: View) -> Table:
         result = view.result(index)
         behind = result.standing.behind
         yield words(verdict_of(view, index))
-        yield measured(result.merit, view.merit_places)
+        yield merit_cell(view, index)
         yield measured(behind, view.merit_places) if behind else Cell(NOTHING)
         yield Cell(f"{result.runs:,}")
         if has_quarantined:
@@ -100,15 +100,23 @@ def merit(view: View) -> Table:
     heads = ("verdict", "figure of merit", "difference from selected", "runs")
     shown_heads = (*heads, "quarantined runs") if has_quarantined else heads
     caption = "Figure of merit of each configuration"
-    return by_configuration(view, caption, shown_heads, view.shown, cells)
+    shown = (*view.shown, *view.impossible[:MAX_SHOWN])
+    return by_configuration(view, caption, shown_heads, shown, cells)
+
+
+def merit_cell(view: View, index: int) -> Cell:
+    """Return the cell of a configuration's merit; it has none if it cannot be run."""
+    if not view.is_possible(index):
+        return Cell(NOTHING)
+    return measured(view.result(index).merit, view.merit_places)
 
 
 def heat(view: View) -> tuple[Table, ...]:
     """Return the mean merit over two factors, in tables that fit on a printed page."""
     across, down = view.varied
     merits = {
-        (result.values[across], result.values[down]): decimal(result.merit.value, view.merit_places)
-        for result in view.answer.results
+        (result.values[across], result.values[down]): merit_cell(view, index).text
+        for index, result in enumerate(view.answer.results)
     }
     columns = tuple(dict.fromkeys(one for one, _ in merits))
     rows = tuple(dict.fromkeys(other for _, other in merits))
@@ -157,7 +165,7 @@ def front(view: View) -> Table:
             yield words(f"dominated by {view.names[rival]}")
 
     caption = "Price, time and failures of each configuration"
-    heads = ("price, robots", "mean time, s", "failed", "Pareto front")
+    heads = (", ".join(view.price_title), "mean time, s", "failed", "Pareto front")
     return by_configuration(view, caption, heads, view.on_front, cells)
 
 

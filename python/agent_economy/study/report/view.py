@@ -48,19 +48,31 @@ class View:
 
     @cached_property
     def ranks(self) -> dict[int, int]:
-        """The rank of each configuration, from 1."""
-        return {index: rank for rank, index in enumerate(self.ranked, start=1)}
+        """The rank of each configuration, from 1; those that cannot be run are the last."""
+        ordered = (*self.ranked, *self.impossible)
+        return {index: rank for rank, index in enumerate(ordered, start=1)}
 
     @cached_property
     def ranked(self) -> tuple[int, ...]:
-        """All configurations, the selected one first, then by mean merit."""
+        """All that can be run, the selected one first, then by mean merit."""
         merits = [finite(result.merit.value) for result in self.answer.results]
 
         def rank(index: int) -> tuple[bool, float]:
             merit = merits[index]
             return index != self.answer.best, math.inf if merit is None else -merit
 
-        return tuple(sorted(range(len(merits)), key=rank))
+        return tuple(sorted(filter(self.is_possible, range(len(merits))), key=rank))
+
+    @cached_property
+    def impossible(self) -> tuple[int, ...]:
+        """The configurations that cannot be run."""
+        return tuple(
+            index for index in range(len(self.answer.results)) if not self.is_possible(index)
+        )
+
+    def is_possible(self, index: int) -> bool:
+        """Return whether a configuration can be run."""
+        return self.result(index).standing.verdict != "impossible"
 
     @cached_property
     def shown(self) -> tuple[int, ...]:
@@ -131,9 +143,14 @@ class View:
         return path if self.answer.published and is_team else None
 
     @property
+    def price_title(self) -> tuple[str, ...]:
+        """The title of prices, and their unit if it is known: without prices, robots count."""
+        return ("price",) if self.evidence.has_prices else ("price", "robots")
+
+    @property
     def compares(self) -> bool:
-        """Whether there is more than one configuration."""
-        return len(self.answer.results) > 1
+        """Whether more than one configuration can be run."""
+        return len(self.ranked) > 1
 
     def result(self, index: int) -> Result:
         """Return the result of a configuration."""

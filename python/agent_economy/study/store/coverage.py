@@ -6,6 +6,9 @@ from collections.abc import Iterable, Iterator
 from math import ceil
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import RunBlock
 from agent_economy.study.store.ledger import BlockFile
@@ -73,6 +76,17 @@ class Coverage:
         stored = self._files[block.first_run]
         missing = tuple(each for each in block.configurations if each not in stored)
         return RunBlock(missing, block.first_run, block.runs) if missing else None
+
+    def contains(
+        self, configurations: NDArray[np.int64], runs: NDArray[np.int64]
+    ) -> NDArray[np.bool_]:
+        """Return which of some runs are stored; all arrays have the same shape."""
+        found = np.zeros(len(runs), dtype=np.bool_)
+        for first in self._firsts:
+            are_here = (runs >= first) & (runs < first + self._runs[first])
+            if are_here.any():
+                found |= are_here & np.isin(configurations, list(self._files[first]))
+        return found
 
     def block_files(self, block: RunBlock) -> list[tuple[BlockFile, list[int]]]:
         """Return the files that contain runs of a block, each with its configurations of it."""

@@ -5,6 +5,7 @@ the disk before the study continues; that of a decision is not, because it follo
 """
 
 import json
+import os
 import sqlite3
 from collections.abc import Iterable
 from contextlib import closing
@@ -237,7 +238,7 @@ def header(connection: sqlite3.Connection, name: str) -> int:
 
 def connect_to_read(path: Path) -> sqlite3.Connection:
     """Return a read-only connection, also for folders that cannot be written."""
-    address = f"file:{quote(str(path.absolute()))}?mode=ro"
+    address = f"file:{quote(os.fsencode(path.absolute()))}?mode=ro"
     connection = sqlite3.connect(address, uri=True, timeout=30, isolation_level=None)
     try:
         connection.execute("SELECT count(*) FROM sqlite_master")

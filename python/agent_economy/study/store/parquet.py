@@ -23,8 +23,8 @@ EXACT = 2.0**53
 """Whole numbers below it have an exact floating-point value."""
 
 
-def encode(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> memoryview:
-    """Return the file of a block with ascending configurations.
+def table_of(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> pa.Table:
+    """Return the rows of a block.
 
     Raises:
         ValueError: If a value does not fit the type of its column.
@@ -42,10 +42,18 @@ def encode(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> memor
         *cells,
         arrow.column(marks),
     ]
-    table = pa.Table.from_arrays(arrays, schema=schema(columns))
+    return pa.Table.from_arrays(arrays, schema=schema(columns))
+
+
+def encode(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> memoryview:
+    """Return the file of a block with ascending configurations.
+
+    Raises:
+        ValueError: If a value does not fit the type of its column.
+    """
     sink = pa.BufferOutputStream()
     pq.write_table(
-        table,
+        table_of(block, columns, data),
         sink,
         compression="zstd",
         compression_level=LEVEL,
@@ -102,14 +110,20 @@ def decode(data: bytes, block: RunBlock, columns: tuple[Column, ...]) -> Columns
     table = pq.ParquetFile(pa.BufferReader(data)).read(
         [*names, "quarantined"], use_threads=block.rows > 2**14
     )
+    outcomes = outcomes_of(table, columns)
+    return {name: values.reshape(block.shape) for name, values in outcomes.items()}
+
+
+def outcomes_of(table: pa.Table, columns: tuple[Column, ...]) -> Columns:
+    """Return the outcomes of rows, each of shape (rows,)."""
     marks = arrow.numbers(table["quarantined"])
     any_marked = marks.any()
     outcomes = {}
-    for bit, name in enumerate(names):
-        values = arrow.floats(table[name], np.inf)
+    for bit, column in enumerate(columns):
+        values = arrow.floats(table[column.name], np.inf)
         if any_marked:
             values[(marks >> bit & 1).astype(bool)] = np.nan
-        outcomes[name] = values.reshape(block.shape)
+        outcomes[column.name] = values
     return outcomes
 
 

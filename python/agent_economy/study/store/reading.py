@@ -1,22 +1,28 @@
 """Read-only access to a study's store, without a lock, also while another process writes."""
 
 import hashlib
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import pyarrow as pa
+import pyarrow.parquet as pq
+
 from agent_economy._core import InputError
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
-from agent_economy.study.run_block import Columns, Compute, RunBlock
+from agent_economy.study.run_block import Columns, Compute, Gathered, RunBlock
 from agent_economy.study.store import folder as files
 from agent_economy.study.store.columns import Column
 from agent_economy.study.store.coverage import Coverage, split
 from agent_economy.study.store.ledger import BlockFile, Decision, snapshot
-from agent_economy.study.store.writing import Gathered, check_files, read_block
+from agent_economy.study.store.staging import staged_rows
+from agent_economy.study.store.writing import check_files, read_block
 
 if TYPE_CHECKING:
-    from duckdb import DuckDBPyRelation
+    from duckdb import DuckDBPyConnection, DuckDBPyRelation
 
 
 @dataclass(frozen=True)
@@ -61,8 +67,23 @@ class ReadStore:
         columns, block_files, _ = snapshot(self.folder / files.LEDGER)
         return StoredRuns(self.folder, columns, Coverage(self.folder, block_files))
 
+    def count(self) -> int:
+        """Return the number of stored runs, those of an incomplete block included."""
+        _, block_files, staged = self._stored()
+        return sum(file.block.rows for file in block_files) + int(staged.num_rows)
+
+    def _stored(self) -> tuple[tuple[Column, ...], list[BlockFile], pa.Table]:
+        """Return the columns, the block files, and the staged runs that are in none of them."""
+        # Read first: runs that move to a block file in between are then in the ledger.
+        data = files.read_bytes(self.folder / files.STAGING) or b""
+        columns, block_files, _ = snapshot(self.folder / files.LEDGER)
+        coverage = Coverage(self.folder, block_files)
+        return columns, block_files, staged_rows(data if columns else b"", columns, coverage)
+
     def runs(self) -> "DuckDBPyRelation":
         """Return the runs as a DuckDB relation with one row per run, for SQL queries.
+
+        Those that were finished of an incomplete block are included.
 
         Returns:
             `configuration`, `run`, the study's columns (null = never, or quarantined) and
@@ -73,14 +94,14 @@ class ReadStore:
         """
         import duckdb  # noqa: PLC0415  (slow to load)
 
-        columns, block_files, _ = snapshot(self.folder / files.LEDGER)
+        _, block_files, staged = self._stored()
         check_files(self.folder, block_files)
         connection = duckdb.connect()
-        if not block_files:
-            return connection.sql(f"{empty(columns)} LIMIT 0")
-        paths = [str(self.folder / files.BLOCKS / file.name) for file in block_files]
-        marked = connection.read_parquet(paths)
-        return marked.project("* REPLACE (quarantined <> 0 AS quarantined)")
+        found = connection.from_arrow(staged)
+        if block_files:
+            paths = [self.folder / files.BLOCKS / file.name for file in block_files]
+            found = parquet_files(connection, paths).union(found)
+        return found.project("* REPLACE (quarantined <> 0 AS quarantined)")
 
 
 @dataclass
@@ -92,12 +113,14 @@ class StoredRuns:
         columns: The columns of every run.
         coverage: Which runs are stored.
         computed: Number of runs that were computed.
+        pending: Number of runs that are known of the block that is requested.
     """
 
     folder: Path
     columns: tuple[Column, ...]
     coverage: Coverage
     computed: int = 0
+    pending: int = 0
 
     def block(self, block: RunBlock, compute: Compute) -> Columns:
         """Return the outcomes of a block of runs, as `Store.block` does.
@@ -105,7 +128,7 @@ class StoredRuns:
         Raises:
             StoreError: If a block file is missing or damaged; also any error that `compute` raises.
         """
-        gathered = Gathered(block, self.columns)
+        gathered = Gathered(block)
         for part in split(block):
             missing = self.coverage.missing(part)
             if missing:
@@ -120,13 +143,17 @@ class StoredRuns:
         """Record nothing."""
 
 
-def empty(columns: tuple[Column, ...]) -> str:
-    """Return SQL for the columns without any run."""
-    types = {"whole": "BIGINT", "real": "DOUBLE", "flag": "BOOLEAN"}
-    pairs = [("configuration", "INTEGER"), ("run", "BIGINT")]
-    pairs += [(column.name, types[column.kind]) for column in columns]
-    pairs += [("quarantined", "BOOLEAN")]
-    return "SELECT " + ", ".join(f'NULL::{kind} AS "{name}"' for name, kind in pairs)
+def parquet_files(connection: "DuckDBPyConnection", paths: Sequence[Path]) -> "DuckDBPyRelation":
+    """Return the rows of exactly these files, whatever characters their paths have.
+
+    DuckDB reads *, ? and [ as patterns, ~ as the home folder, and key=value as a column.
+    """
+    names = [str(path.absolute()) for path in paths]
+    if not all(map(validation.is_text, names)):  # DuckDB opens no path that is not UTF-8.
+        tables = [pq.ParquetFile(pa.BufferReader(path.read_bytes())).read() for path in paths]
+        return connection.from_arrow(pa.concat_tables(tables))
+    exact = [re.sub(r"([*?\[])", r"[\1]", name) for name in names]
+    return connection.read_parquet(exact, hive_partitioning=False)
 
 
 def read(folder: str | Path) -> ReadStore:

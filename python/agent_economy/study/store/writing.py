@@ -3,7 +3,7 @@
 import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, closing, suppress
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
@@ -12,12 +12,20 @@ import numpy as np
 import pyarrow as pa
 
 from agent_economy.study.errors import StoreError
-from agent_economy.study.run_block import Columns, Compute, RunBlock, check_shape
+from agent_economy.study.run_block import (
+    Columns,
+    Compute,
+    Gathered,
+    RunBlock,
+    check_shape,
+    parts_of,
+)
 from agent_economy.study.store import folder as files
 from agent_economy.study.store import parquet
 from agent_economy.study.store.columns import Column, check_names
 from agent_economy.study.store.coverage import Coverage, split
 from agent_economy.study.store.ledger import BlockFile, Decision, Ledger
+from agent_economy.study.store.staging import Staging
 
 
 def never(existing: str, requested: str) -> bool:  # noqa: ARG001
@@ -34,8 +42,9 @@ class Store:
     Attributes:
         folder: The study's folder.
         columns: The columns of every run.
-        rows: Number of stored runs.
+        rows: Number of runs in block files.
         computed: Number of runs computed since it was opened.
+        pending: Number of runs that are known of the block that is requested.
     """
 
     def __init__(self, folder: Path, columns: tuple[Column, ...], opened: ExitStack) -> None:
@@ -43,7 +52,7 @@ class Store:
         self.folder = folder
         self.columns = columns
         self.rows = 0
-        self.computed = 0
+        self.computed = self.pending = 0
         self._opened = opened
 
     @classmethod
@@ -91,6 +100,7 @@ class Store:
         existing = self._ledger.block_files()
         check_files(self.folder, existing)
         self._coverage = Coverage(self.folder, existing)
+        self._staging = Staging(self.folder / files.STAGING, self.columns, self._coverage)
         self.rows = sum(file.block.rows for file in existing)
 
     def __enter__(self) -> Self:
@@ -108,7 +118,9 @@ class Store:
 
         Args:
             block: The runs; they may overlap stored blocks only if the runs are the same.
-            compute: Called with the missing parts, one at a time, configurations ascending.
+            compute: Called with the missing parts, one at a time, configurations ascending. If it
+                is `Partwise`, what it yields is stored within about a second, also if an error or
+                Ctrl-C interrupts the block.
 
         Returns:
             Every column, shape (configurations, runs), in the order of the block.
@@ -121,17 +133,17 @@ class Store:
         parts = list(split(block))
         for part in parts:
             self._coverage.check(part)
-        if self._coverage.missing(block) == block and parts == [block]:
-            return self._store(block, compute(block))
-        gathered = Gathered(block, self.columns)
+        self.pending = 0
+        gathered = Gathered(block)
         for part in parts:
             stored = self._coverage.block_files(part)
             missing = self._coverage.missing(part)
             if missing:
-                gathered.put(missing, self._store(missing, compute(missing)))
+                gathered.put(missing, self._store(missing, self._complete(missing, compute)))
             for file, configurations in stored:
                 data = read_block(self.folder, file, self.columns)
                 gathered.put(file.block, data, configurations)
+                self.pending += len(configurations) * part.runs
         return gathered.columns
 
     def note(self, round: int, facts: dict[str, Any]) -> None:  # noqa: A002  (the project's word)
@@ -148,44 +160,46 @@ class Store:
         """
         self._ledger.note(Decision(round, facts))
 
-    def _store(self, block: RunBlock, columns: Columns) -> Columns:
-        """Write outcomes to the disk and enter them; return them as they will be read."""
+    def _complete(self, block: RunBlock, compute: Compute) -> Columns:
+        """Return the outcomes of a block: those that are staged, and the others computed."""
+        gathered = Gathered(block)
+        self._staging.begin(gathered)
+        self.pending += gathered.rows
+        try:
+            for missing in list(gathered.missing()):
+                with closing(parts_of(compute, missing)) as parts:
+                    for part, columns in parts:
+                        data = self._checked(part, columns)
+                        gathered.put(part, data)
+                        self._staging.add(part, data)
+                        self.computed += part.rows
+                        self.pending += part.rows
+        except BaseException:
+            with suppress(StoreError, ValueError):
+                self._staging.flush()
+            raise
+        return gathered.columns
+
+    def _checked(self, part: RunBlock, columns: Columns) -> Columns:
+        """Return outcomes as numbers, after checking that they are of a part and of the store."""
         if {column.name for column in self.columns} != columns.keys():
             message = f"columns {', '.join(columns)} are not those of the store"
             raise ValueError(message)
         data = {name: np.asarray(values, dtype=np.float64) for name, values in columns.items()}
-        check_shape(block, data)
+        check_shape(part, data)
+        return data
+
+    def _store(self, block: RunBlock, data: Columns) -> Columns:
+        """Write outcomes to the disk and enter them; return them as they will be read."""
         encoded = parquet.encode(block, self.columns, data)
         file = BlockFile(block, len(encoded), hashlib.sha256(encoded).hexdigest())
         self._ledger.check_same(file)
         files.write_whole(self.folder / files.BLOCKS / file.name, encoded)
         self._ledger.enter(file)
         self._coverage.add(file)
+        self._staging.discard(block)
         self.rows += block.rows
-        self.computed += block.rows
         return parquet.as_read(self.columns, data)
-
-
-class Gathered:
-    """Outcomes of a block, gathered from parts."""
-
-    def __init__(self, block: RunBlock, columns: tuple[Column, ...]) -> None:
-        """Start without outcomes."""
-        self._first_run = block.first_run
-        self._rows = {each: row for row, each in enumerate(block.configurations)}
-        self.columns: Columns = {column.name: np.empty(block.shape) for column in columns}
-
-    def put(
-        self, part: RunBlock, data: Columns, configurations: Sequence[int] | None = None
-    ) -> None:
-        """Add the outcomes of a part, of all its configurations or of some."""
-        wanted = part.configurations if configurations is None else configurations
-        rows = {each: row for row, each in enumerate(part.configurations)}
-        source = span([rows[each] for each in wanted])
-        target = span([self._rows[each] for each in wanted])
-        first = part.first_run - self._first_run
-        for name, values in data.items():
-            self.columns[name][target, first : first + part.runs] = values[source]
 
 
 def read_block(folder: Path, file: BlockFile, columns: tuple[Column, ...]) -> Columns:
@@ -205,12 +219,6 @@ def read_block(folder: Path, file: BlockFile, columns: tuple[Column, ...]) -> Co
     except pa.ArrowException as error:
         message = f"{path}: cannot be read ({error})"
         raise StoreError(message) from error
-
-
-def span(rows: list[int]) -> slice | list[int]:
-    """Return rows as a slice if they are consecutive: numpy copies it several times faster."""
-    first, end = rows[0], rows[0] + len(rows)
-    return slice(first, end) if rows == list(range(first, end)) else rows
 
 
 def check_files(folder: Path, block_files: Sequence[BlockFile]) -> None:
