@@ -16,6 +16,7 @@ mod external;
 mod frame;
 mod inspect;
 mod long_work;
+mod message_check;
 mod metric_scenario;
 mod overlay;
 mod page;
