@@ -5,7 +5,7 @@ BIN := .venv/bin
 CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 PYTHON_CODE := python scripts packaging examples benchmarks/peers
 WASM := wasm32-unknown-unknown
-RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
+RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.toml Cargo.lock
 # maturin and the programs that it starts are in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 

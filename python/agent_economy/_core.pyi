@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "CONTACTS",
+    "ENGINE",
     "FIRST_ANALYSIS_RUNS",
     "MAX_IMAGE_BYTES",
     "MAX_RUNS",
@@ -54,6 +55,7 @@ __all__ = [
 ]
 
 CONTACTS: list[str]
+ENGINE: str
 FIRST_ANALYSIS_RUNS: int
 MAX_IMAGE_BYTES: int
 MAX_RUNS: int

@@ -225,6 +225,7 @@ def test_a_batch_continues_after_a_change() -> None:
 
 
 STAND = {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}
+MESSAGE = {"row": [0, 1], "confidence": 1.0, "item_kind": 0, "at": [1.0, 2.0]}
 ERRORS: list[tuple[Any, str]] = [
     (None, r"brains.rover\(\) = None: must be a dict with motion, requests, outbox"),
     ({"speed": 1}, r"brains.rover\(\).speed = 1: must be one of motion"),
@@ -247,6 +248,20 @@ ERRORS: list[tuple[Any, str]] = [
         {"motion": STAND, "outbox": {"row": [0], "confidence": 1, "item_kind": -1, "at": [1, 2]}},
         "outbox.heading_rad = None: must be",
     ),
+    *[
+        (
+            {"motion": STAND, "outbox": MESSAGE | {"confidence": [1.0, value]}},
+            rf"brains.rover\(\).outbox.confidence\[1\] = {value}: must be a number from 0 to 1",
+        )
+        for value in (5.0, -0.1, math.nan, math.inf)
+    ],
+    *[
+        (
+            {"motion": STAND, "outbox": MESSAGE | {"item_kind": [0, kind]}},
+            rf"outbox.item_kind\[1\] = {kind}.0: must be a whole number from -2 to 0",
+        )
+        for kind in (1, 65535, -3)
+    ],
     ({"motion": STAND, "outbox": 3}, r"brains.rover\(\).outbox = 3: must be a dict with row"),
 ]
 

@@ -120,6 +120,15 @@ def test_restoring_a_snapshot_restores_its_scenario_and_changes() -> None:
     assert (simulation.hash, len(simulation.robots), len(simulation.changes)) == (hash_, 9, 1)
 
 
+def test_a_snapshot_of_another_classic_run_is_refused() -> None:
+    simulation, other = (ae.ClassicSimulation("classic", seed) for seed in (4, 5))
+    allowed = "must be of this run, 'classic', seed=4, run=0"
+    with pytest.raises(ae.InputError, match=rf"is of the run 'classic', seed=5, run=0: {allowed}"):
+        simulation.restore(other.snapshot())
+    with pytest.raises(ae.InputError, match=r"must be what snapshot\(\) returned"):
+        simulation.restore(ae.Simulation("search", 4).snapshot())
+
+
 def test_found_items_have_a_time() -> None:
     simulation = ae.ClassicSimulation("classic", 1)
     assert simulation.items["found_s"].null_count == 4

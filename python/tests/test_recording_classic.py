@@ -221,7 +221,7 @@ def test_a_different_run_mismatches_at_its_end(mcap: Path) -> None:
     with ae.Recording(short, mcap) as recording:
         recording.step(20)
         long.step(20)
-        short.restore(long.snapshot())
+        short._run.restore(long._run.snapshot())
         recording.step(80)
     again = ae.replay(mcap)
     assert (again.mismatch_tick, again.tick) == (57, 56)

@@ -118,7 +118,7 @@ def test_a_classic_run_that_differs_from_its_recording_is_reported_with_its_tick
         recording.step(30)
         other.step(31)
         # The recording does not contain this: from here on it is another run.
-        simulation.restore(other.snapshot())
+        simulation._run.restore(other._run.snapshot())
         recording.step(20)
     state = page.open_recording("behind.mcap", tick=40)
     assert state["mismatch_tick"] == ae.replay(path).mismatch_tick == 32

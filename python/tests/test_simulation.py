@@ -149,12 +149,33 @@ def test_a_snapshot_contains_the_changes() -> None:
     assert simulation.hash == hash_of_six
 
 
-def test_a_snapshot_can_be_restored_in_another_simulation() -> None:
-    here, there = stepped(33), Simulation("open-field", seed=99)
+def test_a_snapshot_can_be_restored_in_another_simulation_of_the_same_run() -> None:
+    here, there = stepped(33), stepped(0)
+    there.change("robots.rover.count", 2)
     there.restore(here.snapshot())
-    assert (there.seed, there.run, there.tick) == (1, 3, 33)
+    assert (there.seed, there.run, there.tick, there.changes) == (1, 3, 33, ())
     assert there.finish() == here.finish()
     assert there.hash == here.hash
+    here.change("robots.rover.count", 6)
+    same = Simulation(Scenario.loads(stepped(0).scenario.source.text, file="search.toml"), 1, 3)
+    same.restore(here.snapshot())
+    assert (same.hash, same.changes) == (here.hash, here.changes)
+
+
+def test_a_snapshot_of_another_run_is_refused_and_both_runs_are_named() -> None:
+    simulation = stepped(33)
+    before = simulation.hash
+    changed = Scenario.load("search").replace("clock.time_limit_s", 50)
+    for other, which in (
+        (Simulation("search", seed=2, run=3), "'search', seed=2, run=3"),
+        (Simulation("search", seed=1, run=4), "'search', seed=1, run=4"),
+        (Simulation("open-field", seed=1, run=3), "'open-field', seed=1, run=3"),
+        (Simulation(changed, seed=1, run=3), "'search', seed=1, run=3 with another scenario of"),
+    ):
+        own = "must be of this run, 'search', seed=1, run=3"
+        with pytest.raises(InputError, match=rf"snapshot is of the run {which}.*: {own}"):
+            simulation.restore(other.snapshot())
+        assert (simulation.hash, simulation.seed, simulation.run) == (before, 1, 3)
 
 
 def test_other_types_than_snapshots_are_named() -> None:

@@ -11,6 +11,7 @@ import synthetic_runs
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario, study
+from agent_economy.build import own_build
 from agent_economy.study import files, race
 from agent_economy.study.chunks import MIN_ROWS, in_chunks
 from agent_economy.study.run_block import RunBlock
@@ -123,7 +124,8 @@ def test_runs_of_another_version_are_not_mixed_in(
     scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
-    monkeypatch.setattr("agent_economy.study.plan.version", lambda _: "99.0")
+    later = own_build()._replace(program="99.0")
+    monkeypatch.setattr("agent_economy.study.plan.own_build", lambda: later)
     with pytest.raises(InputError, match="contains another study"):
         study.run(scenario, delta=0.3, out=tmp_path)
 

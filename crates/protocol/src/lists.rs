@@ -95,6 +95,8 @@ pub struct RecordedRun {
     pub run: String,
     /// The version that recorded it.
     pub program: String,
+    /// The engine that recorded it; null if it is unknown.
+    pub engine: Option<String>,
     /// Its steps; null if the file is truncated.
     pub steps: Option<u64>,
     /// Its simulated time; null if the file is truncated.

@@ -69,8 +69,10 @@ pub struct OpenedScenario {
 pub struct OpenedRecording {
     /// Its id.
     pub id: String,
-    /// The version that recorded it.
-    pub program: String,
+    /// The version and the engine that recorded it.
+    pub recorded_by: String,
+    /// The version and the engine of the server.
+    pub replayed_by: String,
 }
 
 /// The state of a run at one step.

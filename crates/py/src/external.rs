@@ -1,6 +1,7 @@
 //! Percepts and commands of external bodies, by robot name.
 
 use crate::convert;
+use crate::message_check::Kinds;
 use crate::metric_scenario::{name_of, robot_of};
 use crate::percept_check::fitting;
 use base::document::path_of;
@@ -34,8 +35,9 @@ pub(crate) fn read(
         None => Ok(percept),
     };
     let percepts = by_robot(scenario, ("percepts", percepts), fits, &mut errors);
-    let as_it_is = |_: &str, _, command| Ok(command);
-    let commands = by_robot(scenario, ("commands", commands), as_it_is, &mut errors);
+    let kinds = Kinds::of_scenario(scenario);
+    let allowed = |at: &str, _, command| kinds.command(at, command);
+    let commands = by_robot(scenario, ("commands", commands), allowed, &mut errors);
     errors.extend(commands_of_external(run, &percepts, &commands));
     errors.extend(without_brain(scenario, &percepts, in_python));
     InputErrors::or(errors, Some((percepts, commands)))

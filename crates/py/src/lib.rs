@@ -16,6 +16,7 @@ mod external;
 mod frame;
 mod inspect;
 mod long_work;
+mod message_check;
 mod metric_scenario;
 mod overlay;
 mod page;
@@ -74,6 +75,7 @@ mod _core {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let none = PyTuple::empty(module.py());
         module.getattr("InputError")?.setattr("errors", none)?;
+        module.add("ENGINE", env!("AGENT_ECONOMY_ENGINE"))?;
         module.add(
             "FIRST_ANALYSIS_RUNS",
             select::interim_analyses::next_analysis(0),

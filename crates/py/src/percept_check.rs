@@ -1,5 +1,6 @@
 //! Rejects percepts that a body cannot have: an error in a driver that a brain would not notice.
 
+use crate::message_check::Kinds;
 use base::error::InputError;
 use brain::{Body, Percept, Scan};
 
@@ -17,16 +18,7 @@ fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<InputError> {
         let allowed = format!("a list of at most {rings}, one for each range sensor of the body");
         return Some(counted(format!("{at}.scans"), scans, allowed));
     }
-    let kinds = body.item_kinds.len();
-    let is_known = |kind: u16| usize::from(kind) < kinds;
-    let mut contacts = percept.contacts.iter().enumerate();
-    let unknown = contacts.find(|(_, contact)| !is_known(contact.kind));
-    let unknown = unknown.map(|(number, contact)| {
-        let path = format!("{at}.contacts[{number}].kind");
-        let allowed = format!("a number below {kinds}, the number of item kinds");
-        InputError::new(path, Some(contact.kind.to_string()), allowed)
-    });
-    unknown.or_else(|| {
+    unknown_kind(at, percept, &Kinds::of_body(body)).or_else(|| {
         let rings = percept.scans.iter().zip(&body.rings).enumerate();
         rings.into_iter().find_map(|(number, (scan, ring))| {
             let rays = ring.bearings_rad.len();
@@ -36,6 +28,32 @@ fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<InputError> {
             (!is_whole).then(|| counted(path, scan.ranges_m.len(), allowed))
         })
     })
+}
+
+/// The first item, robot or message of a kind that there is not, or with another invalid value.
+fn unknown_kind(at: &str, percept: &Percept, kinds: &Kinds) -> Option<InputError> {
+    let own = kinds.robot(&format!("{at}.id"), percept.id);
+    let mut contacts = percept.contacts.iter().enumerate();
+    let contact = || {
+        contacts.find_map(|(number, contact)| {
+            kinds.item(&format!("{at}.contacts[{number}].kind"), contact.kind)
+        })
+    };
+    let mut neighbours = percept.neighbours.iter().enumerate();
+    let neighbour = || {
+        neighbours.find_map(|(number, neighbour)| {
+            kinds.robot(&format!("{at}.neighbours[{number}].id"), neighbour.id)
+        })
+    };
+    let mut inbox = percept.inbox.iter().enumerate();
+    let received = || {
+        inbox.find_map(|(number, received)| {
+            let at = format!("{at}.inbox[{number}]");
+            let sender = kinds.robot(&format!("{at}.from"), received.from);
+            sender.or_else(|| kinds.message(&format!("{at}.message"), &received.message))
+        })
+    };
+    own.or_else(contact).or_else(neighbour).or_else(received)
 }
 
 fn is_missing(scan: &Scan) -> bool {

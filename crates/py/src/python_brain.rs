@@ -4,6 +4,7 @@ use crate::arrays;
 use crate::commands::Commands;
 use crate::convert;
 use crate::error::input_error;
+use crate::message_check::Kinds;
 use crate::metric_scenario::{kind_of, name_of};
 use base::document::path_of;
 use base::error::InputErrors;
@@ -45,7 +46,9 @@ impl PythonBrain<'_> {
         let percept = convert::write(self.step.py(), &decision.percept)?;
         let command = self.step.call1((decision.robot.index, percept))?;
         let at = path_of("brains", &name_of(scenario, decision.robot));
-        let read = convert::read::<Command>(&format!("{at}.step()"), &command);
+        let at = format!("{at}.step()");
+        let read = convert::read::<Command>(&at, &command);
+        let read = read.and_then(|read| Kinds::of_scenario(scenario).command(&at, read));
         decision.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         Ok(())
     }

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from agent_economy import __version__
+from agent_economy.build import Build, own_build
 from agent_economy.cli.errors import FAILED, error_exits
 
 if TYPE_CHECKING:
@@ -19,7 +19,9 @@ def replay(
     verify: Annotated[
         bool,
         typer.Option(
-            "--verify/--no-verify", help="Exit with code 1 if a recorded state is not reproduced."
+            "--verify/--no-verify",
+            help="Exit with code 1 if a recorded state is not reproduced, and with 2 if another "
+            "build of this program recorded it.",
         ),
     ] = True,
     as_json: Annotated[
@@ -30,8 +32,8 @@ def replay(
 
     Every recorded state is compared bit by bit. A truncated recording is compared up to its end.
 
-    Exit codes: 0 reproduced; 1 not reproduced; 2 the file is damaged or not a recording;
-    130 stopped by Ctrl-C.
+    Exit codes: 0 reproduced; 1 not reproduced; 2 the file is damaged, not a recording, or of
+    another build of this program; 130 stopped by Ctrl-C.
 
     Example: agent-economy replay run.mcap
     """
@@ -39,7 +41,7 @@ def replay(
     from agent_economy import recording  # noqa: PLC0415
 
     with error_exits():
-        result = recording.replay(file)
+        result = recording.replay(file, verify=verify)
     typer.echo(json.dumps(as_dict(result), indent=2) if as_json else as_sentence(result))
     if verify and not result.agrees:
         raise typer.Exit(FAILED)
@@ -52,19 +54,20 @@ def as_sentence(result: "Replay") -> str:
         verdict = f"reproduced up to step {result.tick:,} (hash {result.hash})"
     else:
         verdict = f"differs from the recording from step {result.mismatch_tick:,} on"
-        if result.program != __version__:
-            verdict += f"; recorded by version {result.program}, replayed by {__version__}"
+    build = Build(result.program, result.engine)
+    builds = "" if build == own_build() else f"; recorded by {build}, replayed by {own_build()}"
     end = (
         ""
         if result.is_complete
         else f"; the recording is truncated: it ends at step {result.tick:,}"
     )
-    return f"{which}: {verdict}{end}"
+    return f"{which}: {verdict}{builds}{end}"
 
 
 def as_dict(result: "Replay") -> dict[str, object]:
     """Return the result of a replay for programs."""
-    names = ("seed", "run", "program", "is_complete", "tick", "hash", "agrees", "mismatch_tick")
+    first = ("seed", "run", "program", "engine")
+    names = (*first, "is_complete", "tick", "hash", "agrees", "mismatch_tick")
     return {
         "scenario": result.scenario.name,
         **{name: getattr(result, name) for name in names},

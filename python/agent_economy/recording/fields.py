@@ -28,6 +28,10 @@ class Entries:
             self.refuse("no entries")
         self._values: Mapping[str, Any] = values
 
+    def __contains__(self, name: str) -> bool:
+        """Whether there is an entry with a name."""
+        return name in self._values
+
     def text(self, name: str) -> str:
         """Return a string.
 

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from agent_economy import __version__, _core
+from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.build import Build, own_build
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.file import File, strict
 from agent_economy.runs.stepped import Change, Stepped
@@ -29,13 +30,13 @@ class Identity:
         scenario: The initial scenario.
         seed: Seed of all random numbers.
         run: Run number.
-        program: The version of the program that recorded it.
+        build: The build that recorded it.
     """
 
     scenario: Scenario
     seed: int
     run: int
-    program: str
+    build: Build
 
 
 def write_identity(file: File, simulation: Stepped) -> None:
@@ -43,11 +44,13 @@ def write_identity(file: File, simulation: Stepped) -> None:
     source = simulation.scenario.source
     initial = source.overrides[: len(source.overrides) - len(simulation.changes)]
     name = Path(source.file).name
+    own = own_build()
     file.note(
         RUN,
         {
             "format": FORMAT,
-            "program": __version__,
+            "program": own.program,
+            "engine": str(own.engine),
             "scenario": name,
             "overrides": json.dumps([[list(each.path), strict(each.value)] for each in initial]),
             "seed": str(simulation.seed),
@@ -93,6 +96,11 @@ def read_run(values: object) -> Entries:
     return run
 
 
+def read_build(run: Entries) -> Build:
+    """Return the build that recorded a run; old recordings do not name its engine."""
+    return Build(run.text("program"), run.text("engine") if "engine" in run else None)
+
+
 def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> Identity:
     """Return the identity of a run from metadata and attachments. No other file is read.
 
@@ -118,7 +126,7 @@ def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> I
         message = f"lacks files that the scenario refers to: {', '.join(missing)}"
         raise InputError(message)
     seed, number = run.whole("seed"), run.whole("run")
-    return Identity(Scenario.of(source), seed, number, run.text("program"))
+    return Identity(Scenario.of(source), seed, number, read_build(run))
 
 
 def read_overrides(run: Entries) -> tuple[Override, ...]:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from agent_economy._core import InputError
+from agent_economy.build import own_build
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Recorded, named, read
 from agent_economy.runs import factory
@@ -22,6 +24,8 @@ class Replay:
         seed: Seed of all random numbers.
         run: Run number.
         program: The version of the program that recorded it.
+        engine: The hash of the sources of the engine that recorded it, 16 hexadecimal digits; None
+            if it is unknown.
         is_complete: Whether the file is complete; a truncated file is compared up to its end.
         tick: Tick of the last compared state.
         hash: Hash of that state in the replay: 64 bits, hexadecimal.
@@ -34,6 +38,7 @@ class Replay:
     seed: int
     run: int
     program: str
+    engine: str | None
     is_complete: bool
     tick: int
     hash: str
@@ -46,21 +51,40 @@ class Replay:
         return self.mismatch_tick is None
 
 
-def replay(path: str | Path) -> Replay:
+def replay(path: str | Path, *, verify: bool = True) -> Replay:
     """Replay a recorded run from its file alone. Ctrl-C stops it between two steps.
 
     Args:
         path: A recording. A truncated file is compared up to its end.
+        verify: Whether to refuse a recording of another build of this program, which may give
+            another run. Without it, such a recording is replayed and compared all the same.
 
     Raises:
-        InputError: If the file cannot be read, is damaged, is not a recording of a run, or contains
-            a scenario that this version does not accept.
+        InputError: If the file cannot be read, is damaged, is not a recording of a run, contains a
+            scenario that this version does not accept, or is of another build.
     """
     path = validation.path("path", path)
     identity, recorded = read(path)
     with named(path):
+        if verify:
+            check_build(identity)
         simulation = factory.create(identity.scenario, identity.seed, identity.run)
         return compared(simulation, identity, recorded)
+
+
+def check_build(identity: Identity) -> None:
+    """Check that a run was recorded by this build.
+
+    Raises:
+        InputError: If it was not.
+    """
+    if identity.build != own_build():
+        message = (
+            f"was recorded by another build of this program ({identity.build}), this one is "
+            f"{own_build()}: install that build to verify it, or replay it with --no-verify "
+            "(verify=False) to compare it all the same"
+        )
+        raise InputError(message)
 
 
 def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Replay:
@@ -76,7 +100,8 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rep
         scenario=identity.scenario,
         seed=identity.seed,
         run=identity.run,
-        program=identity.program,
+        program=identity.build.program,
+        engine=identity.build.engine,
         is_complete=recorded.is_complete,
         tick=simulation.tick,
         hash=f"{simulation.hash:016x}",

@@ -12,7 +12,7 @@ from mcap.stream_reader import StreamReader
 from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.foxglove import SECOND_NS
-from agent_economy.recording.identity import END, RUN, read_run
+from agent_economy.recording.identity import END, RUN, read_build, read_run
 from agent_economy.recording.reading import MAX_BYTES, ExactStream, file_errors
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -28,6 +28,7 @@ class RecordingSummary:
         seed: Seed of all random numbers.
         run: Run number.
         program: The version of the program that recorded it.
+        engine: Its engine, as in `Build`; None if it is unknown.
         steps: Number of steps; None if the file is truncated, because that requires reading it all.
         length_s: Simulated time of the steps; None as for `steps`.
     """
@@ -36,6 +37,7 @@ class RecordingSummary:
     seed: int
     run: int
     program: str
+    engine: str | None
     steps: int | None
     length_s: float | None
 
@@ -53,7 +55,7 @@ def summarise(path: Path) -> RecordingSummary:
             run.text("scenario"),
             run.whole("seed"),
             run.whole("run"),
-            run.text("program"),
+            *read_build(run),
             *(end or (None, None)),
         )
 

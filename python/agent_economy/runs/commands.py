@@ -16,7 +16,7 @@ S = TypeVar("S", bound=np.generic)
 Shape: TypeAlias = tuple[int, ...]
 
 MAX_INDEX = 2**16 - 1
-"""Maximum index of sensors and of item kinds."""
+"""Maximum index of sensors."""
 
 SENDER, DESTINATION = -1, -2
 """Values of `item_kind` in messages about their sender, and about its destination."""
@@ -101,6 +101,12 @@ class Table:
         self.check(name, numbers, is_allowed, f"a whole number from {low} to {high}")
         return numbers.astype(np.int64)
 
+    def probabilities(self, name: str, shape: Shape) -> Floats:
+        """Return numbers from 0 to 1."""
+        numbers = self.array(name, shape, np.dtype(np.float64))
+        self.check(name, numbers, (numbers >= 0) & (numbers <= 1), "a number from 0 to 1")
+        return numbers
+
     def numbers(self, name: str, shape: Shape) -> Floats:
         """Return finite numbers."""
         numbers = self.array(name, shape, np.dtype(np.float64))
@@ -131,13 +137,14 @@ class Table:
             raise _core.refusal(at, array[index].item(), allowed)
 
 
-def commands(path: str, returned: object, robots: int) -> Commands:
+def commands(path: str, returned: object, robots: int, item_kinds: int) -> Commands:
     """Return the commands that a function on arrays returned for the robots that step.
 
     Args:
         path: Path of the commands in errors.
         returned: The returned value.
         robots: Number of robots that step.
+        item_kinds: Number of item kinds of the scenario.
 
     Raises:
         InputError: If the value is not allowed.
@@ -148,7 +155,7 @@ def commands(path: str, returned: object, robots: int) -> Commands:
         motion.numbers("speed_m_s", (robots,)),
         motion.numbers("turn_rate_rad_s", (robots,)),
         requests(table, robots) if "requests" in table else NO_REQUESTS,
-        outbox(table, robots) if "outbox" in table else NO_MESSAGES,
+        outbox(table, robots, item_kinds) if "outbox" in table else NO_MESSAGES,
     )
 
 
@@ -160,12 +167,12 @@ def requests(commands: Table, robots: int) -> Requests:
     return Requests(row, sensor, table.array("on", row.shape, np.dtype(np.bool_)))
 
 
-def outbox(commands: Table, robots: int) -> Outbox:
+def outbox(commands: Table, robots: int, item_kinds: int) -> Outbox:
     """Return the messages to send."""
     table = commands.part("outbox", batch.Outbox.__annotations__)
     row = table.row(robots)
-    confidence = table.numbers("confidence", row.shape)
-    item_kind = table.integers("item_kind", row.shape, (DESTINATION, MAX_INDEX))
+    confidence = table.probabilities("confidence", row.shape)
+    item_kind = table.integers("item_kind", row.shape, (DESTINATION, item_kinds - 1))
     at = table.numbers("at", (len(row), 2))
     has_heading = np.any(item_kind == SENDER)
     heading_rad = table.numbers("heading_rad", row.shape) if has_heading else np.zeros(row.shape)
@@ -181,5 +188,5 @@ def outbox(commands: Table, robots: int) -> Outbox:
 
 
 EMPTY = Table("commands", {}, batch.Commands.__annotations__)
-NO_REQUESTS, NO_MESSAGES = requests(EMPTY, 0), outbox(EMPTY, 0)
+NO_REQUESTS, NO_MESSAGES = requests(EMPTY, 0), outbox(EMPTY, 0, 0)
 """Most functions return neither. Making them in each step would take as long as the rest."""

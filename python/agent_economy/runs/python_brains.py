@@ -100,7 +100,8 @@ class BatchBrain:
         except Exception as error:
             error.add_note(f"in the brain of all robots of kind {self.kind}, at {time_s:g} s")
             raise
-        return commands(f"brains.{self.kind}()", returned, robots)
+        items = len(complete["body"]["item_kinds"])
+        return commands(f"brains.{self.kind}()", returned, robots, items)
 
 
 PythonBrains: TypeAlias = SingleBrains | BatchBrain

@@ -287,11 +287,11 @@ class Simulation(Stepped):
         return super().snapshot()
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Return to a snapshot: its state, scenario, seed, run number and changes.
+        """Return to a snapshot: its state, its scenario and its changes.
 
         Raises:
-            InputError: If `snapshot` is not a snapshot of this engine, or the run has Python
-                brains.
+            InputError: If `snapshot` is not a snapshot of this run, as for any run, or the run has
+                Python brains.
         """
         self._check_no_python_brains("restore")
         super().restore(snapshot)

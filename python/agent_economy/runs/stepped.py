@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from threading import RLock
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
+from agent_economy._core import InputError
 from agent_economy.runs.outcome import Outcome, Status, outcome_of
 from agent_economy.scenario import Scenario, TomlValue, validation
 from agent_economy.types.brain import BeliefState
@@ -29,8 +30,9 @@ class Change(NamedTuple):
 
 @dataclass(frozen=True)
 class Snapshot:
-    """The state of a run at one step, for `restore` of any run of its engine in this process.
+    """The state of a run at one step, for `restore` of the same run in this process.
 
+    That is any run that began with the same scenario, seed and run number; its changes may differ.
     It cannot be pickled. To keep a run, store its scenario, seed, run number and `changes`, and
     step again.
     """
@@ -39,6 +41,7 @@ class Snapshot:
     seed: int
     run: int
     changes: tuple[Change, ...]
+    _initial: Scenario = field(repr=False)
     _state: Any = field(repr=False)
 
 
@@ -62,6 +65,7 @@ class Stepped(ABC):
     def __init__(self, scenario: Scenario, seed: int, run: int) -> None:
         """Create a run without changes."""
         self.scenario, self.seed, self.run = scenario, seed, run
+        self._initial = scenario
         self._changes: tuple[Change, ...] = ()
         self._lock = RLock()
 
@@ -91,21 +95,35 @@ class Stepped(ABC):
         """Return a copy of the complete state of the run. It takes as much memory as the run."""
         with self._lock:
             state = self._run.snapshot()
-            return Snapshot(self.scenario, self.seed, self.run, self._changes, state)
+            changes = self._changes
+            return Snapshot(self.scenario, self.seed, self.run, changes, self._initial, state)
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Return to a snapshot: its state, scenario, seed, run number and changes.
+        """Return to a snapshot: its state, its scenario and its changes.
 
         Raises:
-            InputError: If `snapshot` is not a snapshot of a run of this engine.
+            InputError: If `snapshot` is not a snapshot of this run: of one that began with the same
+                scenario, seed and run number.
         """
         state = getattr(snapshot, "_state", None)
         is_own = isinstance(state, self._state_type)
         validation.check(is_own, "snapshot", snapshot, "what snapshot() returned")
+        self._check_same_run(snapshot)
         with self._lock:
             self._run.restore(state)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
-            self.seed, self.run = snapshot.seed, snapshot.run
+
+    def _check_same_run(self, snapshot: Snapshot) -> None:
+        theirs = begun(snapshot._initial, snapshot.seed, snapshot.run)  # noqa: SLF001  (its own type)
+        own = begun(self._initial, self.seed, self.run)
+        if theirs == own and is_same(snapshot._initial, self._initial):  # noqa: SLF001
+            return
+        other = " with another scenario of this name" if theirs == own else ""
+        message = (
+            f"snapshot is of the run {theirs}{other}: must be of this run, {own}; "
+            "for another run, create another simulation"
+        )
+        raise InputError(message)
 
     def outcome(self) -> Outcome:
         """Return the outcome at the current step; at the end of the run, it is that of `run`."""
@@ -147,3 +165,15 @@ class Stepped(ABC):
     def hash(self) -> int:
         """A 64-bit hash of the state: equal for runs without a visible difference."""
         return self._run.hash
+
+
+def begun(scenario: Scenario, seed: int, run: int) -> str:
+    """Return how a run began, in words."""
+    return f"{scenario.name!r}, seed={seed}, run={run}"
+
+
+def is_same(one: Scenario, other: Scenario) -> bool:
+    """Return whether two scenarios have the same values and files, whatever their source."""
+    if one is other:
+        return True
+    return one.to_dict() == other.to_dict() and one.source.files == other.source.files

@@ -2,6 +2,7 @@
 
 import tempfile
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -59,8 +60,8 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         on_progress: Called after each round, and about every second during a long one.
 
     Raises:
-        InputError: If an argument is invalid; or the folder contains another study, is damaged, or
-            cannot be written.
+        InputError: If an argument is invalid; or the folder contains another study or runs of
+            another build of this program, is damaged, or cannot be written.
     """
     validation.of_type("scenario", scenario, Scenario, "a Scenario")
     validation.of_type("vary", vary, Mapping | None, "a dict of values by their paths")
@@ -103,10 +104,13 @@ def resume(
 def rebuild(folder: str | Path) -> Answer:
     """Rebuild the answer and the report of a finished study from its runs; computes none.
 
+    The runs may be of another build: it stays in study.toml.
+
     Raises:
         InputError: If the folder contains no study, or an unfinished one.
     """
-    return run_plan(load_plan(folder), folder, compute=refuse(folder), rewrite=True)
+    plan = replace(load_plan(folder), computed_by=plans.build_of(read(folder).question))
+    return run_plan(plan, folder, compute=refuse(folder), rewrite=True)
 
 
 def load_answer(folder: str | Path) -> tuple[Answer, Evidence]:

@@ -121,7 +121,7 @@ def dask_executor(address: str) -> DaskExecutor:
     """Return a Dask cluster as an executor.
 
     Args:
-        address: Address of its scheduler, such as tcp://HOST:8786. The same version of this program
+        address: Address of its scheduler, such as tcp://HOST:8786. The same build of this program
             must be installed on its workers.
 
     Raises:

@@ -8,15 +8,15 @@ import hashlib
 import json
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 
 from agent_economy._core import InputError
+from agent_economy.build import Build, own_build
 from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
 from agent_economy.study import design
@@ -29,6 +29,7 @@ from agent_economy.study.arguments import (
 )
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
+from agent_economy.study.errors import StoreError
 
 FORMAT = 1
 """Format version of study.toml."""
@@ -61,6 +62,7 @@ class Plan:
         max_runs: Run budget of all configurations together; None for no limit.
         configurations: The values of the varied factors of each configuration.
         engine: Runs the configurations.
+        computed_by: The build that computes the runs, or has computed them.
     """
 
     scenario: Scenario
@@ -72,6 +74,7 @@ class Plan:
     max_runs: int | None
     configurations: tuple[Values, ...]
     engine: Engine
+    computed_by: Build = field(default_factory=own_build)
 
     def alone(self, configuration: int) -> Scenario:
         """Return the scenario with the values of one configuration; it has the same runs.
@@ -96,7 +99,8 @@ class Plan:
         }
         data = {
             "identity": self.identity,
-            "program": version("agent-economy"),
+            "program": self.computed_by.program,
+            "engine": self.computed_by.engine,
             "seed": str(self.seed),
             "runs": self.runs,
             "name": Path(source.file).name,
@@ -133,12 +137,13 @@ class Plan:
         """The hash of all that determines the runs: plans with the same identity share a folder.
 
         It covers the version of the program, the seed, the configurations in their order, and the
-        scenario except for the keys that affect only scores and descriptions.
+        scenario except for the keys that affect only scores and descriptions. It does not cover the
+        engine: a folder of another build is refused, and not passed over for a new one.
         """
         document = self.scenario.to_dict()
         runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}
         files = {name: digest(data) for name, data in self.files.items()}
-        parts = [version("agent-economy"), self.seed, self.runs, self.configurations, runs, files]
+        parts = [own_build().program, self.seed, self.runs, self.configurations, runs, files]
         text = json.dumps(parts, sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -292,8 +297,8 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
         raise InputError(message) from None
     message = (
         f"{file}: [data] was changed, or was written by another version of this program "
-        f"({document['data'].get('program')}), and does not match the stored runs: restore it, or "
-        "use another folder"
+        f"({build_of(text)}; this one is {own_build()}), and does not match the stored runs: "
+        "restore it, or use another folder"
     )
     raise InputError(message)
 
@@ -314,6 +319,39 @@ def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) ->
         runs=data.get("runs"),
         max_runs=question.get("max_runs"),
     )
+
+
+def build_of(text: str) -> Build:
+    """Return the build that has computed the runs of a study.toml; its engine may be unknown."""
+    data = tomllib.loads(text).get("data", {})
+    return Build(str(data.get("program", "unknown")), data.get("engine"))
+
+
+def may_replace(folder: Path, existing: str, requested: str) -> bool:
+    """Return whether a study.toml may replace another one: both must have the same runs.
+
+    Raises:
+        StoreError: If another build has computed the existing runs.
+    """
+    if not is_same_data(existing, requested):
+        return False
+    check_build(folder, existing, build_of(requested))
+    return True
+
+
+def check_build(folder: Path, existing: str, build: Build) -> None:
+    """Check that the runs of a study.toml are of a build.
+
+    Raises:
+        StoreError: If they are of another one.
+    """
+    if (stored := build_of(existing)) != build:
+        message = (
+            f"{folder}: its runs were computed by another build of this program ({stored}), this "
+            f"one is {build}: install that build to continue the study, or compute all runs in "
+            "another folder (--out)"
+        )
+        raise StoreError(message)
 
 
 def is_same_data(one: str, other: str) -> bool:

@@ -7,6 +7,7 @@ not, and repeating a finished study computes nothing.
 
 import time
 from collections.abc import Callable, Generator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,7 @@ from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
 from agent_economy.study.errors import NoConfigurationError
-from agent_economy.study.plan import Plan, digest, is_same_data
+from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import Elimination, Integers, drive, guarantee_text, within
@@ -59,14 +60,15 @@ def run_race(
         finish: Called with the result while the folder is still locked.
 
     Raises:
-        InputError: If the folder contains another study, is damaged, or cannot be written.
+        InputError: If the folder contains another study or runs of another build, is damaged, or
+            cannot be written.
     """
     for name, function in (("compute", compute), ("on_progress", on_progress)):
         check(function is None or callable(function), name, function, "a function or None")
     columns = plan.engine.columns
     content = {digest(data): data for data in plan.files.values()}
     with Store.open(
-        folder, plan.text(), columns, content=content, may_replace=is_same_data
+        folder, plan.text(), columns, content=content, may_replace=partial(may_replace, folder)
     ) as store:
         race = Race(plan, store, compute, on_progress)
         evidence, ending = race.run()

@@ -17,10 +17,9 @@ from concurrent.futures import (
     wait,
 )
 from dataclasses import dataclass, field, replace
-from functools import cache
-from importlib.metadata import version
 from typing import Self, TypeAlias
 
+from agent_economy.build import own_build
 from agent_economy.study.errors import StudyError
 from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock, check_shape
 
@@ -140,7 +139,7 @@ class Workers:
             if self._executor is None:
                 self._executor = self._make()
             try:
-                future = self._executor.submit(run, self._task, chunk.runs, own_version())
+                future = self._executor.submit(run, self._task, chunk.runs, str(own_build()))
             except StudyError:
                 raise
             except (BrokenExecutor, RuntimeError, OSError) as error:
@@ -276,24 +275,21 @@ def next_part(block: RunBlock, assigned: int, rows: int) -> Chunk:
     return Chunk(RunBlock(configurations, block.first_run, block.runs))
 
 
-def run(task: Compute, runs: RunBlock, study_version: str) -> Result:
+def run(task: Compute, runs: RunBlock, study_build: str) -> Result:
     """Compute a chunk in a worker.
 
     Returns:
         Its outcomes, and its duration in seconds.
 
     Raises:
-        RuntimeError: If the worker has another version of this program.
+        RuntimeError: If the worker has another build of this program.
     """
-    if own_version() != study_version:
-        message = f"a worker has version {own_version()} of this program, the study {study_version}"
+    if (own := str(own_build())) != study_build:
+        message = (
+            f"a worker has another build of this program ({own}) than the study ({study_build}): "
+            "install the same build on both"
+        )
         raise RuntimeError(message)
     start = time.perf_counter()
     columns = task(runs)
     return columns, time.perf_counter() - start
-
-
-@cache
-def own_version() -> str:
-    """Return the version of this program."""
-    return version("agent-economy")

@@ -242,11 +242,13 @@ class OpenedRecording(TypedDict):
 
     Attributes:
         id: Its id.
-        program: The version that recorded it.
+        recorded_by: The version and the engine that recorded it.
+        replayed_by: The version and the engine of the server.
     """
 
     id: str
-    program: str
+    recorded_by: str
+    replayed_by: str
 
 
 class Opened(TypedDict):
@@ -278,6 +280,7 @@ class RecordedRun(TypedDict):
         seed: The seed as a decimal number.
         run: The number of the run as a decimal number.
         program: The version that recorded it.
+        engine: The engine that recorded it; null if it is unknown.
         steps: Its steps; null if the file is truncated.
         length_s: Its simulated time; null if the file is truncated.
     """
@@ -286,6 +289,7 @@ class RecordedRun(TypedDict):
     seed: str
     run: str
     program: str
+    engine: str | None
     steps: int | None
     length_s: float | None
 

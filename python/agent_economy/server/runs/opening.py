@@ -1,5 +1,6 @@
 """Opens the run that a page requests."""
 
+from agent_economy.build import Build
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario
 from agent_economy.server.recordings.store import RecordingStore
@@ -8,8 +9,8 @@ from agent_economy.server.workspace import Workspace
 from agent_economy.types.page import Open
 
 
-def open_timeline(workspace: Workspace, message: Open) -> tuple[Timeline, str | None]:
-    """Return a run at its beginning; of a recorded run also the version that recorded it.
+def open_timeline(workspace: Workspace, message: Open) -> tuple[Timeline, Build | None]:
+    """Return a run at its beginning; of a recorded run also the build that recorded it.
 
     Raises:
         InputError: If there is no such scenario or recording, it has errors, or the world has no
@@ -19,7 +20,7 @@ def open_timeline(workspace: Workspace, message: Open) -> tuple[Timeline, str | 
     if message.recording is not None:
         identity, recorded = RecordingStore(workspace).load(message.recording)
         timeline = Timeline(identity.scenario, identity.seed, identity.run, log, recorded)
-        return timeline, identity.program
+        return timeline, identity.build
     scenario, seed = scenario_and_seed(workspace, message)
     return Timeline(scenario, seed, int(message.run or 0), log), None
 

@@ -13,6 +13,7 @@ from concurrent.futures import Executor
 from typing import Any, TypeVar
 
 from agent_economy._core import InputError
+from agent_economy.build import Build, own_build
 from agent_economy.server import messages
 from agent_economy.server.recordings.saver import Saver
 from agent_economy.server.recordings.store import RecordingStore
@@ -162,11 +163,11 @@ class Session:
 
     async def _open(self, message: page.Open) -> None:
         self._player.clear_pending()
-        timeline, program = await self._in_thread(lambda: open_timeline(self._workspace, message))
+        timeline, build = await self._in_thread(lambda: open_timeline(self._workspace, message))
         self._timeline = timeline
         self._player.open(timeline, message.tick)
         self._display.open(timeline)
-        await self._page.send(opened(timeline, message, program))
+        await self._page.send(opened(timeline, message, build))
 
     async def _advance(self) -> None:
         """Advance the run for a short time, if it moves."""
@@ -201,12 +202,15 @@ class Session:
         return await asyncio.get_running_loop().run_in_executor(self._threads, work)
 
 
-def opened(timeline: Timeline, message: page.Open, program: str | None) -> page.Opened:
-    """Return the message that a run is open; `program` is the version that recorded it."""
+def opened(timeline: Timeline, message: page.Open, build: Build | None) -> page.Opened:
+    """Return the message that a run is open; `build` is the one that recorded it."""
     simulation = timeline.simulation
     scenario = simulation.scenario
     engine: Any = scenario.engine
-    recording: Any = None if program is None else {"id": message.recording, "program": program}
+    recording: Any = None
+    if build is not None:
+        own = str(own_build())
+        recording = {"id": message.recording, "recorded_by": str(build), "replayed_by": own}
     return {
         "type": "opened",
         "scenario": {

@@ -13,7 +13,7 @@ from agent_economy.server.studies.job import StudyJob
 from agent_economy.server.studies.summary import Summaries, of_plan
 from agent_economy.server.workspace import Workspace, is_study
 from agent_economy.study import Plan
-from agent_economy.study.plan import with_confidence
+from agent_economy.study.plan import check_build, with_confidence
 from agent_economy.study.question import usual_folder
 from agent_economy.study.store.folder import disk_errors, is_locked
 
@@ -93,7 +93,8 @@ class StudyManager:
         """Start or resume a study.
 
         Raises:
-            InputError: If too many studies are running, or another process runs this one.
+            InputError: If too many studies are running, another process runs this one, or another
+                build of this program has computed its runs.
         """
         name = self.id_of(plan)
         self._begin(name, lambda: plan)
@@ -148,7 +149,11 @@ class StudyManager:
                     f"{MAX_RUNNING} studies at a time: stop one, or wait for its answer"
                 )
                 raise InputError(message)
-            job = StudyJob(plan(), folder)
+            begun = plan()
+            if is_study(folder):
+                # The job would refuse it too, but only after the page has its response.
+                check_build(Path(name), study.open(folder).question, begun.computed_by)
+            job = StudyJob(begun, folder)
             job.wait_until_begun()
             if job.message:
                 raise InputError(job.message)

@@ -102,8 +102,10 @@ export interface MapView {
 export interface OpenedRecording {
   /** Its id. */
   id: string;
-  /** The version that recorded it. */
-  program: string;
+  /** The version and the engine that recorded it. */
+  recorded_by: string;
+  /** The version and the engine of the server. */
+  replayed_by: string;
 }
 
 /** The scenario of an opened run. */
@@ -236,6 +238,8 @@ export interface RecordedRun {
   run: string;
   /** The version that recorded it. */
   program: string;
+  /** The engine that recorded it; null if it is unknown. */
+  engine: string | null;
   /** Its steps; null if the file is truncated. */
   steps: number | null;
   /** Its simulated time; null if the file is truncated. */

@@ -1,0 +1,70 @@
+//! Rejects messages, and ids of robots, that no brain could use: brains would ignore them unseen.
+
+use base::error::InputError;
+use brain::{About, Body, Command, Message, RobotId};
+use sim::scenario::Scenario;
+
+/// The kinds that messages can be about.
+pub(crate) struct Kinds {
+    items: usize,
+    /// `None` for a body that does not know the kinds of robots.
+    robots: Option<usize>,
+}
+
+impl Kinds {
+    pub(crate) fn of_scenario(scenario: &Scenario) -> Self {
+        Self {
+            items: scenario.item_kinds().count(),
+            robots: Some(scenario.robot_kinds().count()),
+        }
+    }
+
+    pub(crate) fn of_body(body: &Body) -> Self {
+        let robots = body.others.len();
+        Self {
+            items: body.item_kinds.len(),
+            robots: (robots > 0).then_some(robots),
+        }
+    }
+
+    /// An error, unless there is the kind of an item; `at` is its path.
+    pub(crate) fn item(&self, at: &str, kind: u16) -> Option<InputError> {
+        unless_below(self.items, at, kind.into(), "item")
+    }
+
+    /// An error, unless there is the kind of a robot; `at` is the path of its id.
+    pub(crate) fn robot(&self, at: &str, id: RobotId) -> Option<InputError> {
+        unless_below(self.robots?, &format!("{at}.kind"), id.kind.into(), "robot")
+    }
+
+    /// The first error of a message; `at` is its path.
+    pub(crate) fn message(&self, at: &str, message: &Message) -> Option<InputError> {
+        if !(0.0..=1.0).contains(&message.confidence) {
+            let path = format!("{at}.confidence");
+            let given = Some(message.confidence.to_string());
+            return Some(InputError::new(path, given, "a number from 0 to 1".into()));
+        }
+        let About::Item {
+            kind, provenance, ..
+        } = message.about
+        else {
+            return None;
+        };
+        let at = format!("{at}.about.item");
+        let unknown = self.item(&format!("{at}.kind"), kind);
+        unknown.or_else(|| self.robot(&format!("{at}.provenance.observer"), provenance.observer))
+    }
+
+    /// `command`, if all of its messages are allowed; `at` is its path.
+    pub(crate) fn command(&self, at: &str, command: Command) -> Result<Command, InputError> {
+        let mut messages = command.outbox.iter().enumerate();
+        let error = messages
+            .find_map(|(number, message)| self.message(&format!("{at}.outbox[{number}]"), message));
+        error.map_or(Ok(command), Err)
+    }
+}
+
+fn unless_below(kinds: usize, at: &str, kind: usize, what: &str) -> Option<InputError> {
+    let allowed = format!("a number below {kinds}, the number of {what} kinds");
+    (kind >= kinds).then(|| InputError::new(at.to_owned(), Some(kind.to_string()), allowed))
+}
