@@ -1,16 +1,18 @@
-//! ROS occupancy maps, as loaded by `map_server` and `nav2_map_server`: a YAML file and a PGM image.
+//! ROS occupancy maps, as loaded by `map_server` and `nav2_map_server`: a YAML file and a PGM
+//! or PNG image.
 //!
 //! **What a pixel means** (`wiki.ros.org/map_server`, "Value Interpretation", and `map_io.cpp` of
-//! `nav2_map_server`). The image's first row is the map's top. Of a pixel of value v, the occupancy
-//! probability is p = (m - v) / m, where m is the greatest value, 255 in most files; v / m if
-//! `negate` is set. Then, by `mode`,
+//! `nav2_map_server` in ROS 2 Humble and Jazzy). The image's first row is the map's top. Of a pixel of
+//! value v, the mean of its colour channels, the occupancy probability is p = (m - v) / m, where m is the
+//! greatest value, 255 in most files; v / m if `negate` is set. Then, by `mode`,
 //!
 //! * `trinary`: 100 (occupied) if p > `occupied_thresh`, 0 (free) if p < `free_thresh`, else -1
-//!   (unknown);
-//! * `scale`: the same, but in between 100 (p - `free_thresh`) / (`occupied_thresh` - `free_thresh`),
-//!   rounded, halves to the even number (as in ROS 2; a PGM image has nothing transparent, so that
-//!   nothing is unknown);
+//!   (unknown). In an image with transparency, v is the mean of red, green, blue and opacity;
+//! * `scale`: the same without opacity, but in between 100 (p - `free_thresh`) / (`occupied_thresh` -
+//!   `free_thresh`), rounded, halves to the even number; -1 for a pixel that is not opaque;
 //! * `raw`: 255 v / m, rounded, or -1 if that is above 100, for any value of `negate`.
+//!
+//! Keys of the YAML file that `map_server` does not read are ignored.
 //!
 //! `origin` is the pose [x, y, yaw] of the lower left corner of the lower left pixel: the map is
 //! rotated about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it is used.)
@@ -19,13 +21,16 @@
 //! that are not known to be free (0) are solid. Outside the map, nothing is solid.
 
 mod grid;
+mod image;
 mod outline;
 mod pgm;
+mod pixel;
+mod png;
 mod settings;
 
 pub use grid::MAX_CELLS;
+pub use image::MAX_IMAGE_BYTES;
 pub use outline::MAX_SEGMENTS;
-pub use pgm::MAX_IMAGE_BYTES;
 
 use crate::error::{InputError, InputErrors};
 use crate::geometry::{Point, Rectangle, Segment};
@@ -84,8 +89,8 @@ pub fn read(
     let settings = settings::read(file, text)?;
     let only = |error| InputErrors(vec![error]);
     let bytes = open(&settings.image).map_err(|why| only(settings.image_error(&why)))?;
-    let meaning = |value, greatest| settings.occupancy(value, greatest);
-    let cells = pgm::read(&settings.image, &bytes, meaning).map_err(only)?;
+    let meaning = |pixel| settings.occupancy(pixel);
+    let cells = image::read(&settings.image, &bytes, meaning).map_err(only)?;
     drop(bytes);
     OccupancyMap::new(cells, settings, unknown).map_err(only)
 }

@@ -1,5 +1,6 @@
 //! The YAML file of a map, and the meaning of its pixels and coordinates.
 
+use super::pixel::Pixel;
 use crate::document::{Document, Section, Value};
 use crate::error::{InputError, InputErrors};
 use crate::geometry::Point;
@@ -119,7 +120,7 @@ impl Settings {
     /// The error that the image cannot be used.
     pub(super) fn image_error(&self, why: &str) -> InputError {
         let value = Some(format!("{:?}", self.image));
-        let allowed = format!("the name of a PGM image; {why}");
+        let allowed = format!("the name of a PGM or PNG image; {why}");
         InputError {
             origin: Some(self.source.clone()),
             ..InputError::new("image".to_owned(), value, allowed)
@@ -127,8 +128,15 @@ impl Settings {
     }
 
     /// Occupancy of a pixel: 0 to 100, or -1.
-    pub(super) fn occupancy(&self, value: u16, greatest: u16) -> i8 {
-        let (shade, white) = (f64::from(value), f64::from(greatest));
+    pub(super) fn occupancy(&self, pixel: Pixel) -> i8 {
+        if self.mode == Mode::Scale && !pixel.is_opaque() {
+            return -1;
+        }
+        let (shade, white) = match self.mode {
+            Mode::Trinary => pixel.brightness_with_opacity(),
+            Mode::Scale | Mode::Raw => pixel.brightness(),
+        };
+        let (shade, white) = (f64::from(shade), f64::from(white));
         if self.mode == Mode::Raw {
             let raw = (255.0 * shade / white).round();
             return if raw <= 100.0 { percent(raw) } else { -1 };

@@ -3,6 +3,8 @@ use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
+mod images;
+
 const ROOM: &str = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
                     occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
@@ -210,7 +212,7 @@ fn an_image_that_cannot_be_opened_is_reported_at_its_key() {
     });
     assert_eq!(
         errors.unwrap_err().to_string(),
-        "a/room.yaml:1: image = \"room.pgm\": must be the name of a PGM image; \
+        "a/room.yaml:1: image = \"room.pgm\": must be the name of a PGM or PNG image; \
          room.pgm is not there"
     );
 }
@@ -273,11 +275,13 @@ fn a_header_with_a_wrong_size_is_rejected_before_memory_is_allocated() {
         ),
         (
             b"P6 1 1 255\n123",
-            "room.pgm:1: not a PGM image: it must begin with P5 or P2",
+            "room.pgm: must be a PGM image (P5 or P2) or a PNG image; it is a PPM image: convert it, \
+             such as with ImageMagick: magick IMAGE IMAGE.png",
         ),
         (
             b"",
-            "room.pgm:1: not a PGM image: it must begin with P5 or P2",
+            "room.pgm: must be a PGM image (P5 or P2) or a PNG image; it is an unknown format: convert \
+             it, such as with ImageMagick: magick IMAGE IMAGE.png",
         ),
     ] {
         assert_eq!(errors(ROOM, image), expected);
@@ -338,7 +342,7 @@ fn a_map_with_too_many_walls_is_an_error() {
     image.extend((0..1600 * 1600).map(|at| if (at + at / 1600) % 2 == 0 { 0 } else { 254 }));
     assert_eq!(
         errors(ROOM, &image),
-        "room.yaml:1: image = \"room.pgm\": must be the name of a PGM image; \
+        "room.yaml:1: image = \"room.pgm\": must be the name of a PGM or PNG image; \
          it has more than 4000000 straight walls: smooth its outlines"
     );
 }
@@ -458,12 +462,12 @@ proptest! {
         } else {
             image.extend(pixels.iter().map(|pixel| u8::try_from(*pixel).unwrap()));
         }
-        let upper = |value: u16, _: u16| i8::from_le_bytes([if is_wide { value >> 8 } else { value }.to_le_bytes()[0]]);
-        let read = pgm::read("room.pgm", &image, upper).unwrap();
+        let upper = |value: u32| i8::from_le_bytes([if is_wide { value >> 8 } else { value }.to_le_bytes()[0]]);
+        let read = pgm::read("room.pgm", &image, |pixel| upper(pixel.brightness().0)).unwrap();
         let rows_from_the_top = pixels.chunks_exact(columns as usize);
         for (row, expected) in (0..rows).rev().zip(rows_from_the_top) {
             for (column, pixel) in (0..columns).zip(expected) {
-                prop_assert_eq!(read.get(column, row), Some(upper(*pixel, greatest)));
+                prop_assert_eq!(read.get(column, row), Some(upper((*pixel).into())));
             }
         }
     }
