@@ -16,6 +16,7 @@
 //!
 //! `origin` is the pose [x, y, yaw] of the lower left corner of the lower left pixel: the map is
 //! rotated about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it is used.)
+//! [`MapOptions::at`] replaces x and y.
 //!
 //! **Solid cells:** those of occupancy 100; unknown cells are free. With [`Unknown::Solid`], all cells
 //! that are not known to be free (0) are solid. Outside the map, nothing is solid.
@@ -50,6 +51,15 @@ pub enum Unknown {
     Solid,
 }
 
+/// How a world uses a map.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MapOptions {
+    /// Treatment of cells that are neither free nor occupied.
+    pub unknown: Unknown,
+    /// Position of the lower left corner of the image in the world, instead of the `origin` in the file.
+    pub at: Option<Point>,
+}
+
 /// An occupancy grid of square cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OccupancyMap {
@@ -70,11 +80,11 @@ pub struct OccupancyMap {
 /// All errors of the YAML; if there are none, the first error of the image.
 ///
 /// ```
-/// use base::map::{read, Unknown};
+/// use base::map::{read, MapOptions};
 /// let text = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
 ///             occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 /// let open = |_: &str| Ok(b"P2 3 2 255  0 205 254  0 254 254".to_vec());
-/// let map = read("room.yaml", text, Unknown::Free, open)?;
+/// let map = read("room.yaml", text, MapOptions::default(), open)?;
 /// assert!(map.is_solid([1.25, 2.75].into()));
 /// assert!(!map.is_solid([1.75, 2.75].into()));
 /// assert_eq!(map.outline().len(), 4);
@@ -83,7 +93,7 @@ pub struct OccupancyMap {
 pub fn read(
     file: &str,
     text: &str,
-    unknown: Unknown,
+    options: MapOptions,
     open: impl FnOnce(&str) -> Result<Vec<u8>, String>,
 ) -> Result<OccupancyMap, InputErrors> {
     let settings = settings::read(file, text)?;
@@ -92,7 +102,8 @@ pub fn read(
     let meaning = |pixel| settings.occupancy(pixel);
     let cells = image::read(&settings.image, &bytes, meaning).map_err(only)?;
     drop(bytes);
-    OccupancyMap::new(cells, settings, unknown).map_err(only)
+    let settings = settings.placed(options.at);
+    OccupancyMap::new(cells, settings, options.unknown).map_err(only)
 }
 
 impl OccupancyMap {
@@ -110,6 +121,12 @@ impl OccupancyMap {
             unknown,
             outline,
         })
+    }
+
+    /// Position of the lower left corner of the image in the world.
+    #[must_use]
+    pub fn origin(&self) -> Point {
+        self.settings.origin()
     }
 
     /// Number of cells along the x axis of the map.
@@ -135,6 +152,22 @@ impl OccupancyMap {
     #[must_use]
     pub fn occupancy(&self, column: u32, row: u32) -> Option<i8> {
         self.cells.get(column, row)
+    }
+
+    /// Number of occupied cells, and of those whose centres are outside of `world`.
+    #[must_use]
+    pub fn occupied_and_outside(&self, world: Rectangle) -> (usize, usize) {
+        let (mut occupied, mut outside) = (0, 0);
+        for row in 0..self.rows() {
+            for column in 0..self.columns() {
+                if self.occupancy(column, row) == Some(100) {
+                    let (x, y) = (f64::from(column) + 0.5, f64::from(row) + 0.5);
+                    occupied += 1;
+                    outside += usize::from(!world.contains(self.settings.place(x, y)));
+                }
+            }
+        }
+        (occupied, outside)
     }
 
     /// Whether `point` is in a solid cell. A point between two cells is in one of them.

@@ -2,7 +2,7 @@
 
 use super::pixel::Pixel;
 use crate::document::{Document, Section, Value};
-use crate::error::{InputError, InputErrors};
+use crate::error::{InputError, InputErrors, nearest};
 use crate::geometry::Point;
 use crate::trig;
 
@@ -15,6 +15,9 @@ const KEYS: [&str; 7] = [
     "free_thresh",
     "mode",
 ];
+
+/// All of them but for `mode`.
+const REQUIRED: &[&str] = KEYS.split_at(6).0;
 
 /// Conversion of pixels to occupancies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +54,7 @@ pub(super) struct Settings {
 
 pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
     Document::parse_yaml(file, text)?.read(|root| {
-        root.only(&KEYS);
+        report_misspelt(root);
         let image = root.line("image");
         let resolution_m = root.number("resolution", 1e-4..=100.0);
         let pose = pose(root);
@@ -76,6 +79,17 @@ pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
             mode: mode?,
         })
     })
+}
+
+/// Reports the keys that are nearly one that is missing. Other keys of maps differ between programs, and
+/// `map_server` ignores them.
+fn report_misspelt(root: &Section) {
+    for key in root.keys().filter(|key| !KEYS.contains(key)) {
+        let missing = REQUIRED.iter().copied().filter(|known| !root.has(known));
+        if nearest(key, missing).is_some() {
+            root.report_unknown(key, &KEYS);
+        }
+    }
 }
 
 fn pose(root: &Section) -> Option<(Point, f64)> {
@@ -117,6 +131,17 @@ fn thresholds(root: &Section) -> Option<(f64, f64)> {
 }
 
 impl Settings {
+    /// The same with the lower left corner of the image at another place, if there is one.
+    pub(super) fn placed(self, at: Option<Point>) -> Self {
+        let origin = at.unwrap_or(self.origin);
+        Self { origin, ..self }
+    }
+
+    /// The lower left corner of the image.
+    pub(super) fn origin(&self) -> Point {
+        self.origin
+    }
+
     /// The error that the image cannot be used.
     pub(super) fn image_error(&self, why: &str) -> InputError {
         let value = Some(format!("{:?}", self.image));

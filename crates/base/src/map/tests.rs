@@ -34,7 +34,9 @@ fn yaml(lines: &[&str]) -> String {
 }
 
 fn load(text: &str, image: &[u8]) -> Result<OccupancyMap, InputErrors> {
-    read("room.yaml", text, Unknown::Free, |_| Ok(image.to_vec()))
+    read("room.yaml", text, MapOptions::default(), |_| {
+        Ok(image.to_vec())
+    })
 }
 
 fn errors(text: &str, image: &[u8]) -> String {
@@ -52,10 +54,9 @@ fn drawn(rows: &[&str], lines: &[&str], unknown: Unknown) -> OccupancyMap {
         };
         write!(image, " {value}").unwrap();
     }
-    read("room.yaml", &yaml(lines), unknown, |_| {
-        Ok(image.into_bytes())
-    })
-    .unwrap()
+    let options = MapOptions { unknown, at: None };
+    let open = |_: &str| Ok(image.into_bytes());
+    read("room.yaml", &yaml(lines), options, open).unwrap()
 }
 
 /// Occupancies, the lowest row first.
@@ -196,6 +197,69 @@ fn all_errors_of_the_yaml_are_reported_at_once_with_their_lines() {
 }
 
 #[test]
+fn keys_that_map_server_does_not_read_are_ignored() {
+    // As of nav2_system_tests/maps/map_circular.yaml, and of other programs.
+    let lines = [
+        "map_type: occupancy",
+        "width: 3",
+        "name: [a, {b: c}]",
+        "modes: raw",
+    ];
+    let image = b"P2 3 1 255  0 205 254";
+    let map = load(&yaml(&lines), image).unwrap();
+    assert_eq!(map, load(ROOM, image).unwrap());
+    let error = errors(&yaml(&["map_type: occupancy", "negate: 2"]), image);
+    assert_eq!(
+        error,
+        "room.yaml:7: negate = 2: must be 0, 1, false or true"
+    );
+}
+
+#[test]
+fn a_key_that_is_nearly_a_missing_one_is_reported_with_it() {
+    let text = ROOM.replace("resolution:", "resolutoin:") + "map_type: occupancy\n";
+    assert_eq!(
+        errors(&text, b""),
+        "room.yaml:2: resolutoin is not a known key: expected one of image, resolution, origin, negate, \
+         occupied_thresh, free_thresh, mode; did you mean resolution?\n\
+         room.yaml: resolution is missing: expected a number from 0.0001 to 100"
+    );
+}
+
+#[test]
+fn a_map_is_moved_to_a_given_place_and_keeps_its_yaw() {
+    let turned = yaml(&[&format!("origin: [-10, -10, {FRAC_PI_2}]")]);
+    let options = MapOptions {
+        at: Some([1.0, 2.0].into()),
+        ..MapOptions::default()
+    };
+    let open = |_: &str| Ok(b"P2 3 1 255  254 254 0".to_vec());
+    let map = read("room.yaml", &turned, options, open).unwrap();
+    let there = drawn(
+        &["..#"],
+        &[&format!("origin: [1, 2, {FRAC_PI_2}]")],
+        Unknown::Free,
+    );
+    assert_eq!(map, there);
+    assert_eq!(map.origin(), [1.0, 2.0].into());
+}
+
+#[test]
+fn occupied_cells_outside_of_a_rectangle_are_counted_by_their_centres() {
+    // The origin that SLAM programs write: the world begins in the middle of the map.
+    let rows = ["#..#", "?..#", "#..#", "#..?"];
+    let map = drawn(
+        &rows,
+        &["origin: [-1, -1, 0]", "mode: trinary"],
+        Unknown::Solid,
+    );
+    let world = Rectangle::spanned(Point::default(), [2.0, 2.0].into());
+    assert_eq!(map.occupied_and_outside(world), (6, 4));
+    let whole = Rectangle::spanned([-1.0, -1.0].into(), [1.0, 1.0].into());
+    assert_eq!(map.occupied_and_outside(whole), (6, 0));
+}
+
+#[test]
 fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
     let text = yaml(&["origin: [0, 0]", "free_thresh: 0.7"]);
     assert_eq!(
@@ -207,7 +271,7 @@ fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
 
 #[test]
 fn an_image_that_cannot_be_opened_is_reported_at_its_key() {
-    let errors = read("a/room.yaml", ROOM, Unknown::Free, |name| {
+    let errors = read("a/room.yaml", ROOM, MapOptions::default(), |name| {
         Err(format!("{name} is not there"))
     });
     assert_eq!(
