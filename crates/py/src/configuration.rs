@@ -77,7 +77,8 @@ pub(crate) fn scenario_warnings<'py>(
 ) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let file = source.file.clone();
     let document = source.document()?;
-    let configurations = configurations.iter().map(values_of);
+    let configurations = configurations.into_iter();
+    let configurations = configurations.map(|values| values_of(&values));
     let configurations: Vec<_> = configurations.collect::<PyResult<_>>()?;
     let warnings = py.detach(|| warnings_of(&ENGINES, &document, &configurations));
     let dicts = warnings

@@ -125,6 +125,8 @@ class Plan:
     @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:
         """Warnings about the configurations, such as teams without room; one for similar ones."""
+        if not self.scenario.factors:
+            return self.scenario.warnings
         return warnings(self.scenario.source, self.configurations)
 
     @property

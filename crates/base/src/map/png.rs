@@ -11,7 +11,7 @@ use std::io::Cursor;
 /// The first bytes of every PNG image.
 pub(super) const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// Deflate compresses at most by this factor, a byte of the file is at most this many of the image.
+/// Deflate compresses by this factor at most.
 const MAX_COMPRESSION: usize = 1032;
 
 /// Reads an image.
@@ -40,6 +40,7 @@ pub(super) fn read(bytes: &[u8], meaning: impl Fn(Pixel) -> i8) -> Result<Grid, 
     Grid::of_image(columns, rows, cells).ok_or_else(|| "the image has no pixels".to_owned())
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 fn damaged(why: DecodingError) -> String {
     match why {
         DecodingError::IoError(_) => "truncated: the PNG image has no end".to_owned(),
@@ -108,9 +109,12 @@ impl Format {
         let bytes = if self.is_wide { 2 } else { 1 };
         let greatest = if self.is_wide { u16::MAX } else { 255 };
         row.chunks_exact(channels * bytes).map(move |pixel| {
-            let channel = |number: usize| match self.is_wide {
-                true => u16::from_be_bytes([pixel[2 * number], pixel[2 * number + 1]]),
-                false => pixel[number].into(),
+            let channel = |number: usize| {
+                if self.is_wide {
+                    u16::from_be_bytes([pixel[2 * number], pixel[2 * number + 1]])
+                } else {
+                    pixel[number].into()
+                }
             };
             let opacity = self.has_opacity.then(|| channel(colours));
             let rgb = [0, 1, 2].map(|colour| channel(colour.min(colours - 1)));

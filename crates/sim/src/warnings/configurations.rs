@@ -27,7 +27,7 @@ pub(super) fn representative(
         let group = groups.entry(world_and_bodies(configuration)).or_default();
         group.push(configuration);
     }
-    let mut groups: Vec<Group> = groups.into_values().map(largest).collect();
+    let mut groups: Vec<Group> = groups.values().map(largest).collect();
     groups.sort_by_key(|group| std::cmp::Reverse(group.first().map(|each| team_size(each))));
     let examined = groups.iter().take(MAX_GROUPS).flatten();
     examined.map(|each| applied(document, each)).collect()
@@ -65,9 +65,9 @@ fn team_size(configuration: &Configuration) -> i64 {
 }
 
 /// The largest team of a group, and those with the largest number of each kind.
-fn largest(group: Group) -> Group {
+fn largest<'c>(group: &Group<'c>) -> Group<'c> {
     let mut largest: BTreeMap<&str, (i64, i64, &Configuration)> = BTreeMap::new();
-    for configuration in &group {
+    for configuration in group {
         let size = team_size(configuration);
         for (path, count) in counts(configuration).chain([("", size)]) {
             let best = largest.entry(path).or_insert((count, size, configuration));

@@ -18,12 +18,11 @@ const MAX_PLACED: u64 = 100_000;
 const TOLERANCE_M: f64 = 1e-9;
 
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
-    let scenario = &checked.scenario;
     let kinds = checked.spec.robots.iter();
     let kinds: Vec<Kind> = kinds
-        .map(|(name, spec)| Kind::new(name, spec, scenario))
+        .map(|(name, spec)| Kind::new(name, spec, checked))
         .collect();
-    let trials = Trials::run(scenario, &kinds);
+    let trials = Trials::run(&checked.scenario, &kinds);
     let found = kinds
         .iter()
         .zip(&trials.placed)
@@ -42,10 +41,13 @@ struct Kind<'s> {
     area: Option<String>,
     /// No more of them fit, however they are placed.
     max_count: u32,
+    /// Whether there are robots of other kinds in their layer.
+    has_others: bool,
 }
 
 impl<'s> Kind<'s> {
-    fn new(name: &'s str, spec: &RobotSpec, scenario: &Scenario) -> Self {
+    fn new(name: &'s str, spec: &RobotSpec, checked: &Checked) -> Self {
+        let scenario = &checked.scenario;
         let world = scenario.world();
         let (area, centres) = match &spec.start {
             Placement::Fixed { .. } => (None, None),
@@ -54,13 +56,22 @@ impl<'s> Kind<'s> {
                 (Some(words), Some(within_m.unwrap_or(world)))
             }
         };
-        let centres = centres.map(|within| match scenario.is_periodic() {
-            true => within.size(),
-            false => inner_size(within, world, spec.radius_m),
+        let centres = centres.map(|within| {
+            if scenario.is_periodic() {
+                within.size()
+            } else {
+                inner_size(within, world, spec.radius_m)
+            }
         });
+        let mut others = checked
+            .spec
+            .robots
+            .iter()
+            .filter(|(other, _)| *other != name);
         Self {
             name,
             count: spec.count,
+            has_others: others.any(|(_, other)| other.layer == spec.layer && other.count > 0),
             area,
             max_count: centres.map_or(u32::MAX, |size_m| densest(size_m, spec.radius_m)),
         }
@@ -75,12 +86,17 @@ impl<'s> Kind<'s> {
     fn effect(&self, placed: &[u32], runs: u64) -> Option<String> {
         let area = self.area.as_ref()?;
         let max_count = self.max_count;
+        let beside = if self.has_others {
+            " beside the others"
+        } else {
+            ""
+        };
         let reason = match placed.iter().min() {
             Some(least) if placed.len() as u64 == runs => {
-                format!("no room: {area} holds about {least} of them")
+                format!("no room: {area} holds about {least} of them{beside}")
             }
             Some(least) => format!(
-                "no room in {} of {runs} trial runs: {area} holds about {least} of them",
+                "no room in {} of {runs} trial runs: {area} holds about {least} of them{beside}",
                 placed.len()
             ),
             None if self.is_impossible() => {

@@ -104,7 +104,10 @@ fn a_start_area_that_is_too_small_has_a_warning_with_the_number_that_fits() {
                  holds about ";
     let rest = reported[0].strip_prefix(start).unwrap();
     let (number, rest) = rest.split_once(' ').unwrap();
-    assert_eq!(rest, "of them; runs without room are quarantined");
+    assert_eq!(
+        rest,
+        "of them beside the others; runs without room are quarantined"
+    );
     let number: u32 = number.parse().unwrap();
     let fitting = without_map(JOB).replace("count = 4", &format!("count = {}", number - 10));
     assert!(warnings_of(&fitting, "[0, 0, 0]").is_empty(), "{number}");
