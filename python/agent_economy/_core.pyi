@@ -50,6 +50,7 @@ __all__ = [
     "replicate",
     "run_block",
     "run_one",
+    "scenario_warnings",
     "selection",
     "trace",
 ]
@@ -69,6 +70,16 @@ class ErrorDetails(TypedDict):
     value: str | None
     allowed: str
     suggestion: str | None
+    message: str
+
+@type_check_only
+class WarningDetails(TypedDict):
+    origin: str
+    file: str | None
+    line: int | None
+    path: str
+    value: str | None
+    effect: str
     message: str
 
 class InputError(ValueError):
@@ -142,6 +153,9 @@ def read_document(source: _Source) -> dict[str, Any]: ...
 def check_page_message(kind: str, message: Mapping[str, Any]) -> None: ...
 def read_filled(source: _Source) -> dict[str, Any]: ...
 def read_configuration(source: _Source, values: dict[str, str | int | float]) -> Configuration: ...
+def scenario_warnings(
+    source: _Source, configurations: list[dict[str, str | int | float]]
+) -> list[WarningDetails]: ...
 def run_block(
     configurations: list[Configuration],
     *,

@@ -138,6 +138,7 @@ def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Pat
     errors_of = json.loads(listed.stdout)
     assert [error["file"] for error in errors_of] == list(map(str, [bad, bad, files[1], wide]))
     assert errors_of[0] == {
+        "severity": "error",
         "origin": f"{bad}:18",
         "file": str(bad),
         "line": 18,

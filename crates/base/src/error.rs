@@ -88,12 +88,7 @@ impl InputError {
     /// for an option.
     #[must_use]
     pub fn place(&self, file: &str) -> Option<(&str, Option<usize>)> {
-        let origin = self.origin.as_deref()?;
-        if origin == file {
-            return Some((origin, None));
-        }
-        let (name, line) = origin.rsplit_once(':')?;
-        line.parse().ok().map(|line| (name, Some(line)))
+        place_of(self.origin.as_deref()?, file)
     }
 
     /// A name that is none of `names`; `word` is the name without quotes, to find the closest one.
@@ -114,8 +109,7 @@ impl InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(origin) = &self.origin {
-            let origin = cut(origin, MAX_SHOWN_ORIGIN);
-            write!(f, "{}: ", origin.replace(char::is_control, "?"))?;
+            write!(f, "{}: ", shown_origin(origin))?;
         }
         let (path, allowed) = (shortened(&self.path), &self.allowed);
         match &self.problem {
@@ -135,6 +129,20 @@ impl fmt::Display for InputError {
             None => Ok(()),
         }
     }
+}
+
+/// The file of an origin, and the line if there is one; `None` for an option.
+pub(crate) fn place_of<'o>(origin: &'o str, file: &str) -> Option<(&'o str, Option<usize>)> {
+    if origin == file {
+        return Some((origin, None));
+    }
+    let (name, line) = origin.rsplit_once(':')?;
+    line.parse().ok().map(|line| (name, Some(line)))
+}
+
+/// An origin as a message shows it.
+pub(crate) fn shown_origin(origin: &str) -> String {
+    cut(origin, MAX_SHOWN_ORIGIN).replace(char::is_control, "?")
 }
 
 /// A path or a value as a message shows it: a long one without its middle.

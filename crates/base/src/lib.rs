@@ -8,7 +8,7 @@
 //! * [`map`]: ROS occupancy maps;
 //! * [`placement`]: random positions of items and robots without overlaps;
 //! * [`reachability`]: the parts of a world that a robot cannot reach;
-//! * [`error`]: errors of user input;
+//! * [`error`], [`warning`]: errors of user input, and warnings about it;
 //! * [`document`]: TOML documents, checked as a whole, with all errors reported at once;
 //! * [`engine`]: the seam between simulators and studies, [`engine::Engine`] and [`engine::Runner`];
 //! * [`scenario`]: the part of a scenario that is common to all engines.
@@ -26,3 +26,4 @@ pub mod random;
 pub mod reachability;
 pub mod scenario;
 pub mod trig;
+pub mod warning;

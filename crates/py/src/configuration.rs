@@ -7,7 +7,8 @@ use crate::long_work::interruptible;
 use crate::scenario::{Source, value};
 use base::document::Value;
 use base::engine::{BlockOptions, Column, ColumnKind, Runner};
-use base::scenario::read_configuration as read_configuration_of;
+use base::scenario::{read_configuration as read_configuration_of, warnings as warnings_of};
+use base::warning::Warning;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -60,17 +61,57 @@ pub(crate) fn read_configuration(
 ) -> PyResult<Configuration> {
     let file = source.file.clone();
     let document = source.document()?;
+    let read = read_configuration_of(&ENGINES, document, &values_of(values)?);
+    let read = read.map_err(|errors| input_error(&errors, &file))?;
+    Ok(Configuration {
+        runner: read.runner,
+    })
+}
+
+/// The warnings about configurations of a valid source, as dicts.
+#[pyfunction]
+pub(crate) fn scenario_warnings<'py>(
+    py: Python<'py>,
+    source: Source,
+    configurations: Vec<Bound<'py, PyDict>>,
+) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let file = source.file.clone();
+    let document = source.document()?;
+    let configurations = configurations.into_iter();
+    let configurations = configurations.map(|values| values_of(&values));
+    let configurations: Vec<_> = configurations.collect::<PyResult<_>>()?;
+    let warnings = py.detach(|| warnings_of(&ENGINES, &document, &configurations));
+    let dicts = warnings
+        .iter()
+        .map(|warning| warning_dict(py, warning, &file));
+    dicts.collect()
+}
+
+fn warning_dict<'py>(
+    py: Python<'py>,
+    warning: &Warning,
+    file: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    let place = warning.place(file);
+    let dict = PyDict::new(py);
+    dict.set_item("origin", &warning.origin)?;
+    dict.set_item("file", place.map(|(file, _)| file))?;
+    dict.set_item("line", place.and_then(|(_, line)| line))?;
+    dict.set_item("path", &warning.path)?;
+    dict.set_item("value", &warning.value)?;
+    dict.set_item("effect", &warning.effect)?;
+    dict.set_item("message", warning.to_string())?;
+    Ok(dict)
+}
+
+/// The values of a configuration by path.
+fn values_of(values: &Bound<PyDict>) -> PyResult<Vec<(String, Value)>> {
     let values = values.iter().map(|(path, given)| {
         let path: String = path.extract()?;
         let value = value(std::slice::from_ref(&path), &given, "study.vary")?;
         Ok((path, value))
     });
-    let values: Vec<(String, Value)> = values.collect::<PyResult<_>>()?;
-    let read = read_configuration_of(&ENGINES, document, &values);
-    let read = read.map_err(|errors| input_error(&errors, &file))?;
-    Ok(Configuration {
-        runner: read.runner,
-    })
+    values.collect()
 }
 
 /// The runs of several configurations from `first_run` on: by column, an array (configurations, runs).

@@ -45,7 +45,9 @@ mod _core {
     #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
-    use crate::configuration::{Configuration, read_configuration, run_block, run_one};
+    use crate::configuration::{
+        Configuration, read_configuration, run_block, run_one, scenario_warnings,
+    };
     #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]

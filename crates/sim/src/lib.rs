@@ -19,4 +19,5 @@ pub(crate) mod schedule;
 pub mod sensors;
 pub mod simulation;
 pub mod step;
+pub(crate) mod warnings;
 pub mod world;

@@ -3,10 +3,12 @@
 use crate::run::{Outcome, State};
 use crate::scenario::{Scenario, ScenarioSpec};
 use crate::step::tick::StepScratch;
-use base::document::Document;
+use crate::warnings;
+use base::document::{Document, Value};
 use base::engine::{BlockOptions, Column, ColumnKind, Runner};
 use base::engine::{Configuration, Engine, Measure, NamedMerit};
 use base::error::InputErrors;
+use base::warning::Warning;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
@@ -36,6 +38,14 @@ impl Engine for Metric {
             facts: scenario.facts(),
             runner: Box::new(Runs(Arc::new(scenario))),
         })
+    }
+
+    fn warnings(
+        &self,
+        document: &Document,
+        configurations: &[Vec<(String, Value)>],
+    ) -> Vec<Warning> {
+        warnings::warnings(document, configurations)
     }
 
     fn files(&self, document: &Document) -> Vec<String> {

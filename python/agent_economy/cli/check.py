@@ -1,6 +1,8 @@
 """The command `check`."""
 
 import json
+from collections.abc import Iterable
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -8,12 +10,13 @@ import typer
 
 from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.cli.errors import BAD_INPUT, error_exits
+from agent_economy.cli.errors import BAD_INPUT, error_exits, print_warnings
 from agent_economy.cli.options import Sets, overrides
-from agent_economy.scenario import Override, Scenario
+from agent_economy.scenario import Override, Scenario, ScenarioWarning
 from agent_economy.study import design
 
 Error = dict[str, Any]
+"""An error or a warning in the JSON list; `severity` distinguishes them."""
 
 
 def check(
@@ -28,36 +31,44 @@ def check(
     *,
     sets: Sets = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print a JSON list of all errors.")
+        bool,
+        typer.Option("--json", help="Print a JSON list of all errors and warnings, by severity."),
     ] = False,
 ) -> None:
-    """Check scenario files and print all errors; nothing is run.
+    """Check scenario files and print all errors and warnings; nothing is run.
 
-    Exit codes: 0 all are valid; 2 a scenario or an argument is invalid.
+    Warnings are about what is allowed and probably not meant, such as teams without room to start.
+
+    Exit codes: 0 all are valid, perhaps with warnings; 2 a scenario or an argument is invalid.
 
     Example: agent-economy check scenarios/classic.toml --set clock.time_limit_s=60
     """
     with error_exits():
         changes = overrides(sets)
     errors: list[Error] = []
+    # A dict, because a file may be given twice.
+    warnings: dict[ScenarioWarning, None] = {}
     for file in scenarios:
         try:
-            line = summary(file, changes)
+            line, found = checked(file, changes)
         except InputError as error:
             errors += errors_of(file, error)
         else:
             typer.echo(line, err=as_json)
+            warnings |= dict.fromkeys(found)
     if as_json:
-        typer.echo(json.dumps(errors, indent=2))
+        listed = errors + [{"severity": "warning"} | asdict(each) for each in warnings]
+        typer.echo(json.dumps(listed, indent=2))
     else:
+        print_warnings(warnings)
         for each in errors:
             typer.echo(each["message"], err=True)
     if errors:
         raise typer.Exit(BAD_INPUT)
 
 
-def summary(file: Path, changes: tuple[Override, ...]) -> str:
-    """Return the line for a valid scenario.
+def checked(file: Path, changes: tuple[Override, ...]) -> tuple[str, Iterable[ScenarioWarning]]:
+    """Return the line for a valid scenario, and the warnings about its run and its study.
 
     Raises:
         InputError: If it is not valid.
@@ -65,13 +76,15 @@ def summary(file: Path, changes: tuple[Override, ...]) -> str:
     scenario = Scenario.load(file, changes)
     plan = study.make_plan(scenario)
     compared = design.describe(scenario.design, len(plan.configurations))
-    return f"{file}: valid: engine {scenario.engine}, {compared}"
+    line = f"{file}: valid: engine {scenario.engine}, {compared}"
+    return line, scenario.warnings + plan.warnings
 
 
 def errors_of(file: Path, error: InputError) -> list[Error]:
     """Return each error; one that is not about a value has its whole text as `allowed`."""
     whole: list[Error] = [
         {
+            "severity": "error",
             "origin": str(file),
             "file": str(file),
             "line": None,
@@ -83,4 +96,4 @@ def errors_of(file: Path, error: InputError) -> list[Error]:
         }
         for sentence in str(error).splitlines()
     ]
-    return [dict(each) for each in error.errors] or whole
+    return [{"severity": "error"} | each for each in error.errors] or whole

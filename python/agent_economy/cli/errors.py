@@ -1,11 +1,12 @@
-"""Exceptions as messages on standard error, and exit codes."""
+"""Exceptions and warnings as messages on standard error, and exit codes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 import typer
 
 import agent_economy as ae
+from agent_economy.scenario import ScenarioWarning
 
 FAILED = 1
 """Exit code when a command cannot be completed."""
@@ -15,6 +16,12 @@ BAD_INPUT = 2
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as in shells."""
+
+
+def print_warnings(warnings: Iterable[ScenarioWarning]) -> None:
+    """Print warnings about a scenario; they do not change the exit code."""
+    for warning in warnings:
+        typer.echo(f"warning: {warning}", err=True)
 
 
 @contextmanager

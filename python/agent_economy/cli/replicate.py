@@ -20,7 +20,7 @@ from rich.text import Text
 from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.answer_table import WIDE
-from agent_economy.cli.errors import error_exits
+from agent_economy.cli.errors import error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.cli.run_summary import Summary, quarantined, summarised
@@ -84,6 +84,7 @@ def replicate(  # noqa: PLR0913  (typer's options are arguments)
     with error_exits():
         writer = None if out is None else writer_of(out)
         given = Scenario.load(scenario, overrides(sets))
+        print_warnings(given.warnings)
         table = watched(given, count, seed, threads)
         if writer and out:
             buffer = io.BytesIO()

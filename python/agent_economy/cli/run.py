@@ -13,7 +13,7 @@ from rich.text import Text
 
 from agent_economy import api
 from agent_economy._core import InputError
-from agent_economy.cli.errors import FAILED, error_exits
+from agent_economy.cli.errors import FAILED, error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.runs import factory
@@ -68,6 +68,7 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         if record is None:
             require_record({"--every": every, "--percepts": percepts})
         given = Scenario.load(scenario, overrides(sets))
+        print_warnings(given.warnings)
         if record is None:
             outcome = watched(given, seed, number)
         else:

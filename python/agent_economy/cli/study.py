@@ -11,7 +11,7 @@ import typer
 from agent_economy import study as studies
 from agent_economy._core import InputError
 from agent_economy.cli.answer_table import show
-from agent_economy.cli.errors import INTERRUPTED, error_exits
+from agent_economy.cli.errors import INTERRUPTED, error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Sets, overrides
 from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.scenario import Override, Scenario
@@ -209,6 +209,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             refuse_with_resume(others, changes)
             request = ResumeStudy(resume, confidence)
         plan, folder = request.plan()
+        print_warnings(plan.warnings)
         typer.echo(str(Question.of(plan)), err=True)
         answer = compute_answer(plan, folder, workers, dask)
     show(answer, folder, as_json=as_json)

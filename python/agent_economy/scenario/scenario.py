@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from agent_economy.scenario.source import (
     decode,
     read_file,
 )
+from agent_economy.scenario.warning import ScenarioWarning, warnings
 
 
 @dataclass(frozen=True)
@@ -137,6 +139,11 @@ class Scenario:
             published=published_of(fields.pop("published")),
             **fields,
         )
+
+    @cached_property
+    def warnings(self) -> tuple[ScenarioWarning, ...]:
+        """Warnings about a single run: maps that are partly cut off, and robots without room."""
+        return warnings(self.source, [{}])
 
     def to_dict(self) -> dict[str, Any]:
         """Return the scenario, including defaults, as nested dicts and lists like its TOML."""

@@ -17,7 +17,7 @@ import tomli_w
 
 from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
-from agent_economy.scenario import Override, Scenario, Source
+from agent_economy.scenario import Override, Scenario, ScenarioWarning, Source, warnings
 from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
 from agent_economy.study import design
 from agent_economy.study.arguments import (
@@ -125,6 +125,13 @@ class Plan:
             InputError: If a configuration is invalid.
         """
         return self.engine.merit_limits()
+
+    @cached_property
+    def warnings(self) -> tuple[ScenarioWarning, ...]:
+        """Warnings about the configurations, such as teams without room; one for similar ones."""
+        if not self.scenario.factors:
+            return self.scenario.warnings
+        return warnings(self.scenario.source, self.configurations)
 
     @property
     def files(self) -> dict[str, bytes]:

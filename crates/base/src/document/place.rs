@@ -3,6 +3,7 @@
 use super::node::{Node, Value, path_of};
 use super::root::Document;
 use crate::error::InputError;
+use crate::warning::Warning;
 
 /// A place in a document, whether or not there is a value.
 ///
@@ -78,6 +79,17 @@ impl<'d> Place<'d> {
         InputError {
             origin: Some(self.origin.to_owned()),
             ..InputError::new(self.path.clone(), self.value(), allowed.into())
+        }
+    }
+
+    /// A warning about the value here.
+    #[must_use]
+    pub fn warning(&self, effect: String) -> Warning {
+        Warning {
+            origin: self.origin.to_owned(),
+            path: self.path.clone(),
+            value: self.value(),
+            effect,
         }
     }
 

@@ -32,15 +32,16 @@ impl<'d> Section<'d> {
 
     /// Reports every key that is not among `keys`.
     pub fn only(&self, keys: &[&str]) {
-        for (key, node) in self.table.into_iter().flatten() {
-            if !keys.contains(&key.as_str()) {
-                let value = node.value.to_string();
-                self.report(
-                    key,
-                    unknown_key(&self.path, key, value, keys.iter().copied()),
-                );
-            }
+        for key in self.keys().filter(|key| !keys.contains(key)) {
+            self.report_unknown(key, keys);
         }
+    }
+
+    /// Reports that `key` is none of the known `keys`.
+    pub fn report_unknown(&self, key: &str, keys: &[&str]) {
+        let value = self.value(key).map(ToString::to_string).unwrap_or_default();
+        let error = unknown_key(&self.path, key, value, keys.iter().copied());
+        self.report(key, error);
     }
 
     /// Whether the table has `key`.

@@ -8,8 +8,9 @@ mod runner;
 
 pub use runner::{BlockOptions, Column, ColumnKind, Runner};
 
-use crate::document::Document;
+use crate::document::{Document, Value};
 use crate::error::InputErrors;
+use crate::warning::Warning;
 use std::borrow::Cow;
 
 /// Largest time limit of a run, in seconds.
@@ -31,6 +32,16 @@ pub trait Engine: Sync {
     /// # Errors
     /// Everything that is wrong with the values of its keys.
     fn read(&self, document: &Document) -> Result<Configuration, InputErrors>;
+
+    /// Warnings about configurations of a document: what is allowed there, and probably not meant. Each
+    /// configuration has values by path. Invalid configurations have none.
+    fn warnings(
+        &self,
+        _document: &Document,
+        _configurations: &[Vec<(String, Value)>],
+    ) -> Vec<Warning> {
+        Vec::new()
+    }
 
     /// The files that a document refers to and that have not been read yet: see [`Document::open`].
     /// Once they are read, there may be more. Called on documents with errors, too.

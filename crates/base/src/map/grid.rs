@@ -11,18 +11,38 @@ pub(super) struct Grid {
     cells: Vec<i8>,
 }
 
-/// Number of cells of a grid; `None` above the maximum.
-pub(super) fn size(columns: u32, rows: u32) -> Option<usize> {
+/// Number of cells of an image.
+///
+/// # Errors
+/// If it is above the maximum.
+pub(super) fn size(columns: u32, rows: u32) -> Result<usize, String> {
     let cells = u64::from(columns) * u64::from(rows);
     usize::try_from(cells)
         .ok()
         .filter(|&cells| cells <= MAX_CELLS)
+        .ok_or_else(|| {
+            format!("the image must have at most {MAX_CELLS} pixels, not {columns} x {rows}")
+        })
+}
+
+fn turn_upside_down(cells: &mut [i8], columns: usize) {
+    let rows = cells.len() / columns.max(1);
+    let (top, bottom) = cells.split_at_mut(rows / 2 * columns);
+    let pairs = top
+        .chunks_exact_mut(columns)
+        .zip(bottom.rchunks_exact_mut(columns));
+    pairs.for_each(|(upper, lower)| upper.swap_with_slice(lower));
 }
 
 impl Grid {
-    /// The grid of these cells, the lowest row first; `None` if their number does not match.
-    pub(super) fn new(columns: u32, rows: u32, cells: Vec<i8>) -> Option<Self> {
-        (size(columns, rows)? == cells.len()).then_some(Self {
+    /// The grid of the cells of an image, whose last row becomes the lowest; `None` if their number
+    /// does not match.
+    pub(super) fn of_image(columns: u32, rows: u32, mut cells: Vec<i8>) -> Option<Self> {
+        if size(columns, rows) != Ok(cells.len()) {
+            return None;
+        }
+        turn_upside_down(&mut cells, columns as usize);
+        Some(Self {
             columns,
             rows,
             cells,

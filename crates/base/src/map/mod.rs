@@ -1,31 +1,37 @@
-//! ROS occupancy maps, as loaded by `map_server` and `nav2_map_server`: a YAML file and a PGM image.
+//! ROS occupancy maps, as loaded by `map_server` and `nav2_map_server`: a YAML file and a PGM
+//! or PNG image.
 //!
 //! **What a pixel means** (`wiki.ros.org/map_server`, "Value Interpretation", and `map_io.cpp` of
-//! `nav2_map_server`). The image's first row is the map's top. Of a pixel of value v, the occupancy
-//! probability is p = (m - v) / m, where m is the greatest value, 255 in most files; v / m if
-//! `negate` is set. Then, by `mode`,
+//! `nav2_map_server` in ROS 2 Humble and Jazzy). The image's first row is the map's top. Of a pixel of
+//! value v, the mean of its colour channels, the occupancy probability is p = (m - v) / m, where m is the
+//! greatest value, 255 in most files; v / m if `negate` is set. Then, by `mode`,
 //!
 //! * `trinary`: 100 (occupied) if p > `occupied_thresh`, 0 (free) if p < `free_thresh`, else -1
-//!   (unknown);
-//! * `scale`: the same, but in between 100 (p - `free_thresh`) / (`occupied_thresh` - `free_thresh`),
-//!   rounded, halves to the even number (as in ROS 2; a PGM image has nothing transparent, so that
-//!   nothing is unknown);
+//!   (unknown). In an image with transparency, v is the mean of red, green, blue and opacity;
+//! * `scale`: the same without opacity, but in between 100 (p - `free_thresh`) / (`occupied_thresh` -
+//!   `free_thresh`), rounded, halves to the even number; -1 for a pixel that is not opaque;
 //! * `raw`: 255 v / m, rounded, or -1 if that is above 100, for any value of `negate`.
+//!
+//! Keys of the YAML file that `map_server` does not read are ignored.
 //!
 //! `origin` is the pose [x, y, yaw] of the lower left corner of the lower left pixel: the map is
 //! rotated about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it is used.)
+//! [`MapOptions::at`] replaces x and y.
 //!
 //! **Solid cells:** those of occupancy 100; unknown cells are free. With [`Unknown::Solid`], all cells
 //! that are not known to be free (0) are solid. Outside the map, nothing is solid.
 
 mod grid;
+mod image;
 mod outline;
 mod pgm;
+mod pixel;
+mod png;
 mod settings;
 
 pub use grid::MAX_CELLS;
+pub use image::MAX_IMAGE_BYTES;
 pub use outline::MAX_SEGMENTS;
-pub use pgm::MAX_IMAGE_BYTES;
 
 use crate::error::{InputError, InputErrors};
 use crate::geometry::{Point, Rectangle, Segment};
@@ -43,6 +49,15 @@ pub enum Unknown {
     Free,
     /// They are occupied.
     Solid,
+}
+
+/// How a world uses a map.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MapOptions {
+    /// Treatment of cells that are neither free nor occupied.
+    pub unknown: Unknown,
+    /// Position of the lower left corner of the image in the world, instead of the `origin` in the file.
+    pub at: Option<Point>,
 }
 
 /// An occupancy grid of square cells.
@@ -65,11 +80,11 @@ pub struct OccupancyMap {
 /// All errors of the YAML; if there are none, the first error of the image.
 ///
 /// ```
-/// use base::map::{read, Unknown};
+/// use base::map::{read, MapOptions};
 /// let text = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
 ///             occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 /// let open = |_: &str| Ok(b"P2 3 2 255  0 205 254  0 254 254".to_vec());
-/// let map = read("room.yaml", text, Unknown::Free, open)?;
+/// let map = read("room.yaml", text, MapOptions::default(), open)?;
 /// assert!(map.is_solid([1.25, 2.75].into()));
 /// assert!(!map.is_solid([1.75, 2.75].into()));
 /// assert_eq!(map.outline().len(), 4);
@@ -78,16 +93,17 @@ pub struct OccupancyMap {
 pub fn read(
     file: &str,
     text: &str,
-    unknown: Unknown,
+    options: MapOptions,
     open: impl FnOnce(&str) -> Result<Vec<u8>, String>,
 ) -> Result<OccupancyMap, InputErrors> {
     let settings = settings::read(file, text)?;
     let only = |error| InputErrors(vec![error]);
     let bytes = open(&settings.image).map_err(|why| only(settings.image_error(&why)))?;
-    let meaning = |value, greatest| settings.occupancy(value, greatest);
-    let cells = pgm::read(&settings.image, &bytes, meaning).map_err(only)?;
+    let meaning = |pixel| settings.occupancy(pixel);
+    let cells = image::read(&settings.image, &bytes, meaning).map_err(only)?;
     drop(bytes);
-    OccupancyMap::new(cells, settings, unknown).map_err(only)
+    let settings = settings.placed(options.at);
+    OccupancyMap::new(cells, settings, options.unknown).map_err(only)
 }
 
 impl OccupancyMap {
@@ -105,6 +121,12 @@ impl OccupancyMap {
             unknown,
             outline,
         })
+    }
+
+    /// Position of the lower left corner of the image in the world.
+    #[must_use]
+    pub fn origin(&self) -> Point {
+        self.settings.origin()
     }
 
     /// Number of cells along the x axis of the map.
@@ -130,6 +152,22 @@ impl OccupancyMap {
     #[must_use]
     pub fn occupancy(&self, column: u32, row: u32) -> Option<i8> {
         self.cells.get(column, row)
+    }
+
+    /// Number of occupied cells, and of those whose centres are outside of `world`.
+    #[must_use]
+    pub fn occupied_and_outside(&self, world: Rectangle) -> (usize, usize) {
+        let (mut occupied, mut outside) = (0, 0);
+        for row in 0..self.rows() {
+            for column in 0..self.columns() {
+                if self.occupancy(column, row) == Some(100) {
+                    let (x, y) = (f64::from(column) + 0.5, f64::from(row) + 0.5);
+                    occupied += 1;
+                    outside += usize::from(!world.contains(self.settings.place(x, y)));
+                }
+            }
+        }
+        (occupied, outside)
     }
 
     /// Whether `point` is in a solid cell. A point between two cells is in one of them.

@@ -1,20 +1,17 @@
 //! Greyscale images in PGM, plain (P2) and raw (P5), as netpbm.sourceforge.net/doc/pgm.html defines them.
 
-use super::grid::{Grid, MAX_CELLS, size};
+use super::grid::{Grid, size};
+use super::pixel::Pixel;
 use crate::error::InputError;
 
-/// Maximum size of the image of a map, in bytes: a caller of [`read`](super::read) need not read more of the file.
-pub const MAX_IMAGE_BYTES: usize = 5 * MAX_CELLS;
-
-/// Reads the image `bytes`, each pixel as `meaning(value, maximum value)`; `file` is its name in errors.
-/// The last row of the image becomes the first row of the grid.
+/// Reads the image `bytes`, which begin with P2 or P5; `file` is its name in errors.
 ///
 /// # Errors
 /// The first error found.
 pub(super) fn read(
     file: &str,
     bytes: &[u8],
-    meaning: impl Fn(u16, u16) -> i8,
+    meaning: impl Fn(Pixel) -> i8,
 ) -> Result<Grid, InputError> {
     let mut reader = Reader {
         bytes,
@@ -27,12 +24,7 @@ pub(super) fn read(
     })
 }
 
-fn image(reader: &mut Reader, meaning: impl Fn(u16, u16) -> i8) -> Result<Grid, String> {
-    if reader.bytes.len() > MAX_IMAGE_BYTES {
-        return Err(format!(
-            "the image must have at most {MAX_IMAGE_BYTES} bytes"
-        ));
-    }
+fn image(reader: &mut Reader, meaning: impl Fn(Pixel) -> i8) -> Result<Grid, String> {
     let header = Header::read(reader)?;
     let mut cells = Vec::with_capacity(header.size);
     for _ in 0..header.size {
@@ -43,23 +35,13 @@ fn image(reader: &mut Reader, meaning: impl Fn(u16, u16) -> i8) -> Result<Grid, 
                 "a pixel is {value}, above the maximum value {greatest}"
             ));
         }
-        cells.push(meaning(value, header.greatest));
+        cells.push(meaning(Pixel::grey(value, header.greatest)));
     }
     if !reader.rest().iter().all(u8::is_ascii_whitespace) {
         return Err("data follows the last pixel of the image".to_owned());
     }
-    upside_down(&mut cells, header.columns as usize);
-    Grid::new(header.columns, header.rows, cells)
+    Grid::of_image(header.columns, header.rows, cells)
         .ok_or_else(|| "the image has no pixels".to_owned())
-}
-
-fn upside_down(cells: &mut [i8], columns: usize) {
-    let rows = cells.len() / columns.max(1);
-    let (top, bottom) = cells.split_at_mut(rows / 2 * columns);
-    let pairs = top
-        .chunks_exact_mut(columns)
-        .zip(bottom.rchunks_exact_mut(columns));
-    pairs.for_each(|(upper, lower)| upper.swap_with_slice(lower));
 }
 
 struct Header {
@@ -73,17 +55,11 @@ struct Header {
 
 impl Header {
     fn read(reader: &mut Reader) -> Result<Self, String> {
-        let is_plain = match reader.bytes.get(..2) {
-            Some(b"P2") => true,
-            Some(b"P5") => false,
-            _ => return Err("not a PGM image: it must begin with P5 or P2".to_owned()),
-        };
+        let is_plain = reader.bytes.starts_with(b"P2");
         reader.at = 2;
         let columns = reader.number("the width", u32::MAX)?;
         let rows = reader.number("the height", u32::MAX)?;
-        let size = size(columns, rows).ok_or_else(|| {
-            format!("the image must have at most {MAX_CELLS} pixels, not {columns} x {rows}")
-        })?;
+        let size = size(columns, rows)?;
         let greatest = reader.number("the maximum value", 65_535)?;
         let greatest = u16::try_from(greatest).unwrap_or(u16::MAX);
         if !is_plain && !reader.skip_one_space() {

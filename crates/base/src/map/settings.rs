@@ -1,7 +1,8 @@
 //! The YAML file of a map, and the meaning of its pixels and coordinates.
 
+use super::pixel::Pixel;
 use crate::document::{Document, Section, Value};
-use crate::error::{InputError, InputErrors};
+use crate::error::{InputError, InputErrors, nearest};
 use crate::geometry::Point;
 use crate::trig;
 
@@ -14,6 +15,9 @@ const KEYS: [&str; 7] = [
     "free_thresh",
     "mode",
 ];
+
+/// All of them but for `mode`.
+const REQUIRED: &[&str] = KEYS.split_at(6).0;
 
 /// Conversion of pixels to occupancies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +54,7 @@ pub(super) struct Settings {
 
 pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
     Document::parse_yaml(file, text)?.read(|root| {
-        root.only(&KEYS);
+        report_misspelt(root);
         let image = root.line("image");
         let resolution_m = root.number("resolution", 1e-4..=100.0);
         let pose = pose(root);
@@ -75,6 +79,17 @@ pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
             mode: mode?,
         })
     })
+}
+
+/// Reports the keys that are nearly one that is missing. Other keys of maps differ between programs, and
+/// `map_server` ignores them.
+fn report_misspelt(root: &Section) {
+    for key in root.keys().filter(|key| !KEYS.contains(key)) {
+        let missing = REQUIRED.iter().copied().filter(|known| !root.has(known));
+        if nearest(key, missing).is_some() {
+            root.report_unknown(key, &KEYS);
+        }
+    }
 }
 
 fn pose(root: &Section) -> Option<(Point, f64)> {
@@ -116,10 +131,21 @@ fn thresholds(root: &Section) -> Option<(f64, f64)> {
 }
 
 impl Settings {
+    /// The same with the lower left corner of the image at another place, if there is one.
+    pub(super) fn placed(self, at: Option<Point>) -> Self {
+        let origin = at.unwrap_or(self.origin);
+        Self { origin, ..self }
+    }
+
+    /// The lower left corner of the image.
+    pub(super) fn origin(&self) -> Point {
+        self.origin
+    }
+
     /// The error that the image cannot be used.
     pub(super) fn image_error(&self, why: &str) -> InputError {
         let value = Some(format!("{:?}", self.image));
-        let allowed = format!("the name of a PGM image; {why}");
+        let allowed = format!("the name of a PGM or PNG image; {why}");
         InputError {
             origin: Some(self.source.clone()),
             ..InputError::new("image".to_owned(), value, allowed)
@@ -127,8 +153,15 @@ impl Settings {
     }
 
     /// Occupancy of a pixel: 0 to 100, or -1.
-    pub(super) fn occupancy(&self, value: u16, greatest: u16) -> i8 {
-        let (shade, white) = (f64::from(value), f64::from(greatest));
+    pub(super) fn occupancy(&self, pixel: Pixel) -> i8 {
+        if self.mode == Mode::Scale && !pixel.is_opaque() {
+            return -1;
+        }
+        let (shade, white) = match self.mode {
+            Mode::Trinary => pixel.brightness_with_opacity(),
+            Mode::Scale | Mode::Raw => pixel.brightness(),
+        };
+        let (shade, white) = (f64::from(shade), f64::from(white));
         if self.mode == Mode::Raw {
             let raw = (255.0 * shade / white).round();
             return if raw <= 100.0 { percent(raw) } else { -1 };

@@ -3,6 +3,8 @@ use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
+mod images;
+
 const ROOM: &str = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
                     occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
@@ -32,7 +34,9 @@ fn yaml(lines: &[&str]) -> String {
 }
 
 fn load(text: &str, image: &[u8]) -> Result<OccupancyMap, InputErrors> {
-    read("room.yaml", text, Unknown::Free, |_| Ok(image.to_vec()))
+    read("room.yaml", text, MapOptions::default(), |_| {
+        Ok(image.to_vec())
+    })
 }
 
 fn errors(text: &str, image: &[u8]) -> String {
@@ -50,10 +54,9 @@ fn drawn(rows: &[&str], lines: &[&str], unknown: Unknown) -> OccupancyMap {
         };
         write!(image, " {value}").unwrap();
     }
-    read("room.yaml", &yaml(lines), unknown, |_| {
-        Ok(image.into_bytes())
-    })
-    .unwrap()
+    let options = MapOptions { unknown, at: None };
+    let open = |_: &str| Ok(image.into_bytes());
+    read("room.yaml", &yaml(lines), options, open).unwrap()
 }
 
 /// Occupancies, the lowest row first.
@@ -194,6 +197,69 @@ fn all_errors_of_the_yaml_are_reported_at_once_with_their_lines() {
 }
 
 #[test]
+fn keys_that_map_server_does_not_read_are_ignored() {
+    // As of nav2_system_tests/maps/map_circular.yaml, and of other programs.
+    let lines = [
+        "map_type: occupancy",
+        "width: 3",
+        "name: [a, {b: c}]",
+        "modes: raw",
+    ];
+    let image = b"P2 3 1 255  0 205 254";
+    let map = load(&yaml(&lines), image).unwrap();
+    assert_eq!(map, load(ROOM, image).unwrap());
+    let error = errors(&yaml(&["map_type: occupancy", "negate: 2"]), image);
+    assert_eq!(
+        error,
+        "room.yaml:7: negate = 2: must be 0, 1, false or true"
+    );
+}
+
+#[test]
+fn a_key_that_is_nearly_a_missing_one_is_reported_with_it() {
+    let text = ROOM.replace("resolution:", "resolutoin:") + "map_type: occupancy\n";
+    assert_eq!(
+        errors(&text, b""),
+        "room.yaml:2: resolutoin is not a known key: expected one of image, resolution, origin, negate, \
+         occupied_thresh, free_thresh, mode; did you mean resolution?\n\
+         room.yaml: resolution is missing: expected a number from 0.0001 to 100"
+    );
+}
+
+#[test]
+fn a_map_is_moved_to_a_given_place_and_keeps_its_yaw() {
+    let turned = yaml(&[&format!("origin: [-10, -10, {FRAC_PI_2}]")]);
+    let options = MapOptions {
+        at: Some([1.0, 2.0].into()),
+        ..MapOptions::default()
+    };
+    let open = |_: &str| Ok(b"P2 3 1 255  254 254 0".to_vec());
+    let map = read("room.yaml", &turned, options, open).unwrap();
+    let there = drawn(
+        &["..#"],
+        &[&format!("origin: [1, 2, {FRAC_PI_2}]")],
+        Unknown::Free,
+    );
+    assert_eq!(map, there);
+    assert_eq!(map.origin(), [1.0, 2.0].into());
+}
+
+#[test]
+fn occupied_cells_outside_of_a_rectangle_are_counted_by_their_centres() {
+    // The origin that SLAM programs write: the world begins in the middle of the map.
+    let rows = ["#..#", "?..#", "#..#", "#..?"];
+    let map = drawn(
+        &rows,
+        &["origin: [-1, -1, 0]", "mode: trinary"],
+        Unknown::Solid,
+    );
+    let world = Rectangle::spanned(Point::default(), [2.0, 2.0].into());
+    assert_eq!(map.occupied_and_outside(world), (6, 4));
+    let whole = Rectangle::spanned([-1.0, -1.0].into(), [1.0, 1.0].into());
+    assert_eq!(map.occupied_and_outside(whole), (6, 0));
+}
+
+#[test]
 fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
     let text = yaml(&["origin: [0, 0]", "free_thresh: 0.7"]);
     assert_eq!(
@@ -205,12 +271,12 @@ fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
 
 #[test]
 fn an_image_that_cannot_be_opened_is_reported_at_its_key() {
-    let errors = read("a/room.yaml", ROOM, Unknown::Free, |name| {
+    let errors = read("a/room.yaml", ROOM, MapOptions::default(), |name| {
         Err(format!("{name} is not there"))
     });
     assert_eq!(
         errors.unwrap_err().to_string(),
-        "a/room.yaml:1: image = \"room.pgm\": must be the name of a PGM image; \
+        "a/room.yaml:1: image = \"room.pgm\": must be the name of a PGM or PNG image; \
          room.pgm is not there"
     );
 }
@@ -273,11 +339,13 @@ fn a_header_with_a_wrong_size_is_rejected_before_memory_is_allocated() {
         ),
         (
             b"P6 1 1 255\n123",
-            "room.pgm:1: not a PGM image: it must begin with P5 or P2",
+            "room.pgm: must be a PGM image (P5 or P2) or a PNG image; it is a PPM image: convert it, \
+             such as with ImageMagick: magick IMAGE IMAGE.png",
         ),
         (
             b"",
-            "room.pgm:1: not a PGM image: it must begin with P5 or P2",
+            "room.pgm: must be a PGM image (P5 or P2) or a PNG image; it is an unknown format: convert \
+             it, such as with ImageMagick: magick IMAGE IMAGE.png",
         ),
     ] {
         assert_eq!(errors(ROOM, image), expected);
@@ -338,7 +406,7 @@ fn a_map_with_too_many_walls_is_an_error() {
     image.extend((0..1600 * 1600).map(|at| if (at + at / 1600) % 2 == 0 { 0 } else { 254 }));
     assert_eq!(
         errors(ROOM, &image),
-        "room.yaml:1: image = \"room.pgm\": must be the name of a PGM image; \
+        "room.yaml:1: image = \"room.pgm\": must be the name of a PGM or PNG image; \
          it has more than 4000000 straight walls: smooth its outlines"
     );
 }
@@ -458,12 +526,12 @@ proptest! {
         } else {
             image.extend(pixels.iter().map(|pixel| u8::try_from(*pixel).unwrap()));
         }
-        let upper = |value: u16, _: u16| i8::from_le_bytes([if is_wide { value >> 8 } else { value }.to_le_bytes()[0]]);
-        let read = pgm::read("room.pgm", &image, upper).unwrap();
+        let upper = |value: u32| i8::from_le_bytes([if is_wide { value >> 8 } else { value }.to_le_bytes()[0]]);
+        let read = pgm::read("room.pgm", &image, |pixel| upper(pixel.brightness().0)).unwrap();
         let rows_from_the_top = pixels.chunks_exact(columns as usize);
         for (row, expected) in (0..rows).rev().zip(rows_from_the_top) {
             for (column, pixel) in (0..columns).zip(expected) {
-                prop_assert_eq!(read.get(column, row), Some(upper(*pixel, greatest)));
+                prop_assert_eq!(read.get(column, row), Some(upper((*pixel).into())));
             }
         }
     }

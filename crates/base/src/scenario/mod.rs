@@ -55,6 +55,7 @@ pub use values::Values;
 use crate::document::{Document, Section, Value};
 use crate::engine::{Configuration, Engine, Measure};
 use crate::error::{InputError, InputErrors};
+use crate::warning::Warning;
 
 /// A scenario that has been read and checked.
 pub struct Scenario {
@@ -135,6 +136,19 @@ pub fn read_configuration(
         factors::put(&mut document, path, value, ORIGIN);
     }
     unknown_names::read(engine, &document)
+}
+
+/// Warnings about configurations of a scenario, each with values at the paths of factors.
+#[must_use]
+pub fn warnings(
+    engines: &[&dyn Engine],
+    document: &Document,
+    configurations: &[Vec<(String, Value)>],
+) -> Vec<Warning> {
+    engine_of(engines, document).map_or_else(
+        |_| Vec::new(),
+        |engine| engine.warnings(document, configurations),
+    )
 }
 
 /// Origin of a configuration's values in error messages.

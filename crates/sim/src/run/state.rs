@@ -155,21 +155,8 @@ impl State {
 
     fn place_robots(&mut self, scenario: &Scenario) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, EntityClass::Robots);
-        let kinds = (0..).zip(&scenario.kinds);
-        let groups = kinds.map(|(number, kind)| Group {
-            kind: number,
-            key: kind.key,
-            count: kind.count,
-            radius_m: kind.radius_m,
-            layer: kind.layer as u8,
-            placement: &kind.start,
-        });
-        let groups: Vec<Group> = groups.collect();
-        let places = team(&draws, &groups, |group, place| {
-            let layer = scenario.kinds[usize::from(group.kind)].layer;
-            scenario.is_free(place, group.radius_m, layer)
-        })?;
-        for (group, places) in groups.iter().zip(places) {
+        let places = start_places(scenario, self.seed, self.run)?;
+        for (group, places) in groups(scenario).iter().zip(places) {
             for (index, place) in (0..).zip(places) {
                 let id = RobotId {
                     kind: group.kind,
@@ -268,6 +255,35 @@ impl State {
     pub fn robots(&self) -> usize {
         self.ids.len()
     }
+}
+
+fn groups(scenario: &Scenario) -> Vec<Group<'_>> {
+    let kinds = (0..).zip(&scenario.kinds);
+    let groups = kinds.map(|(number, kind)| Group {
+        kind: number,
+        key: kind.key,
+        count: kind.count,
+        radius_m: kind.radius_m,
+        layer: kind.layer as u8,
+        placement: &kind.start,
+    });
+    groups.collect()
+}
+
+/// The places where the robots of a run start, by kind.
+///
+/// # Errors
+/// The first robot for which no place is found.
+pub(crate) fn start_places(
+    scenario: &Scenario,
+    seed: u64,
+    run: u64,
+) -> Result<Vec<Vec<Point>>, TeamPlacementError> {
+    let draws = draws(scenario, seed, run, EntityClass::Robots);
+    team(&draws, &groups(scenario), |group, place| {
+        let layer = scenario.kinds[usize::from(group.kind)].layer;
+        scenario.is_free(place, group.radius_m, layer)
+    })
 }
 
 pub(super) fn draws(

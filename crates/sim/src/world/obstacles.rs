@@ -20,10 +20,14 @@ pub enum ObstacleSpec {
         /// Its centre and radius.
         circle: CircleSpec,
     },
-    /// A map as read by ROS `map_server`.
+    /// A map as read by ROS `map_server`: a YAML file that names a PGM or PNG image.
     Map {
         /// YAML file of the map, relative to the scenario file.
         map: String,
+        /// Position of the lower left corner of the image in the world, in metres. Without it, the `origin` in
+        /// the YAML file. The yaw is always that of the file.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at_m: Option<Point>,
         /// Whether unknown cells of the map are occupied.
         #[serde(default)]
         unknown_is_occupied: bool,

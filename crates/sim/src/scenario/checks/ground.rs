@@ -7,7 +7,7 @@ use crate::world::terrain::{Area, TerrainSpec};
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::{Disc, Point, Polygon, Rectangle};
-use base::map::{self, OccupancyMap, Unknown};
+use base::map::{self, MapOptions, OccupancyMap, Unknown};
 use std::collections::BTreeMap;
 
 /// Returns the bytes of a file that a scenario names, or the reason why it cannot.
@@ -35,7 +35,9 @@ pub(super) fn solids(
                 if is_there {
                     solids.push(solid);
                 } else {
-                    errors.push(at.error(where_obstacles_are(world)));
+                    let is_map = matches!(obstacle, ObstacleSpec::Map { .. });
+                    let advice = if is_map { "; at_m places a map" } else { "" };
+                    errors.push(at.error(where_obstacles_are(world) + advice));
                 }
             }
             Err(found) => errors.extend(found),
@@ -79,13 +81,15 @@ fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<I
         })),
         ObstacleSpec::Map {
             map,
+            at_m,
             unknown_is_occupied,
         } => {
             let unknown = match unknown_is_occupied {
                 true => Unknown::Solid,
                 false => Unknown::Free,
             };
-            read_map(map, unknown, &at.key("map"), open).map(Solid::Map)
+            let options = MapOptions { unknown, at: *at_m };
+            read_map(map, options, &at.key("map"), open).map(Solid::Map)
         }
     }
 }
@@ -93,7 +97,7 @@ fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<I
 /// The map in a YAML file; the image that it names is beside it.
 fn read_map(
     file: &str,
-    unknown: Unknown,
+    options: MapOptions,
     at: &Place,
     open: Open,
 ) -> Result<OccupancyMap, Vec<InputError>> {
@@ -105,7 +109,7 @@ fn read_map(
         Some(folder) if !image.starts_with('/') => open(&format!("{folder}/{image}")),
         _ => open(image),
     };
-    map::read(file, &text, unknown, beside).map_err(|errors| errors.0)
+    map::read(file, &text, options, beside).map_err(|errors| errors.0)
 }
 
 /// The areas of all classes of terrain.

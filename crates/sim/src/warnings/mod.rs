@@ -1,0 +1,45 @@
+//! Warnings about scenarios: what is allowed, and probably not meant.
+//!
+//! They are not part of reading a scenario: every configuration of a study is read, and warnings are
+//! needed once.
+
+mod configurations;
+mod cropped_maps;
+mod room;
+
+use crate::scenario::{Checked, ScenarioSpec};
+use base::document::{Document, Place, Value};
+use base::warning::Warning;
+
+/// Maximum number of warnings.
+const MAX_WARNINGS: usize = 10;
+
+/// Warnings about a scenario at a place in a document.
+type Examination = fn(&Checked, &Place) -> Vec<Warning>;
+
+const EXAMINATIONS: [Examination; 2] = [cropped_maps::warnings, room::warnings];
+
+/// Warnings about `configurations` of a document, each with values by path. Invalid configurations have
+/// none: their errors are reported when they are read.
+pub(crate) fn warnings(
+    document: &Document,
+    configurations: &[Vec<(String, Value)>],
+) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for document in configurations::representative(document, configurations) {
+        let Ok(checked) = ScenarioSpec::read(&document) else {
+            continue;
+        };
+        let found = EXAMINATIONS.iter();
+        for warning in found.flat_map(|examine| examine(&checked, &document.place())) {
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
+    }
+    warnings.truncate(MAX_WARNINGS);
+    warnings
+}
+
+#[cfg(test)]
+mod tests;
