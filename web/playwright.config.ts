@@ -1,13 +1,14 @@
 import { defineConfig } from "@playwright/test";
 import { launchOptions } from "./dev/chromium.mjs";
+import { hang_ms } from "./dev/real-server.mjs";
 
 export default defineConfig({
   testDir: "tests",
   workers: 3,
   fullyParallel: true,
-  // Generous, for busy machines: a passing test does not wait for them.
-  timeout: 90_000,
-  expect: { timeout: 20_000 },
+  // Tests wait for states, not for times: these limits only end a test that hangs.
+  timeout: 5 * hang_ms,
+  expect: { timeout: hang_ms },
   // A test that passes only at the second attempt is listed as flaky.
   retries: process.env.CI ? 1 : 0,
   reporter: [["list"]],

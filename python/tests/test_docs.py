@@ -4,6 +4,8 @@ import re
 import shlex
 import subprocess
 import sys
+from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -32,10 +34,27 @@ def test_the_brain_comparison_page_and_its_charts_follow_from_the_measurements()
     assert given.returncode == 0, given.stderr
 
 
-def test_the_readme_quotes_the_answer_of_make_study() -> None:
+def test_a_sentence_about_brains_that_the_measurements_do_not_support_is_an_error(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.syspath_prepend(str(ROOT / "scripts"))
+    claims, comparison = map(import_module, ("brain_claims", "brain_comparison"))
+    measured = comparison.measurements()
+    assert "`bayesian_search` is the fastest brain" in claims.in_short(measured)
+    lawnmower = {
+        claims.BAYES: measured.teams["lawnmower"],
+        "lawnmower": measured.teams[claims.BAYES],
+    }
+    swapped = replace(measured, teams={**measured.teams, **lawnmower})
+    with pytest.raises(claims.ClaimError, match="no longer show that bayesian_search with radio"):
+        claims.in_short(swapped)
+
+
+def test_the_readme_quotes_the_answer_and_the_guarantee_of_make_study() -> None:
     answer = study.run(Scenario.load(ROOT / "scenarios/classic.toml"))
     quoted = " ".join((ROOT / "README.md").read_text().replace("\n> ", " ").split())
     assert answer.sentence in quoted
+    assert answer.guarantee in quoted
 
 
 def run_blocks(page: str) -> None:

@@ -214,7 +214,7 @@ def test_true_differs_from_one() -> None:
 def test_the_snapshot_before_a_change_is_always_kept(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(snapshots, "capacity", lambda _: 3)
+    monkeypatch.setattr(snapshots, "MEMORY_BYTES", 0)
     timeline = begun()
     for tick in (10, 20, 30, 40):
         timeline.seek(tick, FOREVER_S)

@@ -1,3 +1,5 @@
+export const hang_ms: number;
+
 /** The part of the real server that tests use. */
 export class RealServer {
   url: string;

@@ -6,7 +6,11 @@ import { join } from "node:path";
 import { createInterface } from "node:readline";
 
 const program = process.env.AGENT_ECONOMY ?? "agent-economy";
-const start_ms = 30_000;
+/**
+ * The longest wait for anything that a test, the benchmark or a picture waits for: it is only reached when
+ * something hangs, also on a machine that is many times slower than ours.
+ */
+export const hang_ms = 120_000;
 
 /** The process `agent-economy ui`, in an empty folder of its own. */
 export class RealServer {
@@ -46,7 +50,7 @@ async function addressFrom(running) {
   const failed = new Promise((_, fail) => {
     running.once("error", fail);
     running.once("exit", (code) => fail(new Error(`${program} ui ended with ${code}`)));
-    setTimeout(() => fail(new Error(`${program} ui printed no address`)), start_ms).unref();
+    setTimeout(() => fail(new Error(`${program} ui printed no address`)), hang_ms).unref();
   });
   failed.catch(() => {});
   const first = createInterface(running.stdout)[Symbol.asyncIterator]().next();

@@ -48,8 +48,10 @@ test("team and contact change during a run, and the address gives the same run",
   await openTab(page, "Parameters");
   const slider = page.getByRole("slider", { name: "Count of wanderer, slider" });
   await slider.focus();
-  for (let i = 0; i < 3; i += 1) await page.keyboard.press("ArrowRight");
-  await expect(status(page)).toContainText("7 robots");
+  for (const robots of [5, 6, 7]) {
+    await page.keyboard.press("ArrowRight");
+    await expect(status(page)).toContainText(`${robots} robots`);
+  }
   await page.getByRole("searchbox").fill("contact");
   await page.getByRole("combobox", { name: "contact" }).selectOption("within-2");
   await expect.poll(() => page.url()).toContain("within-2");
@@ -102,7 +104,7 @@ test("changes that do not fit into an address are saved, and the address names t
   await openRun(page, server, `scenario=classic&changes=${JSON.stringify(many)}`);
   await openTab(page, "Parameters");
   await page.getByRole("slider", { name: /^Count of/ }).fill("9");
-  await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/classic-0-0-");
+  await expect.poll(() => page.url()).toContain("recording=recordings/classic-0-0-");
   await page.reload();
   await expect(status(page)).toContainText("9 robots");
 });

@@ -97,23 +97,82 @@ export async function expectToFit(page: Page): Promise<void> {
   expect(await page.evaluate(widths)).toEqual([360, 360]);
 }
 
-/** Routes the page's connections to the server through the test; the returned function drops them. */
-export async function droppable(page: Page): Promise<() => Promise<void>> {
+/** Routes the page's connections to the server through the test, which drops them and later restores them. */
+export async function droppable(page: Page): Promise<{ drop(): Promise<void>; restore(): void }> {
   const open: WebSocketRoute[] = [];
-  await page.routeWebSocket(/\/ws/, (line) => void open.push(line, line.connectToServer()));
-  return async () => {
-    await Promise.all(open.splice(0).map((line) => line.close()));
+  let isDown = false;
+  await page.routeWebSocket(/\/ws/, async (line) => {
+    if (isDown) await line.close();
+    else open.push(line, line.connectToServer());
+  });
+  return {
+    async drop() {
+      isDown = true;
+      await Promise.all(open.splice(0).map((line) => line.close()));
+    },
+    restore() {
+      isDown = false;
+    },
   };
 }
 
-/** Routes the page's connections through the test, which alters or delays the server's messages. */
+/**
+ * Expects the page to report a lost connection at once when `lose` ends it: before it does anything else about
+ * it, such as connecting again. The page records the order itself, so that it does not depend on how soon the
+ * test sees it. To be called before the page is opened.
+ */
+export async function expectReportAtOnce(page: Page): Promise<(lose: () => Promise<void>) => Promise<void>> {
+  await page.addInitScript(recordConnection, report);
+  const events = () => page.evaluate<string[]>("connectionEvents");
+  return async (lose) => {
+    const { length } = await events();
+    await lose();
+    await expect(page.getByText(report).first()).toBeVisible();
+    await expect.poll(async () => (await events()).slice(length)).toContain("connecting");
+    expect((await events()).slice(length, length + 3)).toEqual(["closed", "reported", "connecting"]);
+  };
+}
+
+const report = "The connection is lost.";
+
+/** Records, in the page, when connections open and close, and when it reports that one is lost. */
+function recordConnection(report: string): void {
+  const events: string[] = [];
+  Object.assign(globalThis, { connectionEvents: events });
+  globalThis.WebSocket = class extends WebSocket {
+    constructor(url: string | URL) {
+      super(url);
+      events.push("connecting");
+      this.addEventListener("close", () => events.push("closed"));
+    }
+  };
+  let isReported = false;
+  const look = () => {
+    const was = isReported;
+    isReported = document.body?.textContent.includes(report) ?? false;
+    if (isReported && !was) events.push("reported");
+  };
+  new MutationObserver(look).observe(document, { childList: true, characterData: true, subtree: true });
+}
+
+/**
+ * Routes the page's connections through the test, which alters or delays the server's messages; all later ones
+ * wait for a delayed one.
+ */
 export async function altered(
   page: Page,
   alter: (message: ServerMessage) => ServerMessage | Promise<ServerMessage>,
 ): Promise<void> {
   await page.routeWebSocket(/\/ws/, (line) => {
-    line.connectToServer().onMessage(async (data) => {
-      line.send(typeof data === "string" ? JSON.stringify(await alter(JSON.parse(data))) : data);
+    const server = line.connectToServer();
+    let sent = Promise.resolve();
+    server.onMessage((data) => {
+      sent = sent.then(async () => {
+        line.send(typeof data === "string" ? JSON.stringify(await alter(JSON.parse(data))) : data);
+      });
+    });
+    server.onClose((code, reason) => {
+      sent = sent.then(() => line.close({ code, reason }));
     });
   });
 }

@@ -132,9 +132,7 @@ test("changes that do not fit into an address are saved, and the address names t
   const area = Array.from({ length: 600 }, (_, i) => corner(i).map((at) => Number(at.toFixed(6))));
   const changes = JSON.stringify([[1, "terrain.mud", { areas_m: [area] }]]);
   await openRun(page, server, `${scenario}&tick=3&changes=${changes}`, "0.3 s");
-  await expect
-    .poll(() => page.url(), { timeout: 15_000 })
-    .toMatch(/recording=recordings\/search-beliefs-7-2-\w+\.mcap&tick=3/);
+  await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-beliefs-7-2-\w+\.mcap&tick=3/);
   const other = await context.newPage();
   await other.goto(page.url());
   await expect(status(other)).toContainText("0.3 s");
@@ -148,7 +146,7 @@ test("a large file of the user's own is saved, so that its address works elsewhe
   const noise = Array.from({ length: 9000 }, (_, i) => ((i * 2654435761) >>> 0).toString(36)).join("\n# ");
   await openFile(page, server, `${ownScenario}# ${noise}`);
   await expect(status(page)).toContainText("4 robots");
-  await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/");
+  await expect.poll(() => page.url()).toContain("recording=recordings/");
   await page.getByRole("application").press(".");
   await expect.poll(() => page.url()).toContain("tick=1");
   const other = await context.newPage();

@@ -1,3 +1,5 @@
+import type { PageMessage, ServerMessage } from "../src/api/protocol";
+import { times } from "../src/shared/format";
 import {
   asOnPhone,
   downloaded,
@@ -20,9 +22,24 @@ test("a run plays, pauses, steps, and returns to the same state, and the status 
   page,
   server,
 }) => {
+  const [requested, measured]: [(number | null)[], string[]] = [[], []];
+  page.on("websocket", (line) => {
+    line.on("framesent", ({ payload }) => {
+      const message = JSON.parse(String(payload)) as PageMessage;
+      if (message.type === "play") requested.push(message.speed ?? null);
+    });
+    line.on("framereceived", ({ payload }) => {
+      const message = typeof payload === "string" ? (JSON.parse(payload) as ServerMessage) : null;
+      if (message?.type === "state") measured.push(times(message.measured_speed));
+    });
+  });
   await openRun(page, server, scenario, /^0\.0 s, 4 robots: .*; 0 of 4 items found; paused\.$/);
   await page.keyboard.press("Space");
-  await expect(status(page)).toContainText("running at 1 × real time");
+  // Real time is requested; a slow machine may run at less, and the page displays what the server measures.
+  await expect(status(page)).toContainText(/running at [\d.]+ × real time/);
+  expect(requested).toEqual([1]);
+  const displayed = /running at ([\d.]+) ×/.exec((await status(page).textContent()) ?? "")?.[1];
+  await expect.poll(() => measured).toContain(displayed);
   await expect.poll(() => time_s(page)).toBeGreaterThan(1);
   await page.keyboard.press("Space");
   await expect(status(page)).toContainText("paused");
@@ -67,17 +84,18 @@ test("an address opens the same run with the same changes and view in another ta
 });
 
 test("a page opened while the run's address changes stays open", async ({ page, server }) => {
-  // The browser reports the new address to the page only after the run has written its own.
+  // The browser reports the new address to the page only after the run has had the time to write its own.
+  await page.clock.install();
   await page.addInitScript(() => {
     addEventListener("hashchange", (event) => {
-      if (!event.isTrusted) return;
-      event.stopImmediatePropagation();
-      setTimeout(() => dispatchEvent(new HashChangeEvent("hashchange")), 3000);
+      if (event.isTrusted) event.stopImmediatePropagation();
     });
   });
   await openRun(page, server, "scenario=flock&tick=20");
   await page.keyboard.press("ArrowRight");
   await page.evaluate(() => (location.hash = "#/recordings"));
+  await page.clock.runFor(3000);
+  await page.evaluate(() => dispatchEvent(new HashChangeEvent("hashchange")));
   await expect(page.getByRole("heading", { name: "Recordings" })).toBeVisible();
   expect(page.url()).toContain("#/recordings");
 });

@@ -35,10 +35,10 @@ export const test = base.extend<{ race: string }, { answered: string }>({
     async ({ server }, use) => {
       const { id } = await post(server, "studies", short);
       const state = async () => (await summaryOf(server, id)).state;
-      await expect.poll(state, { timeout: 60_000 }).toBe("answered");
+      await expect.poll(state).toBe("answered");
       await use(id);
     },
-    { scope: "worker", timeout: 60_000 },
+    { scope: "worker" },
   ],
 });
 

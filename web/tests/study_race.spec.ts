@@ -1,6 +1,6 @@
 import { cp, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { altered, droppable, expect, expectAccessible } from "./page";
+import { altered, droppable, expect, expectAccessible, expectReportAtOnce } from "./page";
 import { alterStudy, post, sentence, studyAt, summaryOf, test } from "./studies";
 
 test("the race is displayed as text and as a table, and is stopped and resumed", async ({
@@ -48,13 +48,14 @@ test("a study that another page resumed is displayed as running", async ({ page,
 });
 
 test("a lost connection is reported at once, and the race continues", async ({ page, server, race }) => {
-  const drop = await droppable(page);
+  const line = await droppable(page);
+  const reportsAtOnce = await expectReportAtOnce(page);
   await page.goto(studyAt(server, race));
   await expect(page.getByText("runs per second")).toBeVisible();
-  await drop();
-  await expect(page.getByText("The connection is lost.")).toBeVisible();
+  await reportsAtOnce(() => line.drop());
   await expect(page.getByText("runs per second")).toBeVisible();
   await expectAccessible(page);
+  line.restore();
   await expect(page.getByText("The connection is lost.")).toBeHidden();
   const runs = () =>
     page
@@ -137,12 +138,12 @@ test("a killed server is reported at once, and the study is read from its folder
   page,
   ownServer,
 }) => {
+  const reportsAtOnce = await expectReportAtOnce(page);
   await page.goto(`${ownServer.url}/#/study/new?scenario=search`);
   await page.getByRole("button", { name: "Start" }).click();
   await expect(page.getByText("runs per second")).toBeVisible();
-  await ownServer.kill();
-  await expect(page.getByText("The connection is lost.")).toBeVisible();
+  await reportsAtOnce(() => ownServer.kill());
   await ownServer.start();
-  await expect(page.getByText("The connection is lost.")).toBeHidden({ timeout: 15_000 });
+  await expect(page.getByText("The connection is lost.")).toBeHidden();
   await expect(page.getByText(/^(Running|Stopped)$/)).toBeVisible();
 });

@@ -5,6 +5,7 @@ use crate::configuration::{ColumnTuple, as_tuple};
 use crate::error::input_error;
 use crate::long_work::interruptible;
 use crate::scenario::Source;
+use crate::snapshot::Measured;
 use base::engine::Runner;
 use classic::world::{CELL_PX, ITEMS, SIZE, cells};
 use classic::{Colour, Configuration, Robot, Run};
@@ -48,7 +49,16 @@ pub(crate) fn classic_world(py: Python) -> PyResult<Bound<PyDict>> {
 
 /// A copy of a run at one step.
 #[pyclass(frozen, module = "agent_economy._core")]
-pub(crate) struct ClassicSnapshot(Run);
+pub(crate) struct ClassicSnapshot(Measured<Run>);
+
+#[pymethods]
+impl ClassicSnapshot {
+    /// Memory that it takes, in bytes.
+    #[getter]
+    fn bytes(&self) -> u64 {
+        self.0.bytes
+    }
+}
 
 /// A run. It may be shared between threads, which wait for each other.
 #[pyclass(frozen, module = "agent_economy._core")]
@@ -97,11 +107,11 @@ impl ClassicSimulation {
     }
 
     fn snapshot(&self, py: Python) -> ClassicSnapshot {
-        ClassicSnapshot(self.locked(py).clone())
+        ClassicSnapshot(Measured::of(&*self.locked(py)))
     }
 
     fn restore(&self, py: Python, snapshot: &Bound<ClassicSnapshot>) {
-        *self.locked(py) = snapshot.get().0.clone();
+        *self.locked(py) = snapshot.get().0.run.clone();
     }
 
     /// The outcome at the current step, by column; at the end of the run, it is that of `run_one`.

@@ -27,6 +27,7 @@ mod scenario;
 mod selection;
 mod serde_error;
 mod simulation;
+mod snapshot;
 
 use pyo3::prelude::*;
 

@@ -8,6 +8,7 @@ use crate::external;
 use crate::long_work::interruptible;
 use crate::metric_scenario::{MetricScenario, id_of, name_of};
 use crate::python_brain::{self, PythonBrain};
+use crate::snapshot::Measured;
 use base::engine::Runner;
 use base::error::{InputError, InputErrors};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -32,7 +33,16 @@ const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
 /// A copy of a run at one step.
 #[pyclass(frozen, module = "agent_economy._core")]
-pub(crate) struct Snapshot(Run);
+pub(crate) struct Snapshot(Measured<Run>);
+
+#[pymethods]
+impl Snapshot {
+    /// Memory that it takes, in bytes, besides what it shares with the run.
+    #[getter]
+    fn bytes(&self) -> u64 {
+        self.0.bytes
+    }
+}
 
 /// A run. It may be shared between threads, which wait for each other.
 #[pyclass(frozen, module = "agent_economy._core")]
@@ -201,13 +211,13 @@ impl Simulation {
     }
 
     fn snapshot(&self, py: Python) -> PyResult<Snapshot> {
-        Ok(Snapshot(self.locked(py)?.clone()))
+        Ok(Snapshot(Measured::of(&*self.locked(py)?)))
     }
 
     fn restore(&self, py: Python, snapshot: &Bound<Snapshot>) -> PyResult<()> {
         let mut run = self.locked(py)?;
         let (inspected, scenario) = (run.inspected_robot(), Arc::clone(run.scenario()));
-        *run = snapshot.get().0.clone();
+        *run = snapshot.get().0.run.clone();
         // In another scenario, robots may have other numbers.
         let is_same = Arc::ptr_eq(&scenario, run.scenario());
         run.inspect(inspected.filter(|_| is_same));

@@ -44,6 +44,11 @@ class Snapshot:
     _initial: Scenario = field(repr=False)
     _state: Any = field(repr=False)
 
+    @property
+    def bytes(self) -> int:
+        """Memory that it takes, in bytes, besides its scenario, which it shares with the run."""
+        return int(self._state.bytes)
+
 
 class Stepped(ABC):
     """An interactive run: the base of `Simulation` and `ClassicSimulation`.

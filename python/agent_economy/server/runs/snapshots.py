@@ -1,16 +1,13 @@
 """The snapshots of a run that can be returned to: few enough to fit into memory."""
 
 from bisect import bisect_right
-from typing import Any
 
-from agent_economy.runs.stepped import Change, Stepped
+from agent_economy.runs.stepped import Change, Snapshot, Stepped
 
 MEMORY_BYTES = 200_000_000
-"""Approximate maximum size of all snapshots together."""
+"""Maximum size of all snapshots together, unless there are only `MIN_SNAPSHOTS` of them."""
 
-BELIEF_BYTES, BODY_BYTES = 100_000, 1_000
-"""Upper estimate of a robot in a snapshot: with a belief state that has a map, or without."""
-
+MIN_SNAPSHOTS = 3
 MAX_SNAPSHOTS = 128
 FIRST_INTERVAL = 50
 """Initial steps between snapshots; doubled whenever there are too many of them."""
@@ -23,7 +20,7 @@ class Snapshots:
         """Begin with a snapshot of the current moment."""
         self._interval = FIRST_INTERVAL
         self._ticks: list[int] = []
-        self._kept: list[Any] = []
+        self._kept: list[Snapshot] = []
         self.add(simulation, simulation.snapshot())
 
     @property
@@ -36,19 +33,24 @@ class Snapshots:
         """The tick at which the next snapshot is due."""
         return self._ticks[-1] + self._interval
 
-    def before(self, tick: int) -> Any:
+    def before(self, tick: int) -> Snapshot:
         """Return the latest snapshot that is not after a tick."""
         return self._kept[bisect_right(self._ticks, tick) - 1]
 
-    def add(self, simulation: Stepped, snapshot: Any) -> None:
-        """Add a snapshot of the current tick; drop every second one when there are too many."""
+    def add(self, simulation: Stepped, snapshot: Snapshot) -> None:
+        """Add a snapshot of the current tick; drop every second one while they take too much."""
         self._ticks.append(simulation.tick)
         self._kept.append(snapshot)
-        if len(self._kept) > capacity(simulation):
+        while self._are_too_many():
             self._interval *= 2
             # The first, and every second one counted from the newest.
             self._ticks = self._ticks[:1] + self._ticks[:0:-2][::-1]
             self._kept = self._kept[:1] + self._kept[:0:-2][::-1]
+
+    def _are_too_many(self) -> bool:
+        count = len(self._kept)
+        is_over_budget = sum(snapshot.bytes for snapshot in self._kept) > MEMORY_BYTES
+        return count > MAX_SNAPSHOTS or (is_over_budget and count > MIN_SNAPSHOTS)
 
     def discard_after(self, tick: int, log: tuple[Change, ...]) -> None:
         """Drop the snapshots after a tick and those with other changes, but never the first."""
@@ -59,17 +61,3 @@ class Snapshots:
             or (at_tick <= tick and each.changes == log[: len(each.changes)])
         ]
         self._ticks, self._kept = [each for each, _ in kept], [snapshot for _, snapshot in kept]
-
-
-def capacity(simulation: Stepped) -> int:
-    """Return the maximum number of snapshots of a run with its present team."""
-    size = sum(
-        count * (BELIEF_BYTES if count and has_beliefs(simulation, kind) else BODY_BYTES)
-        for kind, count in simulation.scenario.robots.items()
-    )
-    return max(3, min(MAX_SNAPSHOTS, MEMORY_BYTES // max(1, size)))
-
-
-def has_beliefs(simulation: Stepped, kind: str) -> bool:
-    """Return whether robots of a kind have a belief state."""
-    return simulation.belief_state(f"{kind}/0") is not None
