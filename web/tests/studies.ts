@@ -1,6 +1,9 @@
 import type { Page } from "@playwright/test";
 import type { Study, StudyRequest, StudySummary } from "../src/api/study";
+import { hang_ms } from "../dev/real-server.mjs";
 import { expect, type RealServer, test as base } from "./page";
+
+const computing_ms = 5 * hang_ms;
 
 const request: StudyRequest = {
   scenario: "search",
@@ -15,7 +18,7 @@ const request: StudyRequest = {
   max_runs: null,
   seed: "2",
 };
-/** Is answered within seconds. */
+/** Is answered within seconds, or within minutes on a busy machine. */
 const short: StudyRequest = { ...request, vary: { "robots.rover.count": "1..5" }, delta: 0.3 };
 /** Runs until it is stopped. */
 const long: StudyRequest = {
@@ -35,10 +38,10 @@ export const test = base.extend<{ race: string }, { answered: string }>({
     async ({ server }, use) => {
       const { id } = await post(server, "studies", short);
       const state = async () => (await summaryOf(server, id)).state;
-      await expect.poll(state).toBe("answered");
+      await expect.poll(state, { timeout: computing_ms }).toBe("answered");
       await use(id);
     },
-    { scope: "worker" },
+    { scope: "worker", timeout: computing_ms },
   ],
 });
 

@@ -6,7 +6,6 @@ from contextlib import contextmanager
 import typer
 
 import agent_economy as ae
-from agent_economy.scenario import ScenarioWarning
 
 FAILED = 1
 """Exit code when a command cannot be completed."""
@@ -18,8 +17,8 @@ INTERRUPTED = 130
 """Exit code after Ctrl-C, as in shells."""
 
 
-def print_warnings(warnings: Iterable[ScenarioWarning]) -> None:
-    """Print warnings about a scenario; they do not change the exit code."""
+def print_warnings(warnings: Iterable[object]) -> None:
+    """Print warnings about a scenario, a line each; they do not change the exit code."""
     for warning in warnings:
         typer.echo(f"warning: {warning}", err=True)
 
