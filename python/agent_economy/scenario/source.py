@@ -1,12 +1,12 @@
 """The source of a scenario: its text, the overrides, and the files that it refers to."""
 
-import stat
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from agent_economy import _core
+from agent_economy.regular_file import open_regular
 from agent_economy.scenario import validation
 
 Value = str | int | float
@@ -100,16 +100,10 @@ class Source:
 def read_file(path: Path, max_bytes: int) -> bytes | str:
     """Return the bytes of a file, or the reason that it cannot be read."""
     try:
-        mode = path.stat().st_mode
-        # A pipe or a device may never end, or never begin. Opening a folder raises its own error.
-        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
-            return "it is a pipe or a device; save its output to a file and pass that"
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             data = stream.read(max_bytes + 1)
     except OSError as error:
         return error.strerror or str(error)
-    except ValueError as error:  # a name that no file can have
-        return str(error)
     # A recording passed by mistake gets its own error, also if it is too large.
     if len(data) > max_bytes and not data.startswith(RECORDING_MAGIC):
         return f"it is larger than the limit of {max_bytes:,} bytes"

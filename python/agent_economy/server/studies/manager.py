@@ -15,7 +15,7 @@ from agent_economy.server.workspace import Workspace, is_study
 from agent_economy.study import Plan
 from agent_economy.study.plan import with_confidence
 from agent_economy.study.question import usual_folder
-from agent_economy.study.store.folder import disk_errors, is_locked
+from agent_economy.study.store.folder import is_locked
 
 MAX_RUNNING = 2
 """Maximum number of studies that run at the same time: each uses all processors."""
@@ -81,8 +81,7 @@ class StudyManager:
         Raises:
             InputError: If that is outside of the server's folder, or cannot be read.
         """
-        with disk_errors(self._workspace.folder, "read"):
-            return self._workspace.id_of_study(usual_folder(plan, self._workspace.folder))
+        return self._workspace.id_of_study(usual_folder(plan, self._workspace.folder))
 
     def state(self, name: str) -> str | None:
         """Return the state of a study by its id; None if there is none."""

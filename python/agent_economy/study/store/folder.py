@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from agent_economy._core import InputError
+from agent_economy.regular_file import IrregularFileError, descriptor_of, open_regular
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
 
@@ -43,6 +44,9 @@ def disk_errors(
     """
     try:
         yield
+    except IrregularFileError as error:
+        message = f"{error.filename}: cannot be read: {error.strerror}"
+        raise InputError(message) from None
     except OSError as error:
         message = f"{path}: cannot be {action} ({error.strerror or error})"
         raise error_type(message) from error
@@ -69,7 +73,7 @@ def lock(folder: Path) -> int:
         InputError: If another process has locked it.
     """
     with disk_errors(folder):
-        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        descriptor = descriptor_of(folder / LOCK, os.O_RDWR | os.O_CREAT)
     for attempt in range(ATTEMPTS):
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -95,7 +99,7 @@ def is_locked(folder: str | Path) -> bool:
     """
     place = validation.path("folder", folder)
     try:
-        descriptor = os.open(place / LOCK, os.O_RDONLY | os.O_CLOEXEC)
+        descriptor = descriptor_of(place / LOCK, os.O_RDONLY)
     except OSError:
         return False
     try:
@@ -112,7 +116,7 @@ def remove_unfinished(folder: Path) -> None:
     with disk_errors(folder):
         for place in (folder / BLOCKS, folder / FILES, folder):
             for path in place.glob(f"{UNFINISHED}*"):
-                if path.is_file():
+                if not path.is_dir():
                     path.unlink()
 
 
@@ -215,8 +219,9 @@ def read_bytes(path: Path) -> bytes | None:
     """
     with disk_errors(path, "read"):
         try:
-            return path.read_bytes()
-        except FileNotFoundError:
+            with open_regular(path) as stream:
+                return stream.read()
+        except (FileNotFoundError, NotADirectoryError):
             return None
 
 
