@@ -18,6 +18,8 @@ TomlValue = Value | Sequence[Any] | Mapping[str, Any]
 RECORDING_MAGIC = b"\x89MCAP"
 """The first bytes of a recording."""
 
+FILE_NAME = "a file name in UTF-8; rename the file or its folder"
+
 VARY = "study.vary."
 
 MAX_BYTES = 2**24
@@ -79,7 +81,7 @@ class Source:
         Raises:
             InputError: If the text or the file name is not a string.
         """
-        validation.check(validation.is_text(self.file), "file", self.file, "a file name")
+        validation.check(validation.is_text(self.file), "file", self.file, FILE_NAME)
         validation.check(validation.is_text(self.text), "text", self.text, "a string of TOML")
 
     @property

@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +34,10 @@ class StudyManager:
 
     def listed(self) -> list[dict[str, Any]]:
         """Return all studies, the newest first."""
-        rows = [self.of(name) for name, _ in self._workspace.studies()]
+        rows = []
+        for name, _ in self._workspace.studies():
+            with suppress(InputError):  # The study has been removed meanwhile.
+                rows.append(self.of(name))
         return sorted(rows, key=lambda row: (-row["changed_s"], row["id"]))
 
     def of(self, name: str) -> dict[str, Any]:

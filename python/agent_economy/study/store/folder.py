@@ -25,6 +25,9 @@ REPORT = "report.html"
 UNFINISHED = ".unfinished-"
 """Prefix of the names of files that are being written."""
 
+MAX_BYTES = 2**30
+"""Maximum size of a file; blocks, answers and maps are smaller."""
+
 ATTEMPTS = 5
 RETRY_S = 0.02
 """Attempts at locking a folder, and the pause between two."""
@@ -220,9 +223,12 @@ def read_bytes(path: Path) -> bytes | None:
     with disk_errors(path, "read"):
         try:
             with open_regular(path) as stream:
-                return stream.read()
+                if os.fstat(stream.fileno()).st_size <= MAX_BYTES:
+                    return stream.read()
         except (FileNotFoundError, NotADirectoryError):
             return None
+    message = f"{path}: cannot be read: it is larger than the limit of {MAX_BYTES:,} bytes"
+    raise StoreError(message)
 
 
 def differences(existing: str, requested: str) -> str:

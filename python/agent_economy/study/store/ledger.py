@@ -5,6 +5,7 @@ the disk before the study continues; that of a decision is not, because it follo
 """
 
 import json
+import os
 import sqlite3
 from collections.abc import Iterable
 from contextlib import closing
@@ -138,7 +139,11 @@ class Ledger:
     def decisions(self) -> list[Decision]:
         """Return its decisions, by round."""
         rows = self._rows("SELECT round, facts FROM decision ORDER BY round")
-        return [Decision(number, json.loads(facts)) for number, facts in rows]
+        try:
+            return [Decision(number, json.loads(facts)) for number, facts in rows]
+        except (ValueError, TypeError, RecursionError):
+            message = f"{self.path}: is damaged: restore it, or use another folder"
+            raise StoreError(message) from None
 
     def enter(self, file: BlockFile) -> None:
         """Enter a block file that is on the disk, and wait until the entry is.
@@ -240,7 +245,7 @@ def header(connection: sqlite3.Connection, name: str) -> int:
 def connect_to_read(path: Path) -> sqlite3.Connection:
     """Return a read-only connection, also for folders that cannot be written."""
     check_parts(path)
-    address = f"file:{quote(str(path.absolute()))}?mode=ro"
+    address = f"file:{quote(os.fsencode(path.absolute()))}?mode=ro"
     connection = sqlite3.connect(address, uri=True, timeout=30, isolation_level=None)
     try:
         connection.execute("SELECT count(*) FROM sqlite_master")
