@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 from typing import Annotated, Any, Literal
 
 import typer
@@ -224,7 +225,8 @@ def compute_answer(
             return studies.run_plan(plan, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
         is_stored = (folder / "study.toml").exists()
-        advice = f"; all are stored. Resume with: agent-economy study --resume {folder}"
+        command = f"agent-economy study --resume {quote(str(folder))}"
+        advice = f"; all are stored. Resume with: {command}"
         typer.echo(f"\nStopped after {display.runs:,} runs{advice if is_stored else '.'}", err=True)
         raise typer.Exit(INTERRUPTED) from None
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from agent_economy import _core
@@ -151,6 +152,6 @@ def decode(file: Path, data: bytes) -> str:
 def not_text(file: Path, error: UnicodeDecodeError) -> str:
     """Return the error message for a file that is not UTF-8 text."""
     if error.object.startswith(RECORDING_MAGIC):
-        command = f"agent-economy replay {file}"
+        command = f"agent-economy replay {quote(str(file))}"
         return f"{file}: expected a scenario, got a recording; to replay it: {command}"
     return f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"

@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from agent_economy._core import InputError
@@ -182,7 +183,7 @@ def refuse(folder: str | Path) -> Compute:
     def compute(block: RunBlock) -> Any:
         message = (
             f"{folder}: is not finished ({block} are missing): resume it with "
-            f"agent-economy study --resume {folder}"
+            f"agent-economy study --resume {quote(str(folder))}"
         )
         raise InputError(message)
 
