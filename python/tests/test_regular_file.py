@@ -107,10 +107,16 @@ def test_a_lock_that_is_a_pipe_is_refused_and_locks_nothing(finished: Path) -> N
     assert not study.is_locked(finished)
 
 
-@pytest.mark.parametrize("name", ["report.html", ".unfinished-report.html"])
-def test_a_report_that_is_a_pipe_is_replaced(finished: Path, answered: Path, name: str) -> None:
-    as_pipe(finished / name)
-    succeed("study", "--resume", finished)
+def test_a_report_that_is_a_pipe_is_not_written(finished: Path) -> None:
+    report = as_pipe(finished / "report.html")
+    errors = refuse("study", "--resume", finished, code=1)
+    assert f"{report}: cannot be written (it is a pipe or a device)" in errors
+    assert report.is_fifo()
+
+
+def test_an_unfinished_file_that_is_a_pipe_is_removed(finished: Path, answered: Path) -> None:
+    as_pipe(finished / ".unfinished-report.html")
+    succeed("report", finished)
     assert (finished / "report.html").read_bytes() == (answered / "report.html").read_bytes()
 
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import difflib
+import errno
 import fcntl
 import os
 import sqlite3
@@ -126,17 +127,20 @@ def remove_unfinished(folder: Path) -> None:
 def write_whole(path: Path, data: bytes | memoryview) -> None:
     """Write a file atomically: it appears whole or not at all, and is on the disk on return.
 
+    A symbolic link stays, and its target is written.
+
     Raises:
         InputError: If it cannot be written; no partial file remains.
     """
-    unfinished = path.with_name(UNFINISHED + path.name)
     with disk_errors(path):
+        target = target_of(path)
+        unfinished = target.with_name(UNFINISHED + target.name)
         try:
             with unfinished.open("wb", buffering=0) as file:
                 write_all(file.fileno(), data)
                 os.fsync(file.fileno())
-            unfinished.replace(path)
-            sync_folder(path.parent)
+            unfinished.replace(target)
+            sync_folder(target.parent)
         except OSError:
             with contextlib.suppress(OSError):
                 unfinished.unlink()
@@ -149,9 +153,25 @@ def check_writable(path: Path) -> None:
     Raises:
         OSError: If it cannot.
     """
-    unfinished = path.with_name(UNFINISHED + path.name)
+    target = target_of(path)
+    unfinished = target.with_name(UNFINISHED + target.name)
     unfinished.touch()
     unfinished.unlink()
+
+
+def target_of(path: Path) -> Path:
+    """Return the file that is written at a path: the target of a link, which may not exist yet.
+
+    Raises:
+        OSError: If links form a circle, or lead to what a file must not replace.
+    """
+    try:
+        target = Path(os.path.realpath(path, strict=True))
+    except FileNotFoundError:
+        return Path(os.path.realpath(path))
+    if not (target.is_file() or target.is_dir()):
+        raise OSError(errno.EPERM, "it is a pipe or a device", str(path))
+    return target
 
 
 def write_all(descriptor: int, data: bytes | memoryview) -> None:
