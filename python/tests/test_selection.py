@@ -267,7 +267,7 @@ def test_selections_are_equal_if_all_their_values_are() -> None:
     assert found() == found()
     assert found() != found(seed=1)
     assert found() != found(delta=0.2)
-    assert found() != 3
+    assert found() != object()
     # Configurations without runs have no mean.
     stopped = [
         select_best(bernoulli([0.5]), 1, bounds=(0, 1), delta=1, max_runs=10) for _ in range(2)

@@ -116,6 +116,12 @@ def damaged_ledger(folder: Path, facts: str) -> None:
         ledger.execute("UPDATE decision SET facts = ?", (facts,))
 
 
+def no_ledger(folder: Path) -> None:
+    """Replace the ledger of a study by other bytes."""
+    (folder / "answer.json").unlink()
+    (folder / "ledger.sqlite").write_bytes(b"x" * 9999)
+
+
 def changed_answer(folder: Path, **values: object) -> None:
     """Change entries of the answer of a study."""
     file = folder / "answer.json"
@@ -132,10 +138,7 @@ DAMAGES: dict[str, Callable[[Path], object]] = {
     "ledger: no runs": lambda folder: damaged_ledger(folder, "{}"),
     "ledger: a list": lambda folder: damaged_ledger(folder, "[1]"),
     "ledger: no number": lambda folder: damaged_ledger(folder, '{"runs": "x"}'),
-    "ledger: bytes": lambda folder: (
-        (folder / "answer.json").unlink(),
-        (folder / "ledger.sqlite").write_bytes(b"x" * 9999),
-    ),
+    "ledger: bytes": no_ledger,
     "answer: NaN": lambda folder: changed_answer(folder, runs=float("nan")),
     "answer: a list": lambda folder: changed_answer(folder, runs=[]),
     "answer: surrogate": lambda folder: changed_answer(folder, sentence="\ud800"),
