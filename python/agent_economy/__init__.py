@@ -72,3 +72,8 @@ def __getattr__(name: str) -> object:
         return import_module(f"agent_economy.{name}")
     message = f"module 'agent_economy' has no attribute {name!r}"
     raise AttributeError(message)
+
+
+def __dir__() -> list[str]:
+    """Return the public names, also those that are not loaded yet."""
+    return sorted(__all__)

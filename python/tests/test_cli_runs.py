@@ -270,3 +270,34 @@ def test_a_written_table_has_the_types_of_the_api(tmp_path: Path) -> None:
     out = tmp_path / "runs.parquet"
     run("replicate", "search", "--runs", "2", "--out", out)
     assert parquet.read_schema(out).field("complete").type == pa.bool_()
+
+
+def test_out_and_record_write_through_a_link_to_its_target(tmp_path: Path) -> None:
+    (disk := tmp_path / "disk").mkdir()
+    (disk / "runs.csv").touch()
+    for name in ("runs.csv", "new.parquet", "run.mcap"):
+        (tmp_path / name).symlink_to(disk / name)
+    for name in ("runs.csv", "new.parquet"):
+        succeed("replicate", "flock", "--runs", "2", "--out", tmp_path / name)
+    succeed("run", "flock", "--record", tmp_path / "run.mcap")
+    assert all(path.is_symlink() for path in tmp_path.iterdir() if path != disk)
+    sizes = {path.name: path.stat().st_size > 0 for path in disk.iterdir()}
+    assert sizes == {"runs.csv": True, "new.parquet": True, "run.mcap": True}
+
+
+@pytest.mark.parametrize(
+    ("target", "reason"),
+    [
+        ("none/runs.csv", "No such file or directory"),
+        ("runs.csv", "Too many levels of symbolic links"),
+        ("/dev/null", "it is a pipe or a device"),
+        (".", "must be a file; it is a folder"),
+    ],
+)
+def test_a_link_that_leads_to_no_file_is_refused_and_stays(
+    tmp_path: Path, target: str, reason: str
+) -> None:
+    (tmp_path / "runs.csv").symlink_to(target)
+    assert reason in refuse("replicate", "search", "--out", tmp_path / "runs.csv")
+    assert (tmp_path / "runs.csv").readlink() == Path(target)
+    assert Path("/dev/null").is_char_device()

@@ -21,3 +21,10 @@ def test_disjoint_ranges_prove_a_difference_that_few_common_runs_do_not() -> Non
     assert gain.low <= gain.value <= gain.high
     assert evidence.exceeds(0, 1, "merit")
     assert not evidence.exceeds(1, 0, "merit")
+
+
+def test_the_evidence_of_the_same_runs_is_equal() -> None:
+    assert Evidence((sample([0.5, 0.1]),), 0.95) == Evidence((sample([0.5, 0.1]),), 0.95)
+    assert sample([np.nan]) == sample([np.nan])
+    assert sample([0.5, 0.1]) != sample([0.5, 0.2])
+    assert sample([0.5, 0.1]) != sample([0.5])

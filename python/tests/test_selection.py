@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agent_economy import InputError
-from agent_economy.study import select_best
+from agent_economy.study import Selection, select_best
 from agent_economy.study.arguments import Floats
 from agent_economy.study.selection import LANE, Integers, Sampler
 
@@ -292,3 +292,18 @@ def test_exceptions_of_the_sampler_are_propagated() -> None:
 
     with pytest.raises(ZeroDivisionError):
         select_best(sample, 2, bounds=(0, 1), delta=0.1)
+
+
+def test_selections_are_equal_if_all_their_values_are() -> None:
+    def found(seed: int = 0, delta: float = 0.1) -> Selection:
+        return select_best(bernoulli([0.2, 0.5], seed), 2, bounds=(0, 1), delta=delta)
+
+    assert found() == found()
+    assert found() != found(seed=1)
+    assert found() != found(delta=0.2)
+    assert found() != object()
+    # Configurations without runs have no mean.
+    stopped = [
+        select_best(bernoulli([0.5]), 1, bounds=(0, 1), delta=1, max_runs=10) for _ in range(2)
+    ]
+    assert stopped[0] == stopped[1]

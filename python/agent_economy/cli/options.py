@@ -7,7 +7,7 @@ import typer
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Override
-from agent_economy.scenario.validation import check
+from agent_economy.scenario.validation import check, is_text
 
 ScenarioArgument = typer.Argument(
     help="A scenario file (TOML), or the name of a bundled one.", show_default=False
@@ -87,7 +87,7 @@ def varied(text: str) -> Override:
 def parts(option: str, text: str, allowed: str) -> tuple[str, str]:
     """Return the parts before and after the first equals sign."""
     path, equals, value = text.partition("=")
-    check(bool(equals), option, text, allowed)
+    check(bool(equals) and is_text(text), option, text, allowed)
     return path.strip(), value.strip()
 
 

@@ -67,7 +67,9 @@ def replicate(  # noqa: PLR0913  (typer's options are arguments)
     out: Annotated[
         Path | None,
         typer.Option(
-            help="Write all runs to this file: NAME.parquet or NAME.csv.", show_default=False
+            help="Write all runs to this file: NAME.parquet or NAME.csv; if it is a symbolic link, "
+            "to its target.",
+            show_default=False,
         ),
     ] = None,
     as_json: Annotated[

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 from typing import Annotated, Any, Literal
 
 import typer
@@ -225,7 +226,8 @@ def compute_answer(
             return studies.run_plan(plan, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
         is_stored = (folder / "study.toml").exists()
-        advice = f"; all are stored. Resume with: agent-economy study --resume {folder}"
+        command = f"agent-economy study --resume {quote(str(folder))}"
+        advice = f"; all are stored. Resume with: {command}"
         count = studies.open(folder).count() if is_stored else 0
         typer.echo(f"\nStopped after {count:,} runs{advice if is_stored else '.'}", err=True)
         raise typer.Exit(INTERRUPTED) from None

@@ -4,6 +4,7 @@ import secrets
 import socket
 import webbrowser
 from contextlib import suppress
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +15,9 @@ from agent_economy.cli.errors import BAD_INPUT, error_exits
 from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
 from agent_economy.server.request_body import MAX_BYTES
+
+ELSEWHERE = {socket.AF_INET: "192.0.2.1", socket.AF_INET6: "2001:db8::1"}
+"""An address of another network by family (RFC 5737, RFC 3849)."""
 
 
 def ui(
@@ -39,7 +43,7 @@ def ui(
     with error_exits():
         listening = bound(host, port)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
-        address = address_of(host, listening.getsockname()[1], token)
+        address = address_of(reachable(host, listening), listening.getsockname()[1], token)
         typer.echo(f"Agent Economy is at {address}   (Ctrl-C stops it)")
         if not no_browser:
             webbrowser.open(address)
@@ -68,13 +72,32 @@ def bound(host: str, port: int) -> socket.socket:
         listening.bind(address)
         # Clients wait from now on: the address is printed before the server has started.
         listening.listen()
-    except OSError as error:
+    # Python encodes names for the DNS: an empty or long label is a UnicodeError.
+    except (OSError, UnicodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else "it is not the name of a host"
         typer.echo(
-            f"--host {host} --port {port}: cannot listen there: {error.strerror}; choose another",
-            err=True,
+            f"--host {host} --port {port}: cannot listen there: {why}; choose another", err=True
         )
         raise typer.Exit(BAD_INPUT) from None
     return listening
+
+
+def reachable(host: str, listening: socket.socket) -> str:
+    """Return a host that other machines can open: an address if all of them are listened on."""
+    if not ip_address(listening.getsockname()[0].partition("%")[0]).is_unspecified:
+        return host
+    families = [listening.family, socket.AF_INET]
+    found = [address for family in families for address in own_address(family)]
+    return found[0] if found else "127.0.0.1"
+
+
+def own_address(family: socket.AddressFamily) -> list[str]:
+    """Return the address from which this machine reaches others; empty without a network."""
+    with suppress(OSError), socket.socket(family, socket.SOCK_DGRAM) as probe:
+        # This sends nothing: it selects a route to an address of documentation.
+        probe.connect((ELSEWHERE[family], 9))
+        return [str(probe.getsockname()[0])]
+    return []
 
 
 def address_of(host: str, port: int, token: str | None) -> str:

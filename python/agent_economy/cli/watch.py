@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
@@ -40,7 +41,7 @@ def watch(
     if not is_over:
         message = (
             "The study is unfinished and no process is working on it. "
-            f"Resume with: agent-economy study --resume {folder}"
+            f"Resume with: agent-economy study --resume {quote(str(folder))}"
         )
         typer.echo(message, err=True)
         raise typer.Exit(FAILED)

@@ -15,6 +15,7 @@ from mcap.stream_reader import StreamReader
 from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change, read_identity
+from agent_economy.regular_file import open_regular
 from agent_economy.runs.stepped import Change
 
 MAX_BYTES = 2**30
@@ -120,7 +121,7 @@ def read(path: Path) -> tuple[Identity, Recorded]:
         InputError: If it cannot be read, is damaged, or is not a recording of a run.
     """
     recorded = Recorded()
-    with file_errors(path), path.open("rb") as stream:
+    with file_errors(path), open_regular(path) as stream:
         recorded.read_all(stream)
         identity = recorded.identity()
     return identity, recorded

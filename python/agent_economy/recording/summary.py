@@ -14,6 +14,7 @@ from agent_economy.recording.fields import Entries
 from agent_economy.recording.foxglove import SECOND_NS
 from agent_economy.recording.identity import END, RUN, read_build, read_run
 from agent_economy.recording.reading import MAX_BYTES, ExactStream, file_errors
+from agent_economy.regular_file import open_regular
 
 MAGIC = b"\x89MCAP0\r\n"
 """First and last bytes of an MCAP file."""
@@ -48,7 +49,7 @@ def summarise(path: Path) -> RecordingSummary:
     Raises:
         InputError: If it cannot be read, is damaged, or is not a recording of a run.
     """
-    with file_errors(path), path.open("rb") as stream:
+    with file_errors(path), open_regular(path) as stream:
         run = beginning(stream)
         end = ending(stream)
         return RecordingSummary(

@@ -1,12 +1,13 @@
 """The source of a scenario: its text, the overrides, and the files that it refers to."""
 
-import stat
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from agent_economy import _core
+from agent_economy.regular_file import open_regular
 from agent_economy.scenario import validation
 
 Value = str | int | float
@@ -17,6 +18,8 @@ TomlValue = Value | Sequence[Any] | Mapping[str, Any]
 
 RECORDING_MAGIC = b"\x89MCAP"
 """The first bytes of a recording."""
+
+FILE_NAME = "a file name in UTF-8; rename the file or its folder"
 
 VARY = "study.vary."
 
@@ -79,7 +82,7 @@ class Source:
         Raises:
             InputError: If the text or the file name is not a string.
         """
-        validation.check(validation.is_text(self.file), "file", self.file, "a file name")
+        validation.check(validation.is_text(self.file), "file", self.file, FILE_NAME)
         validation.check(validation.is_text(self.text), "text", self.text, "a string of TOML")
 
     @property
@@ -100,16 +103,10 @@ class Source:
 def read_file(path: Path, max_bytes: int) -> bytes | str:
     """Return the bytes of a file, or the reason that it cannot be read."""
     try:
-        mode = path.stat().st_mode
-        # A pipe or a device may never end, or never begin. Opening a folder raises its own error.
-        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
-            return "it is a pipe or a device; save its output to a file and pass that"
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             data = stream.read(max_bytes + 1)
     except OSError as error:
         return error.strerror or str(error)
-    except ValueError as error:  # a name that no file can have
-        return str(error)
     # A recording passed by mistake gets its own error, also if it is too large.
     if len(data) > max_bytes and not data.startswith(RECORDING_MAGIC):
         return f"it is larger than the limit of {max_bytes:,} bytes"
@@ -155,6 +152,6 @@ def decode(file: Path, data: bytes) -> str:
 def not_text(file: Path, error: UnicodeDecodeError) -> str:
     """Return the error message for a file that is not UTF-8 text."""
     if error.object.startswith(RECORDING_MAGIC):
-        command = f"agent-economy replay {file}"
+        command = f"agent-economy replay {quote(str(file))}"
         return f"{file}: expected a scenario, got a recording; to replay it: {command}"
     return f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"

@@ -121,9 +121,14 @@ def number(name: str, text: object) -> int:
 def errors_of(error: InputError) -> list[Error]:
     """Return the errors of an exception, as the page takes them."""
     keys = page.InputError.__annotations__
-    blank: Any = dict.fromkeys(keys) | {"message": str(error), "path": "", "allowed": ""}
+    blank: Any = dict.fromkeys(keys) | {"message": escaped(str(error)), "path": "", "allowed": ""}
     rows: Any = [{key: value for key, value in row.items() if key in keys} for row in error.errors]
     return list(rows) or [blank]
+
+
+def escaped(message: str) -> str:
+    """Return an error message, in which the path of the server's folder may not be UTF-8."""
+    return message.encode(errors="backslashreplace").decode()
 
 
 def refused(about: str, error: InputError, path: str | None = None) -> page.Refused:

@@ -116,7 +116,8 @@ class Workspace:
         """Return whether a file is below the folder, with all links resolved."""
         try:
             return file.resolve().is_relative_to(self.folder.resolve())
-        except (OSError, ValueError):
+        # A circle of links is a RuntimeError before Python 3.13.
+        except (OSError, ValueError, RuntimeError):
             return False
 
     def _folders(self) -> Iterator[Path]:
@@ -125,8 +126,8 @@ class Workspace:
     def files(self, ending: str) -> Iterator[Path]:
         """Yield the files with a suffix, without hidden ones and those of studies."""
         folders = (folder for folder in self._folders() if not is_study(folder))
-        files = (file for folder in folders for file in sorted(folder.glob(f"*{ending}")))
-        yield from (file for file in files if self.has(file) and not file.name.startswith("."))
+        files = (file for folder in folders for file in listable(folder))
+        yield from (file for file in files if file.name.endswith(ending) and self.has(file))
 
 
 def lines(text: str) -> str:
@@ -165,15 +166,26 @@ def folders_of(folder: Path, depth: int) -> Iterator[Path]:
 
 def subfolders(folder: Path) -> list[Path]:
     """Return the subfolders of a folder, without hidden ones and links."""
+    return [each for each in listable(folder) if is_own_folder(each)]
+
+
+def listable(folder: Path) -> list[Path]:
+    """Return the entries of a folder that a page can name: not hidden, and named in UTF-8."""
     try:
         found = sorted(folder.iterdir())
-    except OSError:
+    except OSError:  # It cannot be read, or has been removed meanwhile.
         return []
     return [
-        each
-        for each in found
-        if not each.name.startswith(".") and not each.is_symlink() and each.is_dir()
+        each for each in found if not each.name.startswith(".") and validation.is_text(each.name)
     ]
+
+
+def is_own_folder(path: Path) -> bool:
+    """Return whether a path is a folder, and not a link to one."""
+    try:
+        return not path.is_symlink() and path.is_dir()
+    except OSError:
+        return False
 
 
 def folder_id(folder: Path, below: Path) -> str:

@@ -32,3 +32,8 @@ __all__ = [
     "run_plan",
     "select_best",
 ]
+
+
+def __dir__() -> list[str]:
+    """Return the public names."""
+    return sorted(__all__)

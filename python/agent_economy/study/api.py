@@ -4,6 +4,7 @@ import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from agent_economy._core import InputError
@@ -185,7 +186,8 @@ def refuse(folder: str | Path) -> Compute:
     """Return a `compute` for finished studies: it raises an error if runs are missing."""
 
     def compute(_: RunBlock) -> Any:
-        message = f"{folder}: is not finished: resume it with agent-economy study --resume {folder}"
+        command = f"agent-economy study --resume {quote(str(folder))}"
+        message = f"{folder}: is not finished: resume it with {command}"
         raise InputError(message)
 
     return compute

@@ -32,7 +32,7 @@ def write(folder: Path, answer: Answer, evidence: Evidence, script: report.Chart
 def are_current(folder: Path, answer: Answer) -> bool:
     """Return whether a folder contains this answer, and a report with it."""
     existing = read_bytes(folder / ANSWER)
-    return existing == as_json(answer).encode() and (folder / REPORT).exists()
+    return existing == as_json(answer).encode() and (folder / REPORT).is_file()
 
 
 def as_json(answer: Answer) -> str:

@@ -285,7 +285,7 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
     """
     try:
         document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         message = f"{file}: is not a study: {error}"
         raise InputError(message) from None
     if document.get("format") != FORMAT:
@@ -297,7 +297,7 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
         plan = of_document(document, content)
         if plan.identity == document["data"]["identity"]:
             return plan
-    except (KeyError, TypeError, ValueError) as error:
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
         if isinstance(error, InputError):
             raise
         message = f"{file}: is damaged ({error!r}): restore it, or use another folder"
@@ -365,11 +365,11 @@ def is_same_data(one: str, other: str) -> bool:
     """Return whether two study.toml have the same runs; their questions may differ."""
     try:
         first, second = tomllib.loads(one), tomllib.loads(other)
-    except tomllib.TOMLDecodeError:
+        return first.get("format") == second.get("format") and (
+            first.get("data", {}).get("identity") == second.get("data", {}).get("identity")
+        )
+    except (tomllib.TOMLDecodeError, RecursionError, AttributeError):
         return False
-    return first.get("format") == second.get("format") and (
-        first.get("data", {}).get("identity") == second.get("data", {}).get("identity")
-    )
 
 
 def without_none(table: dict[str, Any]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from agent_economy.study import design
 from agent_economy.study.plan import Plan, is_same_data
-from agent_economy.study.store.folder import QUESTION
+from agent_economy.study.store.folder import QUESTION, read_bytes
 
 FOLDER = Path("studies")
 """Default folder of studies."""
@@ -57,11 +57,11 @@ def usual_folder(plan: Plan, below: Path = Path()) -> Path:
     """Return studies/NAME, or studies/NAME-DIGEST if the former contains other runs.
 
     Raises:
-        OSError: If an existing study.toml cannot be read.
+        InputError: If an existing study.toml cannot be read.
     """
     folder = below / FOLDER / plan.scenario.name
-    existing = folder / QUESTION
-    is_other = existing.exists() and not is_same_data(
-        existing.read_text(errors="replace"), plan.text()
+    existing = read_bytes(folder / QUESTION)
+    is_other = existing is not None and not is_same_data(
+        existing.decode(errors="replace"), plan.text()
     )
     return folder.with_name(f"{folder.name}-{plan.identity[:8]}") if is_other else folder

@@ -15,6 +15,7 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario.validation import check
 from agent_economy.study.arguments import Floats, Guarantee, checked_arguments
+from agent_economy.study.equality import EqualByValue
 from agent_economy.study.errors import NoConfigurationError
 
 Integers = NDArray[np.int64]
@@ -37,9 +38,9 @@ class Elimination:
     runs: int
 
 
-@dataclass(frozen=True)
-class Selection:
-    """The best configuration, and estimates of all.
+@dataclass(frozen=True, eq=False)
+class Selection(EqualByValue):
+    """The best configuration, and estimates of all; two of them are equal if all values are.
 
     Attributes:
         best: Index of the selected configuration.

@@ -11,6 +11,7 @@ from agent_economy.recording.reading import Recorded, read
 from agent_economy.recording.recorder import SUFFIX
 from agent_economy.recording.summary import summarise
 from agent_economy.scenario import validation
+from agent_economy.server.messages import escaped
 from agent_economy.server.workspace import OUTSIDE, Workspace, is_file
 from agent_economy.types.page import RecordingEntry
 
@@ -66,7 +67,7 @@ class RecordingStore:
         try:
             run = asdict(summarise(file))
         except InputError as error:
-            row |= {"run": None, "error": str(error).removeprefix(f"{file}: ")}
+            row |= {"run": None, "error": escaped(str(error).removeprefix(f"{file}: "))}
         else:
             # JavaScript's numbers have 53 bits.
             row |= {"run": run | {key: str(run[key]) for key in ("seed", "run")}, "error": None}

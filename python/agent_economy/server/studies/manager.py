@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from agent_economy.server.workspace import Workspace, is_study
 from agent_economy.study import Plan
 from agent_economy.study.plan import check_build, with_confidence
 from agent_economy.study.question import usual_folder
-from agent_economy.study.store.folder import disk_errors, is_locked
+from agent_economy.study.store.folder import is_locked
 
 MAX_RUNNING = 2
 """Maximum number of studies that run at the same time: each uses all processors."""
@@ -33,7 +34,10 @@ class StudyManager:
 
     def listed(self) -> list[dict[str, Any]]:
         """Return all studies, the newest first."""
-        rows = [self.of(name) for name, _ in self._workspace.studies()]
+        rows = []
+        for name, _ in self._workspace.studies():
+            with suppress(InputError):  # The study has been removed meanwhile.
+                rows.append(self.of(name))
         return sorted(rows, key=lambda row: (-row["changed_s"], row["id"]))
 
     def of(self, name: str) -> dict[str, Any]:
@@ -81,8 +85,7 @@ class StudyManager:
         Raises:
             InputError: If that is outside of the server's folder, or cannot be read.
         """
-        with disk_errors(self._workspace.folder, "read"):
-            return self._workspace.id_of_study(usual_folder(plan, self._workspace.folder))
+        return self._workspace.id_of_study(usual_folder(plan, self._workspace.folder))
 
     def state(self, name: str) -> str | None:
         """Return the state of a study by its id; None if there is none."""

@@ -9,6 +9,7 @@ from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
+from agent_economy.server.messages import escaped
 from agent_economy.study import Plan
 from agent_economy.study.question import Question
 from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, STAGING, read_bytes
@@ -98,7 +99,7 @@ def summary(folder: Path, changed_s: float) -> Summary:
             return answered(folder, answer, changed_s)
         return of_plan(study.load_plan(folder), runs_so_far(folder), changed_s)
     except InputError as error:
-        return Summary("damaged", folder.name, "", None, 0, None, str(error), changed_s)
+        return Summary("damaged", folder.name, "", None, 0, None, escaped(str(error)), changed_s)
 
 
 def of_plan(plan: Plan, runs: int, changed_s: float) -> Summary:
@@ -125,22 +126,17 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
             stored["question"]["guarantee"],
             stored["data"].get("runs"),
         )
+        name, engine = str(scenario["name"]), str(scenario["engine"])
+        runs, sentence = int(answer["runs"]), str(answer["sentence"])
+        found = Summary("answered", name, engine, question, runs, sentence, None, changed_s)
+        json.dumps(found.listed(""), ensure_ascii=False, allow_nan=False).encode()
     except tomllib.TOMLDecodeError as error:
         message = f"{folder / QUESTION}: is not a study: {error}"
         raise InputError(message) from None
-    except (KeyError, TypeError, AttributeError):
-        message = f"{folder / QUESTION}: is damaged: restore it, or start in another folder"
+    except (LookupError, TypeError, AttributeError, ValueError, ArithmeticError, RecursionError):
+        message = f"{folder}: {QUESTION} or {ANSWER} is damaged: restore it, or use another folder"
         raise InputError(message) from None
-    return Summary(
-        "answered",
-        scenario["name"],
-        scenario["engine"],
-        question,
-        answer["runs"],
-        answer["sentence"],
-        None,
-        changed_s,
-    )
+    return found
 
 
 def read_answer(folder: Path) -> dict[str, Any] | None:

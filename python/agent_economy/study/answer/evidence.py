@@ -12,6 +12,7 @@ from functools import cached_property
 
 from agent_economy import _core
 from agent_economy.study.arguments import Floats
+from agent_economy.study.equality import EqualByValue
 
 Limits = tuple[float, float]
 
@@ -35,8 +36,8 @@ class Interval:
     high: float
 
 
-@dataclass(frozen=True)
-class Sample:
+@dataclass(frozen=True, eq=False)
+class Sample(EqualByValue):
     """The runs of one configuration.
 
     Attributes:

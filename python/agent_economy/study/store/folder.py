@@ -2,6 +2,7 @@
 
 import contextlib
 import difflib
+import errno
 import fcntl
 import os
 import sqlite3
@@ -11,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from agent_economy._core import InputError
+from agent_economy.regular_file import IrregularFileError, descriptor_of, open_regular
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
 
@@ -24,6 +26,9 @@ ANSWER = "answer.json"
 REPORT = "report.html"
 UNFINISHED = ".unfinished-"
 """Prefix of the names of files that are being written."""
+
+MAX_BYTES = 2**30
+"""Maximum size of a file; blocks, answers and maps are smaller."""
 
 ATTEMPTS = 5
 RETRY_S = 0.02
@@ -44,6 +49,9 @@ def disk_errors(
     """
     try:
         yield
+    except IrregularFileError as error:
+        message = f"{error.filename}: cannot be read: {error.strerror}"
+        raise InputError(message) from None
     except OSError as error:
         message = f"{path}: cannot be {action} ({error.strerror or error})"
         raise error_type(message) from error
@@ -70,7 +78,7 @@ def lock(folder: Path) -> int:
         InputError: If another process has locked it.
     """
     with disk_errors(folder):
-        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        descriptor = descriptor_of(folder / LOCK, os.O_RDWR | os.O_CREAT)
     for attempt in range(ATTEMPTS):
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -96,7 +104,7 @@ def is_locked(folder: str | Path) -> bool:
     """
     place = validation.path("folder", folder)
     try:
-        descriptor = os.open(place / LOCK, os.O_RDONLY | os.O_CLOEXEC)
+        descriptor = descriptor_of(place / LOCK, os.O_RDONLY)
     except OSError:
         return False
     try:
@@ -113,24 +121,27 @@ def remove_unfinished(folder: Path) -> None:
     with disk_errors(folder):
         for place in (folder / BLOCKS, folder / FILES, folder):
             for path in place.glob(f"{UNFINISHED}*"):
-                if path.is_file():
+                if not path.is_dir():
                     path.unlink()
 
 
 def write_whole(path: Path, data: bytes | memoryview) -> None:
     """Write a file atomically: it appears whole or not at all, and is on the disk on return.
 
+    A symbolic link stays, and its target is written.
+
     Raises:
         InputError: If it cannot be written; no partial file remains.
     """
-    unfinished = path.with_name(UNFINISHED + path.name)
     with disk_errors(path):
+        target = target_of(path)
+        unfinished = target.with_name(UNFINISHED + target.name)
         try:
             with unfinished.open("wb", buffering=0) as file:
                 write_all(file.fileno(), data)
                 os.fsync(file.fileno())
-            unfinished.replace(path)
-            sync_folder(path.parent)
+            unfinished.replace(target)
+            sync_folder(target.parent)
         except OSError:
             with contextlib.suppress(OSError):
                 unfinished.unlink()
@@ -143,9 +154,25 @@ def check_writable(path: Path) -> None:
     Raises:
         OSError: If it cannot.
     """
-    unfinished = path.with_name(UNFINISHED + path.name)
+    target = target_of(path)
+    unfinished = target.with_name(UNFINISHED + target.name)
     unfinished.touch()
     unfinished.unlink()
+
+
+def target_of(path: Path) -> Path:
+    """Return the file that is written at a path: the target of a link, which may not exist yet.
+
+    Raises:
+        OSError: If links form a circle, or lead to what a file must not replace.
+    """
+    try:
+        target = Path(os.path.realpath(path, strict=True))
+    except FileNotFoundError:
+        return Path(os.path.realpath(path))
+    if not (target.is_file() or target.is_dir()):
+        raise OSError(errno.EPERM, "it is a pipe or a device", str(path))
+    return target
 
 
 def write_all(descriptor: int, data: bytes | memoryview) -> None:
@@ -216,9 +243,13 @@ def read_bytes(path: Path) -> bytes | None:
     """
     with disk_errors(path, "read"):
         try:
-            return path.read_bytes()
-        except FileNotFoundError:
+            with open_regular(path) as stream:
+                if os.fstat(stream.fileno()).st_size <= MAX_BYTES:
+                    return stream.read()
+        except (FileNotFoundError, NotADirectoryError):
             return None
+    message = f"{path}: cannot be read: it is larger than the limit of {MAX_BYTES:,} bytes"
+    raise StoreError(message)
 
 
 def differences(existing: str, requested: str) -> str:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Self
 from urllib.parse import quote
 
+from agent_economy.regular_file import check_regular
 from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import RunBlock, numbers, spans
 from agent_economy.study.store.columns import Column
@@ -81,6 +82,7 @@ class Ledger:
                 be written.
         """
         with disk_errors(path, "opened as a ledger"):
+            check_parts(path)
             connection = sqlite3.connect(path, timeout=30, isolation_level=None)
             try:
                 prepare(connection, path, columns)
@@ -137,7 +139,11 @@ class Ledger:
     def decisions(self) -> list[Decision]:
         """Return its decisions, by round."""
         rows = self._rows("SELECT round, facts FROM decision ORDER BY round")
-        return [Decision(number, json.loads(facts)) for number, facts in rows]
+        try:
+            return [Decision(number, json.loads(facts)) for number, facts in rows]
+        except (ValueError, TypeError, RecursionError):
+            message = f"{self.path}: is damaged: restore it, or use another folder"
+            raise StoreError(message) from None
 
     def enter(self, file: BlockFile) -> None:
         """Enter a block file that is on the disk, and wait until the entry is.
@@ -238,6 +244,7 @@ def header(connection: sqlite3.Connection, name: str) -> int:
 
 def connect_to_read(path: Path) -> sqlite3.Connection:
     """Return a read-only connection, also for folders that cannot be written."""
+    check_parts(path)
     address = f"file:{quote(os.fsencode(path.absolute()))}?mode=ro"
     connection = sqlite3.connect(address, uri=True, timeout=30, isolation_level=None)
     try:
@@ -249,6 +256,12 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
         # No process writes, and SQLite cannot create the files for coordinating with a writer.
         return sqlite3.connect(f"{address}&immutable=1", uri=True, isolation_level=None)
     return connection
+
+
+def check_parts(path: Path) -> None:
+    """Refuse a ledger if it, or a file that SQLite keeps next to it, is not a regular file."""
+    for ending in ("", "-wal", "-shm", "-journal"):
+        check_regular(path.with_name(path.name + ending))
 
 
 def snapshot(path: Path) -> tuple[tuple[Column, ...], list[BlockFile], list[Decision]]:

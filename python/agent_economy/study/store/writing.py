@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 import pyarrow as pa
 
+from agent_economy.regular_file import check_regular
 from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import (
     Columns,
@@ -230,6 +231,8 @@ def check_files(folder: Path, block_files: Sequence[BlockFile]) -> None:
     errors = []
     for file in block_files:
         path = folder / files.BLOCKS / file.name
+        with files.disk_errors(path, "read"):
+            check_regular(path)
         try:
             if path.stat().st_size != file.bytes:
                 errors.append(damaged(path))
