@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from agent_economy.cli.whole_table import print_whole
 from agent_economy.study import files
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Interval
@@ -32,7 +33,7 @@ def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = WIDE
-    console.print(results_table(answer, ranges=console.width >= WIDE))
+    print_whole(results_table(answer, ranges=console.width >= WIDE), console, NAME)
     console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
     console.print(
         f"{answer.guarantee} (delta {answer.delta:g}, {answer.runs:,} runs)\n",

@@ -25,6 +25,7 @@ from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.cli.run_summary import Summary, quarantined, summarised
 from agent_economy.runs.quarantine import reason
+from agent_economy.cli.whole_table import print_whole
 from agent_economy.scenario import Scenario
 from agent_economy.study.store.folder import check_writable, write_whole
 
@@ -173,7 +174,7 @@ def show(title: str, summary: Summary) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = WIDE
-    console.print(table)
+    print_whole(table, console, max(len(row["column"]) for row in summary))
 
 
 def cell(value: float | None) -> str:

@@ -16,6 +16,7 @@ from agent_economy._core import InputError
 from agent_economy.cli.errors import FAILED, error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
+from agent_economy.cli.whole_table import print_whole
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.simulation import Simulation
@@ -136,9 +137,10 @@ def show(scenario: Scenario, seed: int, outcome: Outcome) -> None:
     )
     table.add_column(no_wrap=True)
     table.add_column()
-    for name, text in lines(scenario, outcome):
+    rows = lines(scenario, outcome)
+    for name, text in rows:
         table.add_row(name, Text(text))
-    Console(highlight=False).print(table)
+    print_whole(table, Console(highlight=False), max(len(name) for name, _ in rows))
 
 
 def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
