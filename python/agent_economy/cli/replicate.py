@@ -24,8 +24,8 @@ from agent_economy.cli.errors import error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.cli.run_summary import Summary, quarantined, summarised
-from agent_economy.runs.quarantine import reason
 from agent_economy.cli.whole_table import print_whole
+from agent_economy.runs.quarantine import reason
 from agent_economy.scenario import Scenario
 from agent_economy.study.store.folder import check_writable, write_whole
 
