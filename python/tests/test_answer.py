@@ -186,7 +186,7 @@ def test_a_side_statement_that_fails_or_is_not_strict_json_is_left_out_with_its_
     )
 
 
-def test_the_price_decides_who_dominates_and_not_the_number_of_robots() -> None:
+def test_dominance_compares_prices_and_not_numbers_of_robots() -> None:
     few = sample(0.5, 3000, time_s=0.2, failed=0.1, robots=1.0)
     many = sample(0.5, 3000, time_s=0.6, failed=0.4, robots=2.0)
     priced = [

@@ -40,15 +40,15 @@ def strip(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize("arguments", [("--delta", 1), ("--runs", 20), ("--guarantee", "pgs")])
-def test_a_team_without_room_is_never_selected_and_the_answer_says_why(
+def test_a_team_without_room_is_never_selected_and_the_answer_has_the_reason(
     strip: Path, arguments: tuple[str, str]
 ) -> None:
     vary = f"{TEAM}=1,2,150,160"
     given = command_line.succeed("study", strip, "--vary", vary, *arguments, cwd=strip.parent)
     assert "Send 2 rovers. " in given.stdout
-    told = " ".join(given.stdout.split())
-    assert "Cannot be run: 150 rovers and 160 rovers (robots.rover: the run has no room" in told
-    assert "Configurations that cannot be run were not compared." in told
+    printed = " ".join(given.stdout.split())
+    assert "Cannot be run: 150 rovers and 160 rovers (robots.rover: the run has no room" in printed
+    assert "Configurations that cannot be run were not compared." in printed
     assert "quarantined" in given.stdout
     folder = strip.parent / "studies/strip"
     answer = json.loads((folder / "answer.json").read_text())
