@@ -1,10 +1,11 @@
-"""The store of a study's outcomes: a killed study loses no finished block and repeats none.
+"""The store of a study's outcomes: a killed study loses no stored run and repeats none.
 
 A folder contains `study.toml` (the question), `ledger.sqlite` (the block files and the decisions)
 and `blocks/*.parquet` (outcomes; never changed once they have their names). A block is written
 under a temporary name, synced, renamed, and then entered in the ledger. Files that are not in the
 ledger are ignored, so `Store.open` can resume from a kill at any moment: the study is repeated from
-its beginning, and stored runs are read instead of computed.
+its beginning, and stored runs are read instead of computed. Finished runs of an incomplete block
+are in `staging.runs`.
 """
 
 from agent_economy.study.run_block import Columns, Compute, RunBlock
