@@ -369,3 +369,26 @@ def test_a_single_configuration_has_the_same_runs_as_in_the_study(tmp_path: Path
     assert mine["robots"] == 2
     with pytest.raises(InputError, match="from 0 to 1"):
         plan.alone(2)
+
+
+@pytest.mark.parametrize(
+    ("confidence", "end"),
+    [
+        (95, "; did you mean 0.95?"),
+        (np.int64(95), "; did you mean 0.95?"),
+        (99.9, "; did you mean 0.999?"),
+        (99.9999999999999, ""),
+        (np.float64(50), "; did you mean 0.5?"),
+        (1, ""),
+        (30, ""),
+        (100, ""),
+        ("95", ""),
+        (True, ""),
+        (float("nan"), ""),
+    ],
+)
+def test_a_confidence_in_percent_is_reported_with_its_share(confidence: Any, end: str) -> None:
+    with pytest.raises(ae.InputError) as caught:
+        study.make_plan(ae.Scenario.load("classic"), confidence=confidence)
+    allowed = f"must be a number from 0.5 to below 1, such as 0.95{end}"
+    assert str(caught.value) == f"confidence = {confidence!r}: {allowed}"

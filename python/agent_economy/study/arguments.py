@@ -65,16 +65,22 @@ def question_errors(delta: object, confidence: object, guarantee: object) -> lis
     names = get_args(Guarantee)
     return [
         *errors_unless(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
-        *errors_unless(
-            is_between(confidence, np.nextafter(MIN_CONFIDENCE, 0), 1),
-            "confidence",
-            confidence,
-            "a number from 0.5 to below 1",
-        ),
+        *confidence_errors(confidence),
         *errors_unless(
             guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))
         ),
     ]
+
+
+def confidence_errors(confidence: object) -> list[str]:
+    """Return the error of a confidence; for a percentage, it suggests the share."""
+    lowest = np.nextafter(MIN_CONFIDENCE, 0)
+    allowed = "a number from 0.5 to below 1, such as 0.95"
+    if isinstance(confidence, int | float | np.number) and is_between(confidence, 1, 100):
+        share = round(float(confidence) / 100, 12)  # 99.9 / 100 is not 0.999
+        if is_between(share, lowest, 1):
+            allowed += f"; did you mean {share:.12g}?"
+    return errors_unless(is_between(confidence, lowest, 1), "confidence", confidence, allowed)
 
 
 def is_between(given: object, above: float, below: float) -> bool:

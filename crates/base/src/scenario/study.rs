@@ -2,7 +2,7 @@
 
 use super::factors::{Factor, factors};
 use super::values::Values;
-use crate::document::Section;
+use crate::document::{Section, Value};
 use crate::engine::Engine;
 use std::fmt;
 
@@ -75,10 +75,7 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
     let delta = if_given(section, "delta", || {
         section.number_if("delta", "a number above 0", |delta| delta > 0.0)
     });
-    let confidence = if_given(section, "confidence", || {
-        let allowed = "a number above 0.5 and below 1, such as 0.95";
-        section.number_if("confidence", allowed, |share| share > 0.5 && share < 1.0)
-    });
+    let confidence = if_given(section, "confidence", || confidence(section));
     let design = design.map(|design| design.unwrap_or(Design::Factorial));
     let is_listed = check_ranges(&vary, factors.as_deref()?, design?);
     is_listed.then_some(Study {
@@ -87,6 +84,25 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
         delta: delta?,
         confidence: confidence?.unwrap_or(CONFIDENCE),
     })
+}
+
+/// The confidence; the error for a percentage suggests the same as a share.
+fn confidence(section: &Section) -> Option<f64> {
+    let given = match section.value("confidence") {
+        Some(Value::Integer(number)) => i32::try_from(*number).ok().map(f64::from),
+        Some(Value::Float(number)) => Some(*number),
+        _ => None,
+    };
+    let is_allowed = |share: &f64| *share > 0.5 && *share < 1.0;
+    let share = given.filter(is_allowed);
+    if share.is_none() {
+        // Rounded: 99.9 / 100 is not 0.999.
+        let meant = given.map(|percent| (percent * 1e10).round() / 1e12);
+        let suggestion = meant.filter(is_allowed).map(|share| share.to_string());
+        let allowed = "a number above 0.5 and below 1, such as 0.95";
+        section.error_for("confidence", allowed, suggestion);
+    }
+    share
 }
 
 /// `None` for an error, `Some(None)` for a key that is missing.

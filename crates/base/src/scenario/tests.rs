@@ -167,6 +167,27 @@ fn an_unknown_engine_is_reported_with_the_known_ones() {
 }
 
 #[test]
+fn a_confidence_in_percent_is_reported_with_its_share() {
+    for (given, end) in [
+        ("95", "; did you mean 0.95?"),
+        ("99.9", "; did you mean 0.999?"),
+        ("9500", ""),
+        ("50", ""),
+        ("1", ""),
+        ("\"95\"", ""),
+    ] {
+        let text = EXAMPLE.replace("delta = 0.05", &format!("confidence = {given}"));
+        assert_eq!(
+            read(&text).err().unwrap().to_string(),
+            format!(
+                "t.toml:8: study.confidence = {given}: must be a number above 0.5 and below 1, such \
+                 as 0.95{end}"
+            )
+        );
+    }
+}
+
+#[test]
 fn any_path_that_the_engine_can_read_is_varied() {
     for vary in [
         r#""robots.rover.speed" = "0.5,2""#,
