@@ -272,3 +272,33 @@ def test_without_dask_the_error_names_the_extra(
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'agent-economy\[dask\]'"):
         dask_executor("tcp://127.0.0.1:8786")
+
+
+SCRIPT = """
+import sys
+import agent_economy as ae
+
+plan = ae.study.make_plan(ae.Scenario.load("classic"), delta=0.3)
+with plan.engine.in_processes(2) as workers:
+    ae.study.run_plan(plan, sys.argv[1], compute=workers.columns)
+"""
+
+
+@pytest.mark.parametrize("is_file", [True, False])
+def test_a_script_without_a_guard_is_named_as_the_cause(tmp_path: Path, *, is_file: bool) -> None:
+    (tmp_path / "script.py").write_text(SCRIPT)
+    script = str(tmp_path / "script.py") if is_file else "-"
+    given = subprocess.run(
+        [sys.executable, script, str(tmp_path / "study")],
+        input=None if is_file else SCRIPT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert given.returncode == 1
+    assert given.stderr.count("Traceback") == 1
+    assert given.stderr.splitlines()[-1].endswith(
+        "StudyError: the worker processes could not import the script: guard its code with "
+        "if __name__ == '__main__':, and run it from a file"
+    )

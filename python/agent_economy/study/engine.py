@@ -10,7 +10,7 @@ from agent_economy import _core
 from agent_economy.scenario import Scenario
 from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
-from agent_economy.study.executors import LocalExecutor, dask_executor
+from agent_economy.study.executors import LocalExecutor, dask_executor, end_unguarded_worker
 from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store.columns import Column
 from agent_economy.study.workers import Workers
@@ -41,7 +41,12 @@ class Engine:
         self.__dict__.update(state)
 
     def in_processes(self, count: int) -> Workers:
-        """Return processes of this machine, one thread each; use as a context manager."""
+        """Return processes of this machine, one thread each; use as a context manager.
+
+        Each process imports the script that calls this, which must guard its code with
+        `if __name__ == "__main__":`.
+        """
+        end_unguarded_worker()
         return Workers(lambda: LocalExecutor(count), count, replace(self, threads=1))
 
     def on_dask(self, address: str) -> Workers:

@@ -4,6 +4,7 @@ import contextlib
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import (
@@ -12,6 +13,8 @@ from concurrent.futures import (
     InvalidStateError,
     ProcessPoolExecutor,
 )
+from multiprocessing.synchronize import Semaphore
+from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from agent_economy._core import InputError
@@ -22,6 +25,11 @@ CONNECT_S = 10
 
 CHECK_S = 0.5
 """Interval of checks whether the scheduler is lost."""
+
+UNGUARDED = (
+    "the worker processes could not import the script: guard its code with "
+    "if __name__ == '__main__':, and run it from a file"
+)
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -35,9 +43,26 @@ class LocalExecutor(ProcessPoolExecutor):
     """
 
     def __init__(self, count: int) -> None:
-        """Prepare up to `count` processes; they start with the first chunks."""
+        """Prepare up to `count` processes; they start with the first chunks.
+
+        Raises:
+            StudyError: If this program has been read from standard input.
+        """
+        main = sys.modules["__main__"]
+        file = getattr(main, "__file__", None)
+        if getattr(main, "__spec__", None) is None and file and not Path(file).exists():
+            raise StudyError(UNGUARDED)
         context = multiprocessing.get_context("spawn")
-        super().__init__(count, mp_context=context, initializer=prepare_worker)
+        # Each process releases it once; a process that is killed meanwhile blocks no other.
+        self._started, self._has_started = context.Semaphore(0), False
+        super().__init__(
+            count, mp_context=context, initializer=prepare_worker, initargs=(self._started,)
+        )
+
+    def start_error(self) -> StudyError | None:
+        """Return why no process has started; None if one has."""
+        self._has_started = self._has_started or self._started.acquire(block=False)
+        return None if self._has_started else StudyError(UNGUARDED)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:  # noqa: FBT001, FBT002  (as inherited)
         """Stop; without waiting, running chunks are terminated."""
@@ -47,8 +72,20 @@ class LocalExecutor(ProcessPoolExecutor):
             process.terminate()
 
 
-def prepare_worker() -> None:
+def end_unguarded_worker() -> None:
+    """End this process, without a message, if it is a worker that imports an unguarded script.
+
+    Raises:
+        SystemExit: If it is.
+    """
+    # The script would start processes again, which Python refuses with pages of tracebacks.
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        sys.exit(1)
+
+
+def prepare_worker(started: Semaphore) -> None:
     """Prepare a process: it ignores Ctrl-C, which its parent handles, and ends with its parent."""
+    started.release()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=end_with_parent, daemon=True).start()
 

@@ -143,6 +143,7 @@ class Workers:
             except StudyError:
                 raise
             except (BrokenExecutor, RuntimeError, OSError) as error:
+                self._check_start(error)
                 job.failed(chunk, error)
                 self._replace_executor(job)
             else:
@@ -171,10 +172,18 @@ class Workers:
             job.retries.append(chunk)  # Not started, or lost with a scheduler that may return.
             return True
         except Exception as error:  # noqa: BLE001  (a task may fail in any way; the last is reported)
+            self._check_start(error)
             job.failed(chunk, error)
             return not isinstance(error, BrokenExecutor)
         self._throughput.add(chunk.runs.rows, seconds)
         return True
+
+    def _check_start(self, error: Exception) -> None:
+        """Raise the error of an executor that broke because none of its workers has started."""
+        start_error = getattr(self._executor, "start_error", None)
+        why = start_error() if start_error and isinstance(error, BrokenExecutor) else None
+        if why:
+            raise why from None
 
     def _replace_executor(self, job: "Job") -> None:
         """Stop a broken executor, and retry its pending chunks on the next one."""
