@@ -9,7 +9,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 # maturin and the programs that it starts are in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
+.PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
 	picture page-pictures bench-page examples replication validation brain-comparison web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test clean
 
@@ -18,6 +18,10 @@ help: ## List the targets
 
 study: .venv/installed ## Run the study of the 2003 experiment: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml
+
+# The page is first: without Node, nothing else is installed.
+ui: web .venv/installed ## Build what the browser interface needs, and open it (needs Node 20 or newer)
+	$(BIN)/agent-economy ui
 
 test: ## Run every check, as CI does, and print the time of each
 	$(PYTHON) scripts/checks.py
