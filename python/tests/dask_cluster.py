@@ -5,11 +5,14 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 
 from agent_economy.study.executors import dask_executor
+
+HANG_S = 120
+"""A cluster that has not started by then never will."""
 
 
 def free_port() -> int:
@@ -33,6 +36,20 @@ def started(stack: ExitStack, *arguments: str) -> subprocess.Popen[bytes]:
     return process
 
 
+def is_listening(port: int) -> bool:
+    """Return whether a process listens on a port of loopback."""
+    with closing(socket.socket()) as client:
+        return client.connect_ex(("127.0.0.1", port)) == 0
+
+
+def wait_until(is_so: Callable[[], bool]) -> None:
+    """Wait for a state; a busy machine takes long to start Python processes."""
+    begin = time.monotonic()
+    while not is_so():
+        assert time.monotonic() - begin < HANG_S
+        time.sleep(0.05)
+
+
 Cluster = tuple[str, list[subprocess.Popen[bytes]]]
 
 
@@ -46,10 +63,8 @@ def running() -> Iterator[Cluster]:
         processes = [started(stack, *scheduler, "--no-dashboard", "--no-show")]
         worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny")
         processes += [started(stack, *worker, "--no-dashboard") for _ in range(2)]
+        wait_until(lambda: is_listening(port))
         executor = dask_executor(address)
-        begin = time.monotonic()
-        while executor.count < 2:
-            assert time.monotonic() - begin < 30
-            time.sleep(0.05)
+        wait_until(lambda: executor.count == len(("one", "other")))
         executor.shutdown()
         yield address, processes

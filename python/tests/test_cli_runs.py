@@ -148,7 +148,7 @@ def test_quarantined_runs_count_as_the_worst_and_are_counted(tmp_path: Path) -> 
     assert answer.results[0].time_s.value == pytest.approx(found["time_s"]["mean"])
     assert answer.results[0].merit.value == pytest.approx(found["merit"]["mean"])
     note = succeed("replicate", crowded, "--runs", "20").stderr
-    assert note.startswith("7 of 20 runs were quarantined (robots.rover: the run has no room for")
+    assert "\n7 of 20 runs were quarantined (robots.rover: the run has no room for" in note
 
 
 def test_energy_without_a_battery_is_not_counted(tmp_path: Path) -> None:

@@ -94,15 +94,15 @@ def with_rates(counts: dict[str, Any]) -> dict[str, Any]:
 def stored(folder: Path) -> dict[str, Any]:
     """Return the progress that a study's folder contains: after its last round, or its answer.
 
-    Returns:
-        An empty dict before the end of the first round.
+    The runs are all that are stored, also those of an incomplete round.
 
     Raises:
         InputError: If the folder is damaged.
     """
-    decisions = study.open(folder).decisions()
+    store = study.open(folder)
+    decisions = store.decisions()
     if not decisions:
-        return {}
+        return {"runs": store.count()}
     facts = decisions[-1].facts
     answer = read_answer(folder)
     if answer:
@@ -111,7 +111,7 @@ def stored(folder: Path) -> dict[str, Any]:
         standings = [[*leader, None, None] for leader in facts["leaders"]]
     return {
         "rounds": len(decisions),
-        "runs": facts["runs"],
+        "runs": facts["runs"] if answer else store.count(),
         "remaining": facts["survivors"],
         "remaining_runs": None,
         "standings": standings,

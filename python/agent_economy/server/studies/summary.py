@@ -9,6 +9,7 @@ from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
+from agent_economy.scenario.validation import is_whole
 from agent_economy.server.messages import escaped
 from agent_economy.study import Plan
 from agent_economy.study.question import Question
@@ -166,4 +167,12 @@ def runs_so_far(folder: Path) -> int:
     Raises:
         InputError: If its ledger is damaged.
     """
-    return study.open(folder).count()
+    store = study.open(folder)
+    decisions = store.decisions()
+    # The page shows facts of the last round.
+    if decisions and not (
+        isinstance(facts := decisions[-1].facts, dict) and is_whole(facts.get("runs"), 0)
+    ):
+        message = f"{folder / LEDGER}: is damaged: restore it, or use another folder"
+        raise InputError(message)
+    return store.count()
