@@ -36,7 +36,7 @@ RUNS = 400
 
 SEED = 0
 
-STUDY_SEEDS = range(5)
+STUDY_SEEDS = range(3)
 """Each brain is studied with each: one study selects one of several teams that are about equal."""
 
 STUDY_DELTA = 0.5
