@@ -50,6 +50,7 @@ impl Procedure {
     }
 
     /// Removes configurations that cannot be run, before the first `record`; at least one remains.
+    #[expect(clippy::needless_pass_by_value, reason = "PyO3 passes an owned list")]
     fn exclude(&self, configurations: Vec<usize>) {
         self.with(|procedure| procedure.exclude(&configurations));
     }
