@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from synthetic_runs import COLUMNS, outcomes, same
 
-from agent_economy.study.run_block import Compute, Gathered, Part, Partwise, RunBlock
+from agent_economy.study.run_block import Columns, Compute, Gathered, Part, Partwise, RunBlock
 from agent_economy.study.store import Store, read, staging
+from agent_economy.study.store import folder as files
 from agent_economy.study.store.folder import STAGING
 
 AREA = RunBlock((7, 3, 0, 4), 10, 30)
@@ -153,6 +154,28 @@ def test_a_failing_task_keeps_the_runs_that_it_finished(tmp_path: Path) -> None:
     with opened(tmp_path) as store, pytest.raises(KeyboardInterrupt):
         store.block(AREA, Partwise(parts))
     assert len(stored(tmp_path)) == done.rows
+
+
+def test_an_interrupt_while_a_block_is_written_loses_none_of_its_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(staging, "STAGE_S", 60.0)
+    with opened(tmp_path) as store, monkeypatch.context() as patched:
+        patched.setattr(files, "write_whole", interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            store.block(AREA, outcomes)
+    assert stored(tmp_path) == runs_of([AREA])
+    with opened(tmp_path) as store:
+        assert same(store.block(AREA, refuse), outcomes(AREA))
+    assert not (tmp_path / STAGING).exists()
+
+
+def refuse(_: RunBlock) -> Columns:
+    """Fail, because all requested runs should be stored already."""
+    pytest.fail("runs are computed again")
 
 
 def test_runs_are_written_together_and_quick_blocks_are_not_staged(

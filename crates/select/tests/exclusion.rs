@@ -4,7 +4,10 @@ use select::{Bounds, EqualAllocation, Exclude, Problem, Race, Strict};
 
 const TEAMS: usize = 5;
 
-/// The impossible ones: one of them would have the best mean.
+/// The merit of every run of each configuration.
+const MERITS: [f64; TEAMS] = [0.9, 0.1, 0.2, 0.8, 0.4];
+
+/// The impossible ones: they would have the best means.
 const IMPOSSIBLE: [usize; 2] = [0, 3];
 
 fn problem() -> Problem {
@@ -15,13 +18,13 @@ fn problem() -> Problem {
     }
 }
 
-/// Runs a procedure in which configuration `c` of the others always has a merit of c / 10.
+/// Runs a procedure to its end, and returns the selected configuration.
 fn selected(mut procedure: impl Exclude) -> usize {
     procedure.exclude(&IMPOSSIBLE);
     while let Some(request) = procedure.next() {
         let is_possible = |each: &usize| !IMPOSSIBLE.contains(each);
         assert!(request.configurations.iter().all(is_possible));
-        let row = |each: &usize| vec![*each as f64 / 10.0; request.runs];
+        let row = |each: &usize| vec![MERITS[*each]; request.runs];
         let merits: Vec<f64> = request.configurations.iter().flat_map(row).collect();
         procedure.record(&merits);
     }

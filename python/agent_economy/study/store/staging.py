@@ -10,6 +10,7 @@ import os
 import struct
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import arrow
+from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import Columns, Gathered, Part, RunBlock
 from agent_economy.study.store import folder as files
 from agent_economy.study.store import parquet
@@ -72,6 +74,17 @@ class Staging:
         self._waiting.append((part, data))
         if time.monotonic() - self._since_s > STAGE_S:
             self.flush()
+
+    @contextmanager
+    def flushed_if_interrupted(self) -> Iterator[None]:
+        """Write the runs that are only in memory if an error or Ctrl-C ends the block."""
+        try:
+            yield
+        except BaseException:
+            # What interrupted it is reported, also if the disk is full.
+            with suppress(StoreError, ValueError):
+                self.flush()
+            raise
 
     def flush(self) -> None:
         """Write the runs that are only in memory.

@@ -3,7 +3,7 @@
 import hashlib
 import os
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack, closing, suppress
+from contextlib import ExitStack, closing
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
@@ -140,7 +140,9 @@ class Store:
             stored = self._coverage.block_files(part)
             missing = self._coverage.missing(part)
             if missing:
-                gathered.put(missing, self._store(missing, self._complete(missing, compute)))
+                with self._staging.flushed_if_interrupted():
+                    data = self._store(missing, self._complete(missing, compute))
+                gathered.put(missing, data)
             for file, configurations in stored:
                 data = read_block(self.folder, file, self.columns)
                 gathered.put(file.block, data, configurations)
@@ -166,19 +168,14 @@ class Store:
         gathered = Gathered(block)
         self._staging.begin(gathered)
         self.pending += gathered.rows
-        try:
-            for missing in list(gathered.missing()):
-                with closing(parts_of(compute, missing)) as parts:
-                    for part, columns in parts:
-                        data = self._checked(part, columns)
-                        gathered.put(part, data)
-                        self._staging.add(part, data)
-                        self.computed += part.rows
-                        self.pending += part.rows
-        except BaseException:
-            with suppress(StoreError, ValueError):
-                self._staging.flush()
-            raise
+        for missing in list(gathered.missing()):
+            with closing(parts_of(compute, missing)) as parts:
+                for part, columns in parts:
+                    data = self._checked(part, columns)
+                    gathered.put(part, data)
+                    self._staging.add(part, data)
+                    self.computed += part.rows
+                    self.pending += part.rows
         return gathered.columns
 
     def _checked(self, part: RunBlock, columns: Columns) -> Columns:
