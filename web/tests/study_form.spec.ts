@@ -10,6 +10,7 @@ import {
   openRun,
   ownScenario,
 } from "./page";
+import { hang_ms } from "../dev/real-server.mjs";
 import { formAt, openAnswer, sentence, test } from "./studies";
 
 test("a study is defined, started and answered by keyboard alone, and its confidence is raised", async ({
@@ -37,7 +38,7 @@ test("a study is defined, started and answered by keyboard alone, and its confid
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expect(page.getByText(/^\d of 6$/)).toBeVisible();
   showAnswer();
-  await expect(sentence(page)).toBeVisible();
+  await expect(sentence(page)).toBeVisible({ timeout: 4 * hang_ms });
 
   const box = page.getByRole("textbox", { name: /^Raise confidence/ });
   await expect(box).toHaveValue("0.99");
