@@ -195,6 +195,12 @@ def test_dominance_compares_prices_and_not_numbers_of_robots() -> None:
     ]
     assert [place.price for place in front(evidence(*priced))] == [900.0, 30.5]
     assert [place.dominated_by for place in front(evidence(*priced))] == [None, None]
+    # Sums of prices are rounded.
+    sums = [
+        replace(each, columns={**each.columns, "price": np.full(each.runs, price)})
+        for each, price in ((few, 0.1 + 0.1 + 0.1), (many, 0.3))
+    ]
+    assert front(evidence(*sums))[1].dominated_by == 0
     # Without prices, robots count.
     free = [
         replace(each, columns={**each.columns, "price": np.zeros(3000)}) for each in (few, many)
@@ -211,7 +217,10 @@ def test_a_configuration_that_cannot_be_run_has_no_standing_and_no_part_in_other
     seen = evidence(*possible, impossible)
     assert standings(seen, 0, 0.1)[2] == Standing(None, "impossible")
     assert saturations(seen, 0, 0.1)[0].sizes == (1, 2)
-    assert efforts(seen, 0, 0.1)
+    plain = efforts(evidence(*possible), 0, 0.1)
+    assert [each.runs for each in efforts(seen, 0, 0.1)] == [
+        pytest.approx(each.runs + 10, rel=0.05) for each in plain
+    ]
     assert efforts(evidence(impossible, possible[0]), 1, 0.1) == ()
 
 

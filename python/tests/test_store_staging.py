@@ -1,5 +1,6 @@
 """Runs of an incomplete block: stored as they finish, and merged into the block's file."""
 
+import os
 import signal
 from collections.abc import Generator
 from pathlib import Path
@@ -171,6 +172,38 @@ def test_an_interrupt_while_a_block_is_written_loses_none_of_its_runs(
     with opened(tmp_path) as store:
         assert same(store.block(AREA, refuse), outcomes(AREA))
     assert not (tmp_path / STAGING).exists()
+
+
+@pytest.mark.parametrize("call", ["fsync", "close"])
+def test_an_interrupt_while_runs_are_staged_stores_none_twice(
+    call: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done = interrupted(tmp_path, 6)
+    seen: list[RunBlock] = []
+    real, left = getattr(os, call), [True]
+
+    def interrupt_once(descriptor: int) -> None:
+        real(descriptor)
+        if len(seen) >= 4 and left and left.pop():
+            raise KeyboardInterrupt
+
+    with opened(tmp_path) as store, monkeypatch.context() as patched:
+        patched.setattr(os, call, interrupt_once)
+        with pytest.raises(KeyboardInterrupt):
+            store.block(AREA, in_parts(seen))
+    assert not left
+    assert stored(tmp_path) == runs_of([*done, *seen])
+    assert read(tmp_path).count() == len(stored(tmp_path))
+    with opened(tmp_path) as store:
+        assert same(store.block(AREA, in_parts([])), outcomes(AREA))
+
+
+def test_a_record_that_is_stored_twice_counts_once(tmp_path: Path) -> None:
+    done = interrupted(tmp_path, 6)
+    path = tmp_path / STAGING
+    path.write_bytes(path.read_bytes() * 2)
+    assert stored(tmp_path) == runs_of(done)
+    assert read(tmp_path).count() == len(runs_of(done))
 
 
 def refuse(_: RunBlock) -> Columns:

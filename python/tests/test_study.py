@@ -238,6 +238,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
     answer = study.run(scenario, vary=vary, delta=0.5)
     assert len(answer.results) == 36
     assert answer.sensitivity is not None
+    assert answer.omissions == ()
     assert {each.path for each in answer.sensitivity.influences} == set(vary)
     deltas = [each.total for each in answer.sensitivity.influences]
     assert deltas == sorted(deltas, reverse=True)

@@ -152,9 +152,10 @@ def quarantine_note(scenario: Scenario, seed: int, table: pa.Table) -> str:
     runs = np.flatnonzero(quarantined(table))
     if not len(runs):
         return ""
+    are = "was" if len(runs) == 1 else "were"
     return (
-        f"{len(runs):,} of {table.num_rows:,} runs were quarantined "
-        f"({reason(scenario, seed, int(runs[0]))}). They count as the worst possible in time, "
+        f"{len(runs):,} of {table.num_rows:,} runs {are} quarantined "
+        f"({reason(scenario, seed, int(runs[0]))}). Such runs count as the worst possible in time, "
         "completion, found and missed items and merit; other means leave them out."
     )
 

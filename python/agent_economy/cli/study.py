@@ -1,5 +1,6 @@
 """The command `study`."""
 
+import signal
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -225,12 +226,22 @@ def compute_answer(
         with executor(plan.engine, workers, dask) as compute, display.shown() as on_progress:
             return studies.run_plan(plan, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
-        is_stored = (folder / "study.toml").exists()
-        command = f"agent-economy study --resume {quote(str(folder))}"
-        advice = f"; all are stored. Resume with: {command}"
-        count = studies.open(folder).count() if is_stored else 0
-        typer.echo(f"\nStopped after {count:,} runs{advice if is_stored else '.'}", err=True)
+        # A second Ctrl-C must not cut off how to resume.
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        try:
+            typer.echo(f"\n{stopped(folder)}", err=True)
+        finally:
+            signal.signal(signal.SIGINT, before)
         raise typer.Exit(INTERRUPTED) from None
+
+
+def stopped(folder: Path) -> str:
+    """Return how many runs of a stopped study are stored, and how to resume it."""
+    if not (folder / "study.toml").exists():
+        return "Stopped after 0 runs."
+    command = f"agent-economy study --resume {quote(str(folder))}"
+    count = studies.open(folder).count()
+    return f"Stopped after {count:,} runs; all are stored. Resume with: {command}"
 
 
 @contextmanager

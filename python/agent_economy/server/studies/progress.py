@@ -121,6 +121,10 @@ def stored(folder: Path) -> dict[str, Any]:
 
 def final_standings(answer: dict[str, Any]) -> list[list[Any]]:
     """Return the best of the configurations that were not eliminated, with their intervals."""
-    remaining = [row for row in answer["results"] if row["eliminated"] is None]
+    remaining = [
+        row
+        for row in answer["results"]
+        if row["eliminated"] is None and row["standing"]["verdict"] != "impossible"
+    ]
     best = sorted(remaining, key=lambda row: -row["merit"]["value"])[:MAX_STANDINGS]
     return [[row["configuration"], row["runs"], *row["merit"].values()] for row in best]

@@ -87,6 +87,8 @@ def response(plan: Plan, configuration: int, total: int, found: pa.Table) -> dic
 
 def scores(merit: Merit, found: pa.Table) -> Floats:
     """Return the merit of each run; NaN if it has none."""
+    if not found.num_rows:  # A study that has not begun does not have its columns yet.
+        return np.empty(0)
     quarantined = arrow.numbers(found["quarantined"])
     columns = {name: floats(found[name], quarantined) for name in merit.columns}
     score: Floats = merit.score(columns)

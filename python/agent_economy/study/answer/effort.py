@@ -39,9 +39,10 @@ class Effort:
 def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
     """Return the predicted runs for smaller deltas; none for one configuration.
 
-    Those that cannot be run are left out.
+    Those that cannot be run have the same few runs for any delta.
     """
     possible = [each for each, sample in enumerate(evidence.samples) if sample.is_possible]
+    others = sum(sample.runs for sample in evidence.samples if not sample.is_possible)
     best = possible.index(best)
     evidence = Evidence(tuple(evidence.samples[each] for each in possible), evidence.confidence)
     if len(possible) == 1:
@@ -49,7 +50,10 @@ def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
     total = sum(sample.runs for sample in evidence.samples)
     scale = total / predicted_runs(evidence, best, delta)
     return tuple(
-        Effort(delta / part, two_figures(scale * predicted_runs(evidence, best, delta / part)))
+        Effort(
+            delta / part,
+            two_figures(others + scale * predicted_runs(evidence, best, delta / part)),
+        )
         for part in PARTS
     )
 

@@ -66,8 +66,10 @@ class Sample(EqualByValue):
     @property
     def price(self) -> float:
         """Price of its robots; 0 if the simulator has no prices."""
-        # Every run has the same one: a mean of it would be rounded.
-        return float(self.columns["price"][0]) if "price" in self.columns else 0.0
+        if "price" not in self.columns:
+            return 0.0
+        # Every run has the same one, which is a sum: equal prices must not differ by rounding.
+        return float(f"{self.columns['price'][0]:.12g}")
 
     def mean(self, name: str) -> float:
         """Return the mean of a column."""

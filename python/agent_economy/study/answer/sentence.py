@@ -93,7 +93,8 @@ def edges(chosen: Result, results: Sequence[Result]) -> list[str]:
     """Return a warning for each team size that was not compared with larger ones."""
     kinds = []
     for path, size in chosen.values.items():
-        sizes = {each.values[path] for each in results}
+        possible = [each for each in results if each.standing.verdict != "impossible"]
+        sizes = {each.values[path] for each in possible}
         if robot_kind(path) is not None and len(sizes) > 1 and size == max(sizes, key=float):
             kinds.append(robot_kind(path))
     return [

@@ -2,7 +2,8 @@
 
 The staging file is a sequence of records: length, SHA-256 and rows (an Arrow record batch). It is
 appended to; a process that is killed leaves at most an incomplete last record, which is ignored.
-The file is removed when its runs are in block files, so a finished study does not have one.
+The file is removed when its runs are in block files. A finished study has one only if its question
+was changed in the middle of a block: the other question may need these runs again.
 """
 
 import hashlib
@@ -101,8 +102,7 @@ class Staging:
             flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC
             descriptor = os.open(self._path, flags, 0o666)
             try:
-                files.write_all(descriptor, record(rows))
-                os.fsync(descriptor)
+                append(descriptor, record(rows))
             finally:
                 os.close(descriptor)
             if is_new:
@@ -131,6 +131,18 @@ class Staging:
             self._path.unlink(missing_ok=True)
 
 
+def append(descriptor: int, data: bytes) -> None:
+    """Append bytes to a file and wait until they are on the disk; all of them or none."""
+    size = os.fstat(descriptor).st_size
+    try:
+        files.write_all(descriptor, data)
+        os.fsync(descriptor)
+    except BaseException:
+        # Ctrl-C may come here: they are written again, and must not be there twice.
+        os.ftruncate(descriptor, size)
+        raise
+
+
 def record(rows: pa.Table) -> bytes:
     """Return the record of rows that are in one chunk."""
     (batch,) = rows.to_batches()
@@ -139,12 +151,15 @@ def record(rows: pa.Table) -> bytes:
 
 
 def staged_rows(data: bytes, columns: tuple[Column, ...], coverage: Coverage) -> pa.Table:
-    """Return the rows of a staging file that are not in block files."""
+    """Return the rows of a staging file that are not in block files, each run once."""
     kind = schema(columns)
     rows = pa.Table.from_batches(batches(data, kind), kind)
     if not rows.num_rows:
         return rows
-    return rows.filter(arrow.column(~coverage.contains(*keys(rows))))
+    configurations, runs = keys(rows)
+    are_new = np.zeros(rows.num_rows, dtype=np.bool_)
+    are_new[np.unique(np.stack([configurations, runs]), axis=1, return_index=True)[1]] = True
+    return rows.filter(arrow.column(are_new & ~coverage.contains(configurations, runs)))
 
 
 def batches(data: bytes, kind: pa.Schema) -> Iterator[pa.RecordBatch]:
@@ -155,7 +170,11 @@ def batches(data: bytes, kind: pa.Schema) -> Iterator[pa.RecordBatch]:
         body = data[place + HEAD.size : place + HEAD.size + length]
         if hashlib.sha256(body).digest() != digest:
             return
-        yield pa.ipc.read_record_batch(pa.py_buffer(body), kind)
+        try:
+            batch = pa.ipc.read_record_batch(pa.py_buffer(body), kind)
+        except (pa.ArrowException, OSError):  # of another program
+            return
+        yield batch
         place += HEAD.size + length
 
 
