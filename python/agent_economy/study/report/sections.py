@@ -134,8 +134,8 @@ def failed(view: View) -> Section:
 
 def front(view: View) -> Section:
     """Return the section on the Pareto front of price, time and failures."""
-    total = len(view.answer.results)
-    out = sum(result.place.dominated_by is not None for result in view.answer.results)
+    total = len(view.ranked)
+    out = sum(view.result(index).place.dominated_by is not None for index in view.ranked)
     note = (
         "A configuration is dominated if another of no higher price is proved to be faster and to "
         f"fail less often: {out:,} of {total:,}. The others are possibly efficient. "
