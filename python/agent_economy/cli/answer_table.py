@@ -67,13 +67,12 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
         table.add_column(name, justify="right", no_wrap=True)
     for result in shown:
         counts = [result.runs, result.quarantined][: len(names)]
-        is_possible = result.standing.verdict != "impossible"
         table.add_row(
             Text(result.label),
             *(f"{count:,}" for count in counts),
-            cell(result.time_s, "z.1f") if is_possible else "",
-            cell(result.failed, "z.2%") if is_possible else "",
-            cell(result.merit, "z.2f") if is_possible else "",
+            cell(result.time_s, "z.1f") if result.is_possible else "",
+            cell(result.failed, "z.2%") if result.is_possible else "",
+            cell(result.merit, "z.2f") if result.is_possible else "",
             f"{result.standing.behind.value:z.3f}" if result.standing.behind else "",
             result.standing.verdict,
             style="bold" if result is answer.results[answer.best] else None,
@@ -89,6 +88,6 @@ def best_first(answer: Answer) -> list[Result]:
     others = [result for result in answer.results if result is not chosen]
 
     def rank(result: Result) -> tuple[bool, float]:
-        return result.standing.verdict == "impossible", -result.merit.value
+        return not result.is_possible, -result.merit.value
 
     return [chosen, *sorted(others, key=rank)]

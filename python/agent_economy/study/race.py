@@ -124,8 +124,7 @@ class Race:
         try:
             self._rounds_until_over()
         except NoConfigurationError as error:
-            why = quarantine.reason(self._plan.alone(0), self._plan.seed, 0)
-            message = f"no configuration can be run: {error} ({why})"
+            message = f"no configuration can be run: {error} ({self._obstacle(0)})"
             raise InputError(message) from None
         return self.evidence(), self._ending()
 
@@ -143,16 +142,17 @@ class Race:
         eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
         is_over = self._plan.runs is None and procedure.next() is None
         impossible = np.flatnonzero(self._quarantined == self._runs).tolist()
-        why = ""
-        if impossible:
-            why = quarantine.reason(self._plan.alone(impossible[0]), self._plan.seed, 0)
         return Ending(
             procedure.best,
             eliminations,
             plan_guarantee(self._plan, procedure, len(impossible)),
             is_over,
-            why,
+            self._obstacle(impossible[0]) if impossible else "",
         )
+
+    def _obstacle(self, configuration: int) -> str:
+        """Return why the runs of a configuration are quarantined, from its first run."""
+        return quarantine.reason(self._plan.alone(configuration), self._plan.seed, 0)
 
     def _report(self, progress: Progress) -> None:
         if self._on_progress:

@@ -57,6 +57,11 @@ class Result:
     place: Place
     eliminated: Elimination | None
 
+    @property
+    def is_possible(self) -> bool:
+        """Whether it can be run, and was compared."""
+        return self.standing.verdict != "impossible"
+
 
 def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, ...]:
     """Return the result of each configuration."""

@@ -47,7 +47,7 @@ def performance(result: Result) -> str:
 
 def impossible(results: Sequence[Result], obstacle: str) -> list[str]:
     """Return a sentence about the configurations that cannot be run, if any, with the reason."""
-    labels = [each.label for each in results if each.standing.verdict == "impossible"]
+    labels = [each.label for each in results if not each.is_possible]
     return [f"Cannot be run: {some(labels)} ({obstacle})"] if labels else []
 
 
@@ -93,8 +93,7 @@ def edges(chosen: Result, results: Sequence[Result]) -> list[str]:
     """Return a warning for each team size that was not compared with larger ones."""
     kinds = []
     for path, size in chosen.values.items():
-        possible = [each for each in results if each.standing.verdict != "impossible"]
-        sizes = {each.values[path] for each in possible}
+        sizes = {each.values[path] for each in results if each.is_possible}
         if robot_kind(path) is not None and len(sizes) > 1 and size == max(sizes, key=float):
             kinds.append(robot_kind(path))
     return [

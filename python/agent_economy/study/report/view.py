@@ -72,7 +72,7 @@ class View:
 
     def is_possible(self, index: int) -> bool:
         """Return whether a configuration can be run."""
-        return self.result(index).standing.verdict != "impossible"
+        return self.result(index).is_possible
 
     @cached_property
     def shown(self) -> tuple[int, ...]:
