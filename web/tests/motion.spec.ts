@@ -35,13 +35,13 @@ async function play(
 }
 
 test("motion between two steps is interpolated", async ({ page, server }) => {
-  // The page's clock advances by 200 ms for each frame, however long a slow machine takes for the pictures.
+  // The page's clock advances by 200 ms at a time, however long a slow machine takes for the pictures. A frame that
+  // arrives while the clock stands is drawn at its next advance.
   await page.clock.install();
   const drawn = await play(page, runAt(server, "scenario=search-beliefs&seed=7"));
   await page.clock.pauseAt(await page.evaluate(() => Date.now() + 1000));
   for (let frames = 0; frames <= 5;) {
     await page.clock.runFor(200);
-    await expect.poll(async () => (await drawn())[1]).toBeGreaterThan(frames);
     [, frames] = await drawn();
   }
   const [pictures, frames] = await drawn();
