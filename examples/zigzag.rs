@@ -9,6 +9,7 @@ use crate::goals::proposal::Proposal;
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::perception::situation::Situation;
+use crate::perception::timer::Stopwatch;
 use alloc::boxed::Box;
 use core::f64::consts::FRAC_PI_2;
 use schemars::JsonSchema;
@@ -44,7 +45,7 @@ pub(crate) type Memory = Box<Leg>;
 /// The current leg or turn.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Leg {
-    straight_s: f32,
+    straight: Stopwatch,
     turn: Option<Turn>,
     turned_left: bool,
 }
@@ -74,10 +75,9 @@ impl Behaviour for Ready {
             if let Some(motion) = turn.next_motion(situation) {
                 return Some(motion.into());
             }
-            (memory.turn, memory.straight_s) = (None, 0.0);
+            (memory.turn, memory.straight) = (None, Stopwatch::START);
         }
-        if f64::from(memory.straight_s) < self.straight_s {
-            memory.straight_s += situation.period_s();
+        if memory.straight.read_s(situation) < self.straight_s {
             return Some(self.ahead.into());
         }
         memory.turned_left = !memory.turned_left;

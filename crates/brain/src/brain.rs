@@ -12,7 +12,7 @@ use crate::io::body::{Body, RobotId};
 use crate::io::command::{Command, Motion};
 use crate::io::percept::Percept;
 use crate::navigation::speed_governor::SpeedGovernor;
-use crate::perception::dead_reckoning::DeadReckoning;
+use crate::perception::dead_reckoning::{DeadReckoning, Odometry};
 use crate::perception::situation::Situation;
 use crate::spec::BrainSpec;
 use alloc::boxed::Box;
@@ -23,7 +23,7 @@ use alloc::vec::Vec;
 ///
 /// A clone starts with the same memory, and is independent from then on; all clones share what is
 /// the same for their kind of robot. For a team, create one brain and clone it: each robot then
-/// takes about 100 bytes, plus its beliefs if it has any.
+/// takes about 150 bytes, plus its beliefs if it has any.
 #[derive(Debug, Clone)]
 pub struct Brain {
     kind: Arc<Kind>,
@@ -113,10 +113,12 @@ impl Brain {
         let mut brain = self.clone();
         let mut command = Command::default();
         let leading = brain.decide_into(percept, &mut command);
+        let period_s = brain.kind.body.period_s;
+        let holds_s = brain.layers.iter().map(|layer| layer.holds_s(period_s));
         Decision {
             command,
             leading: leading.and_then(|place| u32::try_from(place).ok()),
-            holds_s: brain.layers.iter().map(Layer::holds_s).collect(),
+            holds_s: holds_s.collect(),
             belief_state: brain.belief_state(),
         }
     }
@@ -140,7 +142,16 @@ impl Brain {
         }
     }
 
-    /// The command for a percept; to be called once per period of the body.
+    /// The command for a percept.
+    ///
+    /// Percepts may come at any times: everything in the brain that takes time follows
+    /// [`Percept::time_s`]. Between two percepts, the last command counts as executed. Stopping
+    /// distances and turn rates are those of [`Body::period_s`], so percepts should not come more
+    /// rarely than that for long.
+    ///
+    /// A percept with a time that is not later than that of the last one, or not finite, changes
+    /// nothing. The command then repeats the last motion, without requests and messages: those were
+    /// in the last command.
     ///
     /// Whatever the percept contains, the command contains finite numbers within the body's limits.
     pub fn step(&mut self, percept: &Percept) -> Command {
@@ -154,24 +165,35 @@ impl Brain {
         self.decide_into(percept, command);
     }
 
+    /// Leaves out a percept for which the decision is made elsewhere: the time since the previous
+    /// percept does not count.
+    pub fn skip(&mut self, percept: &Percept) {
+        self.odometry
+            .elapsed_s(percept.time_s, self.kind.body.period_s);
+    }
+
     /// Like [`Brain::step_into`]; returns the index of the active behaviour, if there is a single
     /// one.
     #[inline]
     fn decide_into(&mut self, percept: &Percept, command: &mut Command) -> Option<usize> {
         command.requests.clear();
         command.outbox.clear();
-        let (leading, motion) = self.motion(percept);
+        let period_s = self.kind.body.period_s;
+        let Some(elapsed_s) = self.odometry.elapsed_s(percept.time_s, period_s) else {
+            command.motion = self.odometry.command();
+            return None;
+        };
+        let (leading, motion) = self.motion(percept, elapsed_s);
         command.motion = motion;
-        self.odometry
-            .record_command(command.motion, &self.kind.body);
+        self.odometry.record_command(motion);
         if let Some(brain) = &mut self.beliefs {
-            brain.publish(self.kind.body.period_s, &mut command.outbox);
+            brain.publish(elapsed_s, &mut command.outbox);
         }
         leading
     }
 
     #[inline]
-    fn motion(&mut self, percept: &Percept) -> (Option<usize>, Motion) {
+    fn motion(&mut self, percept: &Percept, elapsed_s: f64) -> (Option<usize>, Motion) {
         let Kind {
             spec,
             body,
@@ -179,13 +201,20 @@ impl Brain {
             behaviours,
             arbiter,
         } = &*self.kind;
-        let mut turned_rad = self.odometry.update(percept, body);
+        let mut turned_rad = self.odometry.update(percept, body, elapsed_s);
         let current_speed_m_s = self.odometry.current_speed_m_s(percept, body);
         if let Some(brain) = &mut self.beliefs {
             let odometry = &self.odometry;
-            turned_rad = odometry.turned_without_compass_rad(turned_rad, percept, body);
-            let moved = [odometry.likely_speed_m_s(percept, body), turned_rad];
-            brain.beliefs.update(percept, body, &governor.rings, moved);
+            let turned = (turned_rad, elapsed_s);
+            turned_rad = odometry.turned_without_compass_rad(turned, percept, body);
+            let odometry = Odometry {
+                elapsed_s,
+                speed_m_s: odometry.likely_speed_m_s(percept, body),
+                turned_rad,
+            };
+            brain
+                .beliefs
+                .update(percept, body, &governor.rings, &odometry);
         }
         let (beliefs, mut selection) = match self.beliefs.as_deref_mut() {
             Some(BeliefBrain { beliefs, selection }) => (Some(&*beliefs), Some(selection)),
@@ -197,6 +226,7 @@ impl Brain {
             beliefs,
             rings: &governor.rings,
             ahead: governor.ahead(percept, body, current_speed_m_s),
+            elapsed_s,
             turned_rad,
             current_speed_m_s,
         };
@@ -212,11 +242,12 @@ impl Brain {
         }
         if let (Some(beliefs), Some(selection)) = (beliefs, selection) {
             let traffic = &mut selection.navigator.traffic;
-            traffic.update(
-                &beliefs.others.movers,
-                body,
-                [current_speed_m_s, turned_rad],
-            );
+            let odometry = Odometry {
+                elapsed_s,
+                speed_m_s: current_speed_m_s,
+                turned_rad,
+            };
+            traffic.update(&beliefs.others.movers, body, &odometry);
             motion = traffic.limit(motion, body, current_speed_m_s);
         }
         (leading, clamped(motion, body))
@@ -251,9 +282,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_brain_of_three_behaviours_takes_at_most_136_bytes() {
+    fn a_brain_of_three_behaviours_takes_at_most_152_bytes() {
         let layer = size_of::<Layer<Memory>>();
         let all = size_of::<Brain>() + 3 * layer;
-        assert!(all <= 136, "{all} bytes, {layer} a layer");
+        assert!(all <= 152, "{all} bytes, {layer} a layer");
     }
 }

@@ -155,7 +155,7 @@ impl Walk {
         let has_gauge = self.wiring.drain > 0.0;
         let left = (1.0 - self.wiring.drain * time_s).max(0.0);
         Percept {
-            time_s,
+            time_s: Some(time_s),
             id: self.id.0,
             team_size: self.id.1,
             position: self.wiring.position.then_some(now(self.at)),

@@ -49,7 +49,8 @@ pub(crate) fn percepts<'py>(
         decisions,
         dict: PyDict::new(py),
     };
-    let time_s = decisions.first().map_or(0.0, |first| first.percept.time_s);
+    let time_s = decisions.first().and_then(|first| first.percept.time_s);
+    let time_s = time_s.unwrap_or_default();
     fields.dict.set_item("time_s", time_s)?;
     let indices = decisions
         .iter()

@@ -108,7 +108,11 @@ class Brain:
         return brain
 
     def step(self, percept: Percept) -> Command:
-        """Return the command for a percept. Call it once per period of the body.
+        """Return the command for a percept.
+
+        Percepts may come at any times: timers and the believed pose follow their `time_s`. A
+        percept that is not later than the previous one changes nothing, and repeats the last
+        motion.
 
         Raises:
             InputError: If an entry of the percept is unknown or has an invalid value.

@@ -522,7 +522,8 @@ class Percept(TypedDict):
     Angles are relative to the robot's front, anticlockwise, unless stated otherwise.
 
     Attributes:
-        time_s: Time since the mission began.
+        time_s: Time since the mission began. Without it, one period after the previous percept.
+            A percept that is not later than the previous one is ignored.
         random_words: Random bits of this step, the only source of randomness of a brain.
         id: The id of the robot, known before the mission.
         team_size: Number of robots of its kind, itself included; 0 if unknown.

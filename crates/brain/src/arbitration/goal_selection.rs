@@ -46,9 +46,9 @@ impl BeliefBrain {
     }
 
     /// Adds the messages of this step to the outbox.
-    pub(crate) fn publish(&mut self, period_s: f64, outbox: &mut Vec<Message>) {
+    pub(crate) fn publish(&mut self, elapsed_s: f64, outbox: &mut Vec<Message>) {
         self.beliefs
-            .broadcast(self.selection.pursued, period_s, outbox);
+            .broadcast(self.selection.pursued, elapsed_s, outbox);
     }
 }
 
@@ -127,6 +127,7 @@ impl GoalSelection {
             });
         let step = Step {
             at: pose.at,
+            elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),

@@ -7,6 +7,7 @@
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::Proposal;
 use crate::perception::situation::Situation;
+use crate::perception::timer::Countdown;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -14,8 +15,7 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub(crate) struct Layer<M> {
     memory: M,
-    /// Remaining hold time, in seconds.
-    left_s: f32,
+    hold: Countdown,
 }
 
 impl<M> Layer<M> {
@@ -23,9 +23,9 @@ impl<M> Layer<M> {
         &mut self.memory
     }
 
-    /// Remaining hold time, in seconds.
-    pub(crate) fn holds_s(&self) -> f64 {
-        self.left_s.into()
+    /// Remaining hold time after a step of a period, in seconds.
+    pub(crate) fn holds_s(&self, period_s: f64) -> f64 {
+        self.hold.left_s(period_s)
     }
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn layers<B: Behaviour>(behaviours: &[B]) -> Box<[Layer<B::Memory>]> 
     memories
         .map(|memory| Layer {
             memory,
-            left_s: 0.0,
+            hold: Countdown::default(),
         })
         .collect()
 }
@@ -54,7 +54,7 @@ pub(crate) fn arbitrate<B: Behaviour>(
             proposal = step(behaviour, layer, situation).map(|proposal| (place, proposal));
         } else {
             behaviour.suppressed(&mut layer.memory);
-            pass(layer, situation);
+            layer.hold.advance(situation);
         }
     }
     proposal
@@ -73,7 +73,7 @@ pub(crate) fn proposals<B: Behaviour>(
     for (place, (behaviour, layer)) in behaviours.iter().zip(layers).enumerate().rev() {
         if has_motion {
             behaviour.suppressed(&mut layer.memory);
-            pass(layer, situation);
+            layer.hold.advance(situation);
         } else if let Some(proposal) = step(behaviour, layer, situation) {
             has_motion = matches!(proposal, Proposal::Motion(_));
             proposals.push((place, proposal));
@@ -82,7 +82,6 @@ pub(crate) fn proposals<B: Behaviour>(
 }
 
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "a few seconds")]
 pub(crate) fn step<B: Behaviour>(
     behaviour: &B,
     layer: &mut Layer<B::Memory>,
@@ -90,18 +89,12 @@ pub(crate) fn step<B: Behaviour>(
 ) -> Option<Proposal> {
     let proposal = behaviour.triggered(&mut layer.memory, situation);
     if proposal.is_some() {
-        layer.left_s = behaviour.hold_s() as f32;
+        layer.hold = Countdown::new(behaviour.hold_s());
         return proposal;
     }
-    // Compared with half a step, so that rounding does not add a step.
-    let is_held = layer.left_s > situation.period_s() / 2.0;
-    pass(layer, situation);
+    layer.hold.advance(situation);
+    let is_held = layer.hold.is_running(situation);
     is_held.then(|| behaviour.held().into())
-}
-
-#[inline]
-fn pass<M>(layer: &mut Layer<M>, situation: &Situation) {
-    layer.left_s = (layer.left_s - situation.period_s()).max(0.0);
 }
 
 #[cfg(test)]
@@ -195,7 +188,7 @@ mod tests {
         };
         for _ in 0..600 {
             let percept = walk.percept();
-            let turned_rad = odometry.update(&percept, &body);
+            let turned_rad = odometry.update(&percept, &body, body.period_s);
             let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
@@ -203,12 +196,13 @@ mod tests {
                 beliefs: None,
                 rings: &governor.rings,
                 ahead: governor.ahead(&percept, &body, current_speed_m_s),
+                elapsed_s: body.period_s,
                 turned_rad,
                 current_speed_m_s,
             };
             let proposal = motion(arbitrate(&behaviours, &mut layers, &situation));
             let motion = governor.limit(proposal, &situation, &odometry);
-            odometry.record_command(motion, &body);
+            odometry.record_command(motion);
             walk.step(motion);
         }
         walk
@@ -282,6 +276,7 @@ mod tests {
                 beliefs: None,
                 rings: &[],
                 ahead: None,
+                elapsed_s: body.period_s,
                 turned_rad: 0.0,
                 current_speed_m_s: 0.0,
             };

@@ -7,6 +7,7 @@ use crate::io::body::{Body, RangeRing};
 use crate::io::command::Motion;
 use crate::perception::rays::valid_m;
 use crate::perception::situation::Situation;
+use crate::perception::timer::Stopwatch;
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_4, PI, TAU};
 use schemars::JsonSchema;
@@ -81,8 +82,8 @@ pub(crate) struct Ready {
 /// State of the behaviour.
 #[derive(Debug, Clone)]
 pub(crate) enum Memory {
-    /// The path has been clear for this time, in seconds.
-    Clear { since_s: f32 },
+    /// The time for which the path has been clear.
+    Clear { since: Stopwatch },
     /// Reversing: remaining time once contact has ended, and remaining time until the timeout.
     Backing { left_s: f32, patience_s: f32 },
     /// Turning: time since the start, and remaining minimum angle.
@@ -94,7 +95,9 @@ pub(crate) enum Memory {
 }
 
 /// The initial state.
-const CLEAR: Memory = Memory::Clear { since_s: 0.0 };
+const CLEAR: Memory = Memory::Clear {
+    since: Stopwatch::START,
+};
 
 impl Ready {
     pub(super) fn new(spec: &Avoid, body: &Body) -> Self {
@@ -172,11 +175,9 @@ impl Behaviour for Ready {
 impl Ready {
     #[inline]
     fn next_motion(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
-        let period_s = situation.period_s();
         match memory {
-            Memory::Clear { since_s } => {
-                let clear_s = f64::from(*since_s);
-                *since_s += period_s;
+            Memory::Clear { since } => {
+                let clear_s = since.read_s(situation);
                 self.look(memory, clear_s, situation)
             }
             Memory::Backing { .. } => Some(self.continue_reversing(memory, situation)),
@@ -207,10 +208,10 @@ impl Ready {
             return Motion::default();
         };
         if !situation.is_held() {
-            *left_s -= situation.period_s();
+            *left_s -= situation.step_s();
         }
-        *patience_s -= situation.period_s();
-        if left_s.min(*patience_s) > situation.period_s() / 2.0 {
+        *patience_s -= situation.step_s();
+        if left_s.min(*patience_s) > situation.half_step_s() {
             self.back
         } else {
             self.turn_from_touch(memory, situation)
@@ -260,7 +261,7 @@ impl Ready {
         };
         let is_left = *is_left;
         if !situation.is_held() {
-            *since_s += situation.period_s();
+            *since_s += situation.step_s();
         }
         *min_rad -= situation.turned_rad.abs() as f32;
         let has_turned = *min_rad <= 0.0 || *since_s >= PATIENCE_S;

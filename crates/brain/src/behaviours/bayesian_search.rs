@@ -166,7 +166,7 @@ impl GoalBehaviour for Ready {
     fn goal(&self, search: &mut Option<Box<Search>>, situation: &Situation) -> Option<Proposal> {
         let known = Known::new(situation)?;
         let search = search.get_or_insert_default();
-        let destination = search.survey.current(situation.body.period_s);
+        let destination = search.survey.current(situation.elapsed_s);
         let is_there = |to: Point| known.pose.at.to(to).length() <= self.destination.tolerance_m;
         if destination.is_some_and(is_there) {
             // The expected detections that were not made on the path cannot be made from there.

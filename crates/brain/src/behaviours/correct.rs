@@ -7,6 +7,7 @@ use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::percept::{Percept, Reading};
 use crate::perception::situation::Situation;
+use crate::perception::timer::{Countdown, Stopwatch};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -70,10 +71,9 @@ pub(crate) type Memory = Option<Box<Progress>>;
 pub(crate) struct Progress {
     /// Number of waypoints visited.
     visited: usize,
-    /// Remaining waiting time, in seconds.
-    wait_s: f32,
-    /// Time since its last turn, in seconds; older compass readings are not its heading.
-    straight_s: f32,
+    wait: Countdown,
+    /// Time since its last turn; older compass readings are not its heading.
+    straight: Stopwatch,
     turn: Option<Turn>,
 }
 
@@ -97,14 +97,14 @@ impl Ready {
     }
 
     fn look(&self, progress: &mut Progress, situation: &Situation) -> Option<Motion> {
-        // Compared with half a step, so that rounding does not add a step.
-        if progress.wait_s > situation.period_s() / 2.0 {
-            progress.wait_s -= situation.period_s();
+        let straight_s = progress.straight.read_s(situation);
+        progress.wait.advance(situation);
+        if progress.wait.is_running(situation) {
             return None;
         }
         let at = position(situation.percept)?;
         let to = self.next(progress, at)?;
-        let heading_rad = heading_rad(situation.percept, f64::from(progress.straight_s))?;
+        let heading_rad = heading_rad(situation.percept, straight_s)?;
         let way = at.to(to);
         let off_rad = wrapped(libm::atan2(way.y, way.x) - heading_rad);
         (off_rad.abs() > self.tolerance_rad).then(|| {
@@ -149,10 +149,9 @@ impl Behaviour for Ready {
             if motion.is_some() {
                 return motion.map(Proposal::Motion);
             }
-            (progress.turn, progress.straight_s) = (None, 0.0);
+            (progress.turn, progress.straight) = (None, Stopwatch::START);
         }
         let motion = self.look(progress, situation);
-        progress.straight_s += situation.period_s();
         motion.map(Proposal::Motion)
     }
 
@@ -160,11 +159,10 @@ impl Behaviour for Ready {
         Motion::default()
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn suppressed(&self, memory: &mut Memory) {
         let progress = memory.get_or_insert_default();
-        progress.wait_s = self.spec.wait_s as f32;
-        (progress.turn, progress.straight_s) = (None, 0.0);
+        progress.wait = Countdown::new(self.spec.wait_s);
+        (progress.turn, progress.straight) = (None, Stopwatch::START);
     }
 }
 

@@ -42,7 +42,7 @@ mod tests {
         let mut walk = Walk::new(body.clone(), room(size_m, size_m), [2.0, 2.0], 0.0);
         let step = |_| {
             let percept = walk.percept();
-            let turned_rad = moved.update(&percept, &body);
+            let turned_rad = moved.update(&percept, &body, body.period_s);
             let current_speed_m_s = moved.current_speed_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
@@ -50,6 +50,7 @@ mod tests {
                 beliefs: None,
                 rings: &sight.rings,
                 ahead: sight.ahead(&percept, &body, current_speed_m_s),
+                elapsed_s: body.period_s,
                 turned_rad,
                 current_speed_m_s,
             };
@@ -59,7 +60,7 @@ mod tests {
             };
             let most = body.max_turn_rate_rad_s;
             motion.turn_rate_rad_s = motion.turn_rate_rad_s.clamp(-most, most);
-            moved.record_command(motion, &body);
+            moved.record_command(motion);
             walk.step(motion);
             (walk.at, walk.heading_rad)
         };

@@ -89,7 +89,7 @@ impl GoalBehaviour for Ready {
         let beliefs = situation.beliefs?;
         let map = beliefs.map.as_ref()?;
         let survey = survey.get_or_insert_default();
-        let current = survey.current(situation.body.period_s);
+        let current = survey.current(situation.elapsed_s);
         let current = current.filter(|to| is_unseen(map, *to));
         let to = if let Some(to) = current {
             to

@@ -8,6 +8,7 @@ use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::perception::rays::Ring;
 use crate::perception::situation::Situation;
+use crate::perception::timer::Stopwatch;
 use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_4, TAU};
 use schemars::JsonSchema;
@@ -59,15 +60,17 @@ pub(crate) struct Ready {
 /// State of the behaviour.
 #[derive(Debug, Clone)]
 pub(crate) enum Memory {
-    /// Moving straight on, for this time in seconds.
+    /// Moving straight on, for this time.
     Straight {
-        since_s: f32,
+        since: Stopwatch,
     },
     Turning(Turn),
 }
 
 /// The initial state.
-const STRAIGHT: Memory = Memory::Straight { since_s: 0.0 };
+const STRAIGHT: Memory = Memory::Straight {
+    since: Stopwatch::START,
+};
 
 impl Ready {
     pub(super) fn new(spec: &RandomBounce, body: &Body) -> Self {
@@ -111,9 +114,8 @@ impl Ready {
     #[inline]
     fn next_motion(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         match memory {
-            Memory::Straight { since_s } => {
-                let straight_s = f64::from(*since_s);
-                *since_s += situation.period_s();
+            Memory::Straight { since } => {
+                let straight_s = since.read_s(situation);
                 let near_m = (self.turn_at_m + situation.stopping_m()).min(self.half_sight_m);
                 let is_stopped = situation.is_obstacle_ahead(near_m, straight_s)
                     || situation.touches(straight_s);

@@ -84,9 +84,9 @@ impl Survey {
     }
 
     /// The current destination, until the next selection is due.
-    pub(crate) fn current(&mut self, period_s: f64) -> Option<Point> {
+    pub(crate) fn current(&mut self, elapsed_s: f64) -> Option<Point> {
         let (to, since_s) = self.destination.as_mut()?;
-        *since_s += period_s;
+        *since_s += elapsed_s;
         (*since_s < SELECTION_PERIOD_S).then_some(*to)
     }
 

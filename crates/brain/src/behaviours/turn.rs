@@ -38,7 +38,7 @@ impl Turn {
     pub(super) fn next_motion(&mut self, situation: &Situation) -> Option<Motion> {
         self.left_rad -= situation.turned_rad as f32;
         if !situation.is_held() {
-            self.patience_s -= situation.period_s();
+            self.patience_s -= situation.step_s();
         }
         let is_done = self.left_rad.abs() <= DONE_RAD || self.patience_s <= 0.0;
         (!is_done).then(|| on_the_spot(f64::from(self.left_rad), situation.body))

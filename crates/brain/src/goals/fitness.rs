@@ -36,6 +36,8 @@ pub enum Verdict {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) at: Point,
+    /// Time since the previous step, and the time that a step is expected to take.
+    pub(crate) elapsed_s: f64,
     pub(crate) period_s: f64,
     /// A position to which no path is known.
     pub(crate) unreachable: Option<Point>,
@@ -98,7 +100,7 @@ impl Fitness {
     /// ```
     pub(crate) fn update(&mut self, destination: &Destination, step: &Step) -> Verdict {
         if self.is_resting() {
-            self.rest_s -= step.period_s;
+            self.rest_s -= step.elapsed_s;
             if !self.is_resting() {
                 *self = Self::default();
             }
@@ -121,7 +123,7 @@ impl Fitness {
 
     fn track(&mut self, remaining_m: f64, destination: &Destination, step: &Step) {
         // No robot moves that far in a step: the old path is blocked, or a shorter one was found.
-        let max_step_m = destination.max_speed_m_s * step.period_s + PROGRESS_M;
+        let max_step_m = destination.max_speed_m_s * step.elapsed_s + PROGRESS_M;
         let is_new_path = (remaining_m - self.last_m).abs() > max_step_m;
         self.last_m = remaining_m;
         if is_new_path {
@@ -129,7 +131,8 @@ impl Fitness {
         } else if remaining_m < self.best_m - PROGRESS_M {
             (self.best_m, self.stuck_s) = (remaining_m, 0.0);
         } else if step.pursued.is_some_and(|(to, _)| to == destination.at) {
-            self.stuck_s += step.period_s;
+            // A gap between percepts alone does not make a goal impossible.
+            self.stuck_s += step.elapsed_s.min(step.period_s.max(RECEDING_S));
         }
     }
 }
@@ -152,6 +155,7 @@ mod tests {
                 x: GOAL.at.x - distance_m,
                 y: 0.0,
             },
+            elapsed_s: 1.0,
             period_s: 1.0,
             unreachable: None,
             battery_s: 20.0,

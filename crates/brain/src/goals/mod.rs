@@ -184,6 +184,7 @@ mod tests {
     fn step(at: Point) -> Step {
         Step {
             at,
+            elapsed_s: 0.1,
             period_s: 0.1,
             unreachable: None,
             battery_s: f64::INFINITY,

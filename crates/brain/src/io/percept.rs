@@ -14,8 +14,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Percept {
-    /// Time since the mission began.
-    pub time_s: f64,
+    /// Time since the mission began. Without it, one period after the previous percept. A percept
+    /// that is not later than the previous one is ignored.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64")]
+    pub time_s: Option<f64>,
     /// Random bits of this step, the only source of randomness of a brain.
     pub random_words: [u32; 4],
     /// The id of the robot, known before the mission.

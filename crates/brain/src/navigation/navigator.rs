@@ -111,7 +111,7 @@ impl Navigator {
             target: pose.in_own_frame(waypoint),
             remaining_m: self.remaining_m(pose.at, goal),
             turned_rad: situation.turned_rad,
-            period_s: situation.body.period_s,
+            elapsed_s: situation.elapsed_s,
             max_speed_m_s: situation.body.max_speed_m_s,
             hits: &self.hits,
             movers: &beliefs.others.movers,
@@ -156,7 +156,7 @@ impl Navigator {
     ) -> Option<Point> {
         let body = situation.body;
         let waypoint = match self.waypoint_source(goal, pose.at, map) {
-            Source::Plan(plan) => return self.keep(plan, body.period_s),
+            Source::Plan(plan) => return self.keep(plan, situation.elapsed_s),
             Source::StraightLine => Some(goal),
             Source::LastSearch => self.wavefront.waypoint(&map.field, &map.occupancy, pose.at),
             Source::NewSearch => self.search(goal, pose.at, map, body.radius_m),
@@ -188,9 +188,9 @@ impl Navigator {
         }
     }
 
-    fn keep(&mut self, plan: Plan, period_s: f64) -> Option<Point> {
+    fn keep(&mut self, plan: Plan, elapsed_s: f64) -> Option<Point> {
         self.plan = Some(Plan {
-            age_s: plan.age_s + period_s,
+            age_s: plan.age_s + elapsed_s,
             ..plan
         });
         plan.waypoint

@@ -84,7 +84,7 @@ pub(crate) struct Step<'s> {
     /// Path length to the goal.
     pub(crate) remaining_m: f64,
     pub(crate) turned_rad: f64,
-    pub(crate) period_s: f64,
+    pub(crate) elapsed_s: f64,
     pub(crate) max_speed_m_s: f64,
     pub(crate) hits: &'s [Ray],
     pub(crate) movers: &'s [Mover],
@@ -106,7 +106,7 @@ impl Shunting {
         if is_new_goal {
             self.blocked_s = 0.0;
         } else if self.yield_s > 0.0 {
-            self.yield_s -= step.period_s;
+            self.yield_s -= step.elapsed_s;
         } else {
             self.watch_progress(progress_m, step);
         }
@@ -128,11 +128,11 @@ impl Shunting {
         if is_turning_to_target(step) {
             return;
         }
-        if progress_m < MIN_PROGRESS * step.max_speed_m_s * step.period_s {
-            self.blocked_s += step.period_s;
+        if progress_m < MIN_PROGRESS * step.max_speed_m_s * step.elapsed_s {
+            self.blocked_s += step.elapsed_s;
         } else {
-            self.blocked_s = (self.blocked_s - 2.0 * step.period_s).max(0.0);
-            self.backoff = (self.backoff - 0.1 * step.period_s).max(1.0);
+            self.blocked_s = (self.blocked_s - 2.0 * step.elapsed_s).max(0.0);
+            self.backoff = (self.backoff - 0.1 * step.elapsed_s).max(1.0);
         }
     }
 

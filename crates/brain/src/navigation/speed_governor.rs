@@ -366,6 +366,7 @@ mod tests {
             walk.wiring = wiring;
             for _ in 0..300 {
                 let percept = walk.percept();
+                odometry.update(&percept, &body, body.period_s);
                 let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
                 let situation = super::Situation {
                     beliefs: None,
@@ -373,12 +374,13 @@ mod tests {
                     body: &body,
                     rings: &governor.rings,
                     ahead: governor.ahead(&percept, &body, current_speed_m_s),
+                    elapsed_s: body.period_s,
                     turned_rad: 0.0,
                     current_speed_m_s,
                 };
                 let setpoint = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
                 let motion = governor.limit(setpoint, &situation, &odometry);
-                odometry.record_command(motion, &body);
+                odometry.record_command(motion);
                 walk.step(motion);
             }
             prop_assert!(walk.min_gap_m > 0.0, "{} m", walk.min_gap_m);

@@ -28,6 +28,7 @@
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::perception::beliefs::mover::Mover;
+use crate::perception::dead_reckoning::Odometry;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
@@ -55,19 +56,14 @@ pub(crate) struct Traffic {
 }
 
 impl Traffic {
-    /// Computes the lines for a robot that moves at a speed and turned by an angle in its last
-    /// step.
-    pub(crate) fn update(
-        &mut self,
-        movers: &[Mover],
-        body: &Body,
-        [current_speed_m_s, turned_rad]: [f64; 2],
-    ) {
+    /// Computes the lines for a robot with a current speed and a turn in its last step.
+    pub(crate) fn update(&mut self, movers: &[Mover], body: &Body, odometry: &Odometry) {
         self.lines.clear();
-        let own = stopping_path(body, Point::default(), current_speed_m_s, 0.0);
-        let lag_m = lag_m(&own, turned_rad);
+        let own = stopping_path(body, Point::default(), odometry.speed_m_s, 0.0);
+        let lag_m = lag_m(&own, odometry.turned_rad);
         for mover in movers {
-            self.lines.extend(line(&own, lag_m, mover, body));
+            self.lines
+                .extend(line((&own, lag_m), mover, body, odometry.elapsed_s));
         }
     }
 
@@ -141,11 +137,11 @@ fn stopping_path(body: &Body, from: Point, speed_m_s: f64, heading_rad: f64) -> 
 ///
 /// The other's speed is an average over its last step: since then, it may have increased by half of
 /// what its acceleration allows.
-fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
+fn line((own, lag_m): (&Segment, f64), mover: &Mover, body: &Body, elapsed_s: f64) -> Option<Line> {
     let braking = BRAKING * mover.braking_m_s2;
     let speed_m_s = mover.speed_m_s();
     let current_speed_m_s = if speed_m_s > 0.0 && braking.is_finite() {
-        speed_m_s + mover.braking_m_s2 * body.period_s / 2.0
+        speed_m_s + mover.braking_m_s2 * elapsed_s / 2.0
     } else {
         speed_m_s
     };

@@ -5,6 +5,7 @@ use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::percept::{Percept, Reading};
 use base::trig::wrapped;
+use core::f64::consts::TAU;
 
 /// Maximum age of a reading that is used, in seconds.
 const MAX_AGE_S: f64 = 1.0;
@@ -16,22 +17,93 @@ const MAX_WHEEL_FACTOR: f64 = 10.0;
 /// Compass readings above this absolute value are discarded as invalid.
 const MAX_HEADING_RAD: f64 = 1e4;
 
+/// What dead reckoning knows of the body in one step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Odometry {
+    /// Time since the previous step.
+    pub(crate) elapsed_s: f64,
+    /// Current speed; negative in reverse.
+    pub(crate) speed_m_s: f64,
+    /// Angle by which the body has turned since the previous step.
+    pub(crate) turned_rad: f64,
+}
+
+/// Longer times between two percepts count as this time, in seconds: a day.
+const MAX_ELAPSED_S: f64 = 86_400.0;
+
 /// Estimate of the body's motion from its commands, wheel odometry and compass.
 ///
-/// Single precision: a world can hold a million brains.
-#[derive(Debug, Clone, Default)]
+/// Mostly single precision: a world can hold a million brains.
+#[derive(Debug, Clone)]
 pub(crate) struct DeadReckoning {
+    /// Time of the last percept; minus infinity while no percept had a time.
+    time_s: f64,
+    /// Speed of the command in force.
+    setpoint_m_s: f64,
+    /// Turn rate of the most recent turn.
+    turn_rate_rad_s: f64,
     /// Speed that the body has reached if it follows its commands.
     speed_m_s: f32,
-    /// Turn rate of the most recent turn.
-    turn_rate_rad_s: f32,
-    /// Time since the end of that turn; 0 while it lasts.
+    /// Time since the end of that turn; 0 while the command in force is a turn.
     straight_s: f32,
-    /// Compass heading in the previous step.
-    heading_rad: Option<f32>,
+    /// Compass heading in the previous step; NaN without one.
+    heading_rad: f32,
+}
+
+impl Default for DeadReckoning {
+    fn default() -> Self {
+        Self {
+            time_s: f64::NEG_INFINITY,
+            setpoint_m_s: 0.0,
+            turn_rate_rad_s: 0.0,
+            speed_m_s: 0.0,
+            straight_s: 0.0,
+            heading_rad: f32::NAN,
+        }
+    }
 }
 
 impl DeadReckoning {
+    /// The time since the previous step, for a percept at a time; `None` if that is not later. It
+    /// is exactly a period if it differs from one by rounding only, and also at the first percept
+    /// and without a time.
+    #[inline]
+    pub(crate) fn elapsed_s(&mut self, time_s: Option<f64>, period_s: f64) -> Option<f64> {
+        let Some(now_s) = time_s else {
+            self.time_s += period_s;
+            return Some(period_s);
+        };
+        // False for NaN.
+        let is_later = now_s > self.time_s && now_s < f64::INFINITY;
+        if !is_later {
+            return None;
+        }
+        let elapsed_s = now_s - core::mem::replace(&mut self.time_s, now_s);
+        let rounding_s = 1e-9 * period_s + 1e-15 * now_s.abs();
+        let is_period = elapsed_s == f64::INFINITY || (elapsed_s - period_s).abs() <= rounding_s;
+        Some(if is_period {
+            period_s
+        } else {
+            elapsed_s.min(MAX_ELAPSED_S)
+        })
+    }
+
+    /// The command in force.
+    pub(crate) fn command(&self) -> Motion {
+        Motion {
+            speed_m_s: self.setpoint_m_s,
+            turn_rate_rad_s: self.commanded_rad_s(),
+        }
+    }
+
+    fn commanded_rad_s(&self) -> f64 {
+        if self.straight_s > 0.0 {
+            0.0
+        } else {
+            self.turn_rate_rad_s
+        }
+    }
+
     /// Upper bound of the current speed, in m/s; negative in reverse. It is the larger of the
     /// commanded and the measured speed, because braking too early is safe. For localisation, see
     /// [`DeadReckoning::likely_speed_m_s`].
@@ -56,18 +128,19 @@ impl DeadReckoning {
     #[inline]
     pub(crate) fn turned_within_rad(&self, age_s: f64) -> f64 {
         let turning_s = (age_s - f64::from(self.straight_s)).max(0.0);
-        f64::from(self.turn_rate_rad_s) * turning_s
+        single(self.turn_rate_rad_s) * turning_s
     }
 
-    /// Updates the estimate with a percept, at the start of a step. Returns the angle by which the
-    /// body has turned since the previous step: from the compass if there is one, else from the
-    /// wheels, else from the command.
+    /// Updates the estimate with a percept, `elapsed_s` after the previous one. Returns the angle by
+    /// which the body has turned since then: from the compass if there is one, else from the wheels,
+    /// else from the command.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "single precision is enough"
     )]
-    pub(crate) fn update(&mut self, percept: &Percept, body: &Body) -> f64 {
+    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, elapsed_s: f64) -> f64 {
+        self.advance(body, elapsed_s);
         if percept.touch.is_some_and(|touch| touch.value) {
             // A collision has stopped the body, whatever its command.
             self.speed_m_s = 0.0;
@@ -78,10 +151,32 @@ impl DeadReckoning {
         // Compensates the latency of the compass.
         let heading_now =
             heading.map(|reading| wrapped(reading.value + rate * reading.age_s) as f32);
-        let before = core::mem::replace(&mut self.heading_rad, heading_now);
-        match (before, heading_now) {
-            (Some(before), Some(now)) => wrapped(f64::from(now) - f64::from(before)),
-            _ => rate * body.period_s,
+        let now = heading_now.unwrap_or(f32::NAN);
+        let before = core::mem::replace(&mut self.heading_rad, now);
+        if before.is_nan() || now.is_nan() {
+            return rate * elapsed_s;
+        }
+        let turned_rad = wrapped(f64::from(now) - f64::from(before));
+        if elapsed_s > body.period_s {
+            // In a gap between percepts the body may have turned around more than once.
+            turned_rad + TAU * libm::round((rate * elapsed_s - turned_rad) / TAU)
+        } else {
+            turned_rad
+        }
+    }
+
+    /// Takes the command in force as executed for the elapsed time.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is enough"
+    )]
+    fn advance(&mut self, body: &Body, elapsed_s: f64) {
+        let max_change = (body.max_acceleration_m_s2 * elapsed_s) as f32;
+        let change = self.setpoint_m_s as f32 - self.speed_m_s;
+        self.speed_m_s += change.max(-max_change).min(max_change);
+        if self.straight_s > 0.0 {
+            self.straight_s += elapsed_s as f32;
         }
     }
 
@@ -90,46 +185,42 @@ impl DeadReckoning {
     /// with the same readings.
     pub(crate) fn turned_without_compass_rad(
         &self,
-        turned_rad: f64,
+        (turned_rad, elapsed_s): (f64, f64),
         percept: &Percept,
         body: &Body,
     ) -> f64 {
         if body.heading_noise_rad > 0.0 {
-            self.turn_rate_rad_s(percept, body) * body.period_s
+            self.turn_rate_rad_s(percept, body) * elapsed_s
         } else {
             turned_rad
         }
     }
 
     fn turn_rate_rad_s(&self, percept: &Percept, body: &Body) -> f64 {
-        let commanded = if self.straight_s > 0.0 {
-            0.0
-        } else {
-            f64::from(self.turn_rate_rad_s)
-        };
         let wheels = percept.motion.filter(is_current);
         let wheels = wheels.map(|motion| motion.value.turn_rate_rad_s);
         let wheels = wheels.filter(|rate| is_plausible(*rate, body.max_turn_rate_rad_s));
-        wheels.unwrap_or(commanded)
+        wheels.unwrap_or(single(self.commanded_rad_s()))
     }
 
     /// Records the motion commanded until the next step.
     #[inline]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "single precision is enough"
-    )]
-    pub(crate) fn record_command(&mut self, motion: Motion, body: &Body) {
-        let max_change = (body.max_acceleration_m_s2 * body.period_s) as f32;
-        let change = motion.speed_m_s as f32 - self.speed_m_s;
-        self.speed_m_s += change.max(-max_change).min(max_change);
+    pub(crate) fn record_command(&mut self, motion: Motion) {
+        self.setpoint_m_s = motion.speed_m_s;
         if motion.turn_rate_rad_s == 0.0 {
-            self.straight_s += body.period_s as f32;
+            // The time itself is added in the next step, when it is known.
+            self.straight_s = self.straight_s.max(f32::MIN_POSITIVE);
         } else {
-            self.turn_rate_rad_s = motion.turn_rate_rad_s as f32;
+            self.turn_rate_rad_s = motion.turn_rate_rad_s;
             self.straight_s = 0.0;
         }
     }
+}
+
+/// A number in single precision.
+#[expect(clippy::cast_possible_truncation, reason = "as stated")]
+fn single(value: f64) -> f64 {
+    f64::from(value as f32)
 }
 
 /// Measured speed, if it is current and plausible.
@@ -165,8 +256,8 @@ mod tests {
         let (mut odometry, body) = (DeadReckoning::default(), rover());
         let mut sum = 0.0;
         for percept in percepts {
-            sum += odometry.update(percept, &body);
-            odometry.record_command(TURN, &body);
+            sum += odometry.update(percept, &body, 0.1);
+            odometry.record_command(TURN);
         }
         sum
     }
@@ -243,12 +334,43 @@ mod tests {
     }
 
     #[test]
+    fn in_a_gap_between_percepts_more_than_a_full_turn_is_known_from_the_command() {
+        let (mut odometry, body) = (DeadReckoning::default(), rover());
+        let compass = |heading_rad: f64| Percept {
+            heading_rad: Some(now(wrapped(heading_rad))),
+            ..Percept::default()
+        };
+        odometry.update(&compass(1.0), &body, 0.1);
+        odometry.record_command(TURN);
+        // A little less than commanded.
+        let turned_rad = odometry.update(&compass(1.0 + 9.9), &body, 10.0);
+        assert!((turned_rad - 9.9).abs() < 1e-5, "{turned_rad}");
+    }
+
+    #[test]
+    fn the_elapsed_time_is_a_period_exactly_if_it_differs_by_rounding_only() {
+        let period_s = 0.1;
+        for start_s in [0.0, 1e3, 1.7e9] {
+            let mut odometry = DeadReckoning::default();
+            assert_eq!(odometry.elapsed_s(Some(start_s), period_s), Some(period_s));
+            for step in 1..100 {
+                let time_s = start_s + f64::from(step) * period_s;
+                let elapsed_s = odometry.elapsed_s(Some(time_s), period_s);
+                assert_eq!(elapsed_s, Some(period_s), "{start_s} {step}");
+            }
+            let time_s = start_s + 100.0 * period_s;
+            let elapsed_s = odometry.elapsed_s(Some(time_s + 1e-3), period_s).unwrap();
+            assert!((elapsed_s - 0.101).abs() < 1e-6, "{elapsed_s}");
+        }
+    }
+
+    #[test]
     fn the_time_of_the_most_recent_turn_is_remembered() {
         let (mut odometry, body) = (DeadReckoning::default(), rover());
-        odometry.record_command(TURN, &body);
+        odometry.record_command(TURN);
         assert!((odometry.turned_within_rad(0.3) - 0.3).abs() < 1e-6);
-        odometry.record_command(Motion::default(), &body);
-        odometry.record_command(Motion::default(), &body);
+        odometry.record_command(Motion::default());
+        odometry.update(&Percept::default(), &body, 0.2);
         assert!((odometry.turned_within_rad(0.3) - 0.1).abs() < 1e-6);
         assert!(odometry.turned_within_rad(0.1).abs() < 1e-6);
     }

@@ -8,3 +8,4 @@ pub(crate) mod dead_reckoning;
 pub(crate) mod rays;
 pub(crate) mod sector;
 pub(crate) mod situation;
+pub(crate) mod timer;

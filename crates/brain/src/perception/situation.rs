@@ -30,6 +30,8 @@ pub(crate) struct Situation<'s> {
     pub(crate) rings: &'s [Ring],
     /// Free distance straight ahead; `None` without a sensor to the front or without a fresh scan.
     pub(crate) ahead: Option<ClearAhead>,
+    /// Time since the previous step.
+    pub(crate) elapsed_s: f64,
     /// Angle by which the body has turned since the previous step.
     pub(crate) turned_rad: f64,
     /// Upper bound of the current speed; negative in reverse.
@@ -37,14 +39,25 @@ pub(crate) struct Situation<'s> {
 }
 
 impl Situation<'_> {
-    /// Time between two steps, in single precision, as behaviours store times.
+    /// Time since the previous step, in single precision, as behaviours store times.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
         reason = "single precision is enough"
     )]
-    pub(crate) fn period_s(&self) -> f32 {
-        self.body.period_s as f32
+    pub(crate) fn step_s(&self) -> f32 {
+        self.elapsed_s as f32
+    }
+
+    /// Half of the time that this step is expected to take: the last one, but no gap between
+    /// percepts.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is enough"
+    )]
+    pub(crate) fn half_step_s(&self) -> f32 {
+        self.elapsed_s.min(self.body.period_s) as f32 / 2.0
     }
 
     /// Whether the body still touches something: it may be stopped by a collision and unable to

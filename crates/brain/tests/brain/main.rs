@@ -9,6 +9,7 @@
 mod homing;
 mod percepts;
 mod poses;
+mod times;
 mod trust;
 
 use base::geometry::Point;

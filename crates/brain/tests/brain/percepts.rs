@@ -232,7 +232,8 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
         reading(number(0.0, 1.0), number),
         reading(any::<bool>(), number),
     );
-    let clock = (number(0.0, 1e4), any::<[u32; 4]>());
+    let time_s = proptest::option::weighted(0.3, number(0.0, 1e4));
+    let clock = (time_s, any::<[u32; 4]>());
     let look =
         (0_u16..3, number(0.0, 1.0)).prop_map(|(sensor, age_s)| Observation { sensor, age_s });
     let identity = (

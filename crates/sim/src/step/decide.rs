@@ -92,7 +92,9 @@ impl WorkerScratch {
                 self.serve_simulated(inputs, robot, agent);
                 return;
             };
-            self.perceive(view, robot, agent);
+            if self.perceive(view, robot, agent) {
+                agent.brain.skip(&self.percept);
+            }
             self.take(command);
         }
         self.obey(view, robot, agent);
@@ -163,7 +165,7 @@ impl WorkerScratch {
     fn add_own_state(&mut self, view: &View, robot: usize, brain_step: u64) {
         let (body_state, kind) = (&view.body_states[robot], view.kind(robot));
         let percept = &mut self.percept;
-        percept.time_s = view.time_s();
+        percept.time_s = Some(view.time_s());
         percept.id = view.ids[robot];
         percept.team_size = view.kind(robot).count;
         percept.random_words =

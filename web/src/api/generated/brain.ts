@@ -168,8 +168,8 @@ export interface Observation {
 
 /** All that a robot knows at one moment; any part may be missing. Angles are relative to the robot's front, anticlockwise, unless stated otherwise. */
 export interface Percept {
-  /** Time since the mission began. */
-  time_s: number;
+  /** Time since the mission began. Without it, one period after the previous percept. A percept that is not later than the previous one is ignored. */
+  time_s?: number;
   /** Random bits of this step, the only source of randomness of a brain. */
   random_words: [number, number, number, number];
   /** The id of the robot, known before the mission. */

@@ -42,12 +42,12 @@ impl Noise {
         if has_left || !is_motion_proposed {
             (self.centre, self.within_s) = (Point::default(), 0.0);
         }
-        self.grow(spec, situation.body.period_s);
+        self.grow(spec, situation.elapsed_s);
+        self.next_in_s -= situation.elapsed_s;
         if self.next_in_s <= 0.0 {
             self.draw(situation);
             self.next_in_s = spec.noise_s;
         }
-        self.next_in_s -= situation.body.period_s;
         direction(self.direction_rad).times(spec.noise + self.growth)
     }
 
@@ -55,7 +55,7 @@ impl Noise {
     fn advance(&mut self, situation: &Situation) {
         let (turned_rad, distance_m) = (
             situation.turned_rad,
-            situation.current_speed_m_s * situation.body.period_s,
+            situation.current_speed_m_s * situation.elapsed_s,
         );
         self.direction_rad = wrapped(self.direction_rad - turned_rad);
         let moved = Point {
@@ -63,12 +63,12 @@ impl Noise {
             y: 0.0,
         };
         self.centre = turned(moved.to(self.centre), direction(-turned_rad));
-        self.within_s += situation.body.period_s;
+        self.within_s += situation.elapsed_s;
     }
 
-    fn grow(&mut self, spec: &Schemas, period_s: f64) {
+    fn grow(&mut self, spec: &Schemas, elapsed_s: f64) {
         let max_growth = (spec.max_noise - spec.noise).max(0.0);
-        let change = max_growth * period_s / spec.blocked_after_s;
+        let change = max_growth * elapsed_s / spec.blocked_after_s;
         let is_blocked = self.within_s > spec.blocked_after_s;
         let change = if is_blocked {
             change
@@ -103,6 +103,7 @@ mod tests {
             beliefs: None,
             rings: &[],
             ahead: None,
+            elapsed_s: 0.1,
             turned_rad: 0.0,
             current_speed_m_s: speed_m_s,
         };
@@ -144,6 +145,7 @@ mod tests {
                 beliefs: None,
                 rings: &[],
                 ahead: None,
+                elapsed_s: 0.1,
                 turned_rad: 0.05,
                 current_speed_m_s: 0.0,
             };
@@ -175,6 +177,7 @@ mod tests {
             beliefs: None,
             rings: &[],
             ahead: None,
+            elapsed_s: 0.1,
             turned_rad: 0.0,
             current_speed_m_s: 0.0,
         };

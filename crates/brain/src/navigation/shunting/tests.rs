@@ -9,7 +9,7 @@ fn step<'s>(remaining_m: f64, hits: &'s [Ray], movers: &'s [Mover]) -> Step<'s> 
         target: Point { x: 2.0, y: 0.0 },
         remaining_m,
         turned_rad: 0.0,
-        period_s: 0.1,
+        elapsed_s: 0.1,
         max_speed_m_s: 1.0,
         hits,
         movers,

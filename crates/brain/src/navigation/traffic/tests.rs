@@ -1,6 +1,7 @@
 use super::*;
 use crate::io::body::{Other, RobotId};
 use crate::io::percept::{Neighbour, Percept};
+use crate::perception::beliefs::displacement::Displacement;
 use crate::perception::beliefs::others::Others;
 use crate::world_of_walls::rover;
 use base::random::{Entity, Purpose, Stream, stream, unit};
@@ -10,6 +11,14 @@ use proptest::prelude::*;
 
 /// Substeps of a step, after each of which the distances are checked.
 const SUBSTEPS: u32 = 10;
+
+fn odometry(body: &Body, speed_m_s: f64, turned_rad: f64) -> Odometry {
+    Odometry {
+        elapsed_s: body.period_s,
+        speed_m_s,
+        turned_rad,
+    }
+}
 
 /// A robot that follows the rule, and knows the others from exact percepts.
 struct TestRobot {
@@ -91,12 +100,12 @@ impl TestRobot {
     }
 
     fn decide(&mut self, percept: &Percept, wanted: Motion) -> Motion {
-        let way = direction(self.turned_rad / 2.0).times(self.moved_m);
         let (body, turned_rad) = (&self.body, self.turned_rad);
-        self.others.update(percept, body, way, turned_rad);
         let current_speed_m_s = self.speed_m_s;
-        self.traffic
-            .update(&self.others.movers, body, [current_speed_m_s, turned_rad]);
+        let odometry = odometry(body, current_speed_m_s, turned_rad);
+        let moved = Displacement::along(self.moved_m, &odometry);
+        self.others.update(percept, body, &moved);
+        self.traffic.update(&self.others.movers, body, &odometry);
         self.traffic.limit(wanted, body, current_speed_m_s)
     }
 
@@ -267,7 +276,11 @@ fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {
 
 fn limited(movers: &[Mover], wanted: [f64; 2], current_speed_m_s: f64) -> [f64; 2] {
     let mut traffic = Traffic::default();
-    traffic.update(movers, &rover(), [current_speed_m_s, 0.0]);
+    traffic.update(
+        movers,
+        &rover(),
+        &odometry(&rover(), current_speed_m_s, 0.0),
+    );
     let wanted = Motion {
         speed_m_s: wanted[0],
         turn_rate_rad_s: wanted[1],

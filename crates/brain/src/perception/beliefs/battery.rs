@@ -32,11 +32,11 @@ pub(crate) struct Battery {
 }
 
 impl Battery {
-    pub(crate) fn update(&mut self, percept: &Percept, period_s: f64) {
-        self.uptime_s += period_s;
+    pub(crate) fn update(&mut self, percept: &Percept, elapsed_s: f64) {
+        self.uptime_s += elapsed_s;
         let is_valid = |charge: &f64| (0.0..=1.0).contains(charge);
         let battery = percept.battery.filter(|battery| is_valid(&battery.value));
-        let Some(battery) = fresh(battery, &mut self.age_s, period_s) else {
+        let Some(battery) = fresh(battery, &mut self.age_s, elapsed_s) else {
             return;
         };
         let read = Level {

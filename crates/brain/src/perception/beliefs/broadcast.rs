@@ -21,6 +21,8 @@ const KIND_PHASE: f64 = 0.618_033_988_749_894_9;
 /// What the robot broadcast last, and when.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BroadcastState {
+    /// Time that a step is expected to take.
+    period_s: f64,
     goal: Option<Destination>,
     pub(super) heading_rad: f64,
     pub(super) observations: u32,
@@ -31,14 +33,24 @@ pub(crate) struct BroadcastState {
 }
 
 impl BroadcastState {
-    /// Whether a broadcast is due after one more period. The sum of periods may be off by half a
-    /// period; the remainder counts for the next broadcast, so that the mean rate does not depend
-    /// on the period.
-    pub(super) fn is_due(&mut self, own: RobotId, period_s: f64) -> bool {
-        let initial_s = || BROADCAST_PERIOD_S * phase(own, period_s);
-        let age_s = self.age_s.unwrap_or_else(initial_s) + period_s;
-        let is_due = age_s >= BROADCAST_PERIOD_S - period_s / 2.0;
-        let remainder_s = (age_s - BROADCAST_PERIOD_S).min(period_s / 2.0);
+    /// Before the first broadcast of a robot whose steps are expected to take this time.
+    pub(super) fn new(period_s: f64) -> Self {
+        Self {
+            period_s,
+            ..Self::default()
+        }
+    }
+
+    /// Whether a broadcast is due after a step of `elapsed_s`. The sum of steps may be off by half
+    /// a step; the remainder counts for the next broadcast, so that the mean rate does not depend
+    /// on the steps.
+    pub(super) fn is_due(&mut self, own: RobotId, elapsed_s: f64) -> bool {
+        let initial_s = || BROADCAST_PERIOD_S * phase(own, self.period_s);
+        let age_s = self.age_s.unwrap_or_else(initial_s) + elapsed_s;
+        let half_s = elapsed_s.min(BROADCAST_PERIOD_S) / 2.0;
+        let is_due = age_s >= BROADCAST_PERIOD_S - half_s;
+        let max_remainder_s = self.age_s.map_or(half_s, |_| BROADCAST_PERIOD_S / 2.0);
+        let remainder_s = (age_s - BROADCAST_PERIOD_S).min(max_remainder_s);
         self.age_s = Some(if is_due { remainder_s } else { age_s });
         if is_due {
             self.count = (self.count + 1) % BROADCASTS_PER_REPEAT;

@@ -1,5 +1,6 @@
 //! Localisation: the filter that estimates the pose of the robot.
 
+use super::displacement::Displacement;
 use super::pose::Pose;
 use super::readings::fresh;
 use super::validation_gate::{Innovation, ValidationGate, Verdict};
@@ -49,29 +50,15 @@ impl Localisation {
         })
     }
 
-    /// Updates the pose after a step in which the body moved `travelled_m` and turned.
-    pub(crate) fn update(
-        &mut self,
-        percept: &Percept,
-        body: &Body,
-        travelled_m: f64,
-        turned_rad: f64,
-    ) {
-        self.predict(travelled_m, turned_rad, body.period_s);
-        self.age_s += body.period_s;
-        if let Some(heading) = fresh(percept.heading_rad, &mut self.heading_s, body.period_s) {
-            self.update_heading(
-                &heading,
-                body,
-                turned_rad / body.period_s.max(f64::MIN_POSITIVE),
-            );
+    /// Updates the pose after a step with a displacement.
+    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
+        self.predict(moved);
+        self.age_s += moved.elapsed_s;
+        if let Some(heading) = fresh(percept.heading_rad, &mut self.heading_s, moved.elapsed_s) {
+            self.update_heading(&heading, body, moved.turn_rate_rad_s());
         }
-        if let Some(position) = fresh(percept.position, &mut self.position_s, body.period_s) {
-            self.update_position(
-                &position,
-                body,
-                travelled_m / body.period_s.max(f64::MIN_POSITIVE),
-            );
+        if let Some(position) = fresh(percept.position, &mut self.position_s, moved.elapsed_s) {
+            self.update_position(&position, body, moved.speed_m_s);
         }
     }
 
@@ -99,19 +86,25 @@ impl Localisation {
         }
     }
 
-    fn predict(&mut self, travelled_m: f64, turned_rad: f64, period_s: f64) {
+    fn predict(&mut self, moved: &Displacement) {
+        let Displacement {
+            elapsed_s,
+            path_m,
+            chord_m,
+            bearing_rad,
+            turned_rad,
+            ..
+        } = *moved;
         if let (Some((at, variance)), Some((heading_rad, heading_variance))) =
             (&mut self.at, self.heading)
         {
-            // Along the chord of the arc.
-            let motion = direction(heading_rad + turned_rad / 2.0).times(travelled_m);
+            let motion = direction(heading_rad + bearing_rad).times(chord_m);
             *at = at.plus(motion);
-            *variance += (ODOMETRY_ERROR * travelled_m) * (ODOMETRY_ERROR * travelled_m)
-                + PROCESS_NOISE_M2_S * period_s;
+            *variance += (ODOMETRY_ERROR * path_m) * (ODOMETRY_ERROR * path_m)
+                + PROCESS_NOISE_M2_S * elapsed_s;
             // P' = F P F^T with d(at)/d(heading) = the displacement turned left; the mean of both
             // axes.
-            *variance +=
-                motion.cross(self.covariance) + travelled_m * travelled_m * heading_variance / 2.0;
+            *variance += motion.cross(self.covariance) + chord_m * chord_m * heading_variance / 2.0;
             *variance = variance.max(0.0);
             let left = Point {
                 x: -motion.y,
@@ -123,7 +116,7 @@ impl Localisation {
         if let Some((heading_rad, variance)) = &mut self.heading {
             *heading_rad = wrapped(*heading_rad + turned_rad);
             *variance += (ODOMETRY_ERROR * turned_rad) * (ODOMETRY_ERROR * turned_rad)
-                + PROCESS_NOISE_RAD2_S * period_s;
+                + PROCESS_NOISE_RAD2_S * elapsed_s;
             self.heading_gate.predict(|heading| heading + turned_rad);
         }
     }
@@ -212,6 +205,21 @@ mod tests {
     use super::*;
     use crate::world_of_walls::{now, rover};
 
+    const AT_REST: Displacement = Displacement {
+        elapsed_s: 0.1,
+        path_m: 0.0,
+        chord_m: 0.0,
+        bearing_rad: 0.0,
+        turned_rad: 0.0,
+        speed_m_s: 0.0,
+    };
+    const AHEAD: Displacement = Displacement {
+        path_m: 0.1,
+        chord_m: 0.1,
+        speed_m_s: 1.0,
+        ..AT_REST
+    };
+
     fn percept(x: f64, y: f64, heading_rad: f64) -> Percept {
         Percept {
             position: Some(now(Point { x, y })),
@@ -227,19 +235,19 @@ mod tests {
             heading_rad: None,
             ..percept(1.0, 2.0, 0.0)
         };
-        localisation.update(&only_position, &rover(), 0.0, 0.0);
+        localisation.update(&only_position, &rover(), &AT_REST);
         assert_eq!(localisation.pose(), None);
-        localisation.update(&percept(1.0, 2.0, 0.0), &rover(), 0.0, 0.0);
+        localisation.update(&percept(1.0, 2.0, 0.0), &rover(), &AT_REST);
         assert_eq!(localisation.pose().unwrap().at, Point { x: 1.0, y: 2.0 });
     }
 
     #[test]
     fn odometry_predicts_the_pose_with_growing_deviation() {
         let mut localisation = Localisation::default();
-        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), 0.0, 0.0);
+        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), &AT_REST);
         let mut before_m = 0.0;
         for _ in 0..50 {
-            localisation.update(&Percept::default(), &rover(), 0.1, 0.0);
+            localisation.update(&Percept::default(), &rover(), &AHEAD);
             let pose = localisation.pose().unwrap();
             assert!(pose.deviation_m > before_m);
             before_m = pose.deviation_m;
@@ -255,7 +263,7 @@ mod tests {
         let mut localisation = Localisation::default();
         for step in 0..400 {
             let off = if step % 2 == 0 { 2.0 } else { -2.0 };
-            localisation.update(&percept(off, -off, 0.0), &body, 0.0, 0.0);
+            localisation.update(&percept(off, -off, 0.0), &body, &AT_REST);
         }
         let pose = localisation.pose().unwrap();
         assert!(pose.at.length() < 0.05, "{pose:?}");
@@ -273,7 +281,7 @@ mod tests {
                 value: Point::default(),
                 age_s: 0.2 + 0.1 * f64::from(step),
             });
-            localisation.update(&repeated, &body, 0.0, 0.0);
+            localisation.update(&repeated, &body, &AT_REST);
         }
         assert!((localisation.pose().unwrap().deviation_m - 2.0).abs() < 1e-4);
     }
@@ -281,7 +289,7 @@ mod tests {
     #[test]
     fn a_delayed_reading_is_compensated_by_the_distance_since() {
         let mut localisation = Localisation::default();
-        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), 0.0, 0.0);
+        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), &AT_REST);
         let late = Percept {
             position: Some(Reading {
                 value: Point { x: 4.0, y: 0.0 },
@@ -289,17 +297,17 @@ mod tests {
             }),
             ..percept(0.0, 0.0, 0.0)
         };
-        localisation.update(&late, &rover(), 0.1, 0.0);
+        localisation.update(&late, &rover(), &AHEAD);
         assert!((localisation.pose().unwrap().at.x - 4.05).abs() < 1e-9);
     }
 
     #[test]
     fn invalid_readings_are_ignored() {
         let mut localisation = Localisation::default();
-        localisation.update(&percept(1.0, 1.0, 1.0), &rover(), 0.0, 0.0);
+        localisation.update(&percept(1.0, 1.0, 1.0), &rover(), &AT_REST);
         let before = localisation.pose();
         for bad in [f64::NAN, f64::INFINITY, -1e300] {
-            localisation.update(&percept(bad, 0.0, bad), &rover(), 0.0, 0.0);
+            localisation.update(&percept(bad, 0.0, bad), &rover(), &AT_REST);
             assert_eq!(localisation.pose().unwrap().at, before.unwrap().at);
         }
     }

@@ -40,9 +40,9 @@ impl Map {
 
     /// Whether scans are integrated: from about the same pose, they would only repeat the same
     /// errors.
-    pub(super) fn is_update_due(&mut self, pose: &Pose, period_s: f64) -> bool {
+    pub(super) fn is_update_due(&mut self, pose: &Pose, elapsed_s: f64) -> bool {
         if let Some((last, age_s)) = &mut self.last_update {
-            *age_s += period_s;
+            *age_s += elapsed_s;
             let moved_m2 = last.at.to(pose.at).length_squared();
             let turned_rad = wrapped(pose.heading_rad - last.heading_rad).abs();
             let min_m = MAP_UPDATE_CELLS * self.field.cell_m;

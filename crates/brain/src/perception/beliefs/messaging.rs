@@ -125,13 +125,13 @@ impl Beliefs {
     pub(crate) fn broadcast(
         &mut self,
         goal: Option<Destination>,
-        period_s: f64,
+        elapsed_s: f64,
         outbox: &mut Vec<Message>,
     ) {
         let Some(pose) = self.localisation.pose() else {
             return;
         };
-        let is_due = self.broadcast.is_due(self.id, period_s);
+        let is_due = self.broadcast.is_due(self.id, elapsed_s);
         let is_repeat_due = is_due && self.broadcast.count == 0;
         self.broadcast
             .broadcast_goal(goal, pose.at, is_repeat_due, outbox);

@@ -8,6 +8,7 @@
 mod battery;
 mod broadcast;
 pub(crate) mod coverage_map;
+pub(crate) mod displacement;
 pub(crate) mod field;
 pub(crate) mod items;
 mod localisation;

@@ -1,5 +1,6 @@
 //! Tracks of nearby robots and other moving objects.
 
+use super::displacement::Displacement;
 use super::mover::Mover;
 use super::pose::turned;
 use super::scan_objects::ScanObjects;
@@ -40,25 +41,20 @@ pub(crate) struct Others {
 }
 
 impl Others {
-    /// Updates the tracks after a step in which the robot moved by `motion` (in its previous frame)
-    /// and turned.
-    pub(crate) fn update(
-        &mut self,
-        percept: &Percept,
-        body: &Body,
-        motion: Point,
-        turned_rad: f64,
-    ) {
+    /// Updates the tracks after a step with a displacement.
+    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
+        let motion = moved.chord();
         self.movers.retain(|mover| mover.id.is_some());
-        self.predict(body.period_s, motion, turned_rad);
-        self.objects.predict(motion, turned_rad, body.period_s);
+        self.predict(motion, moved);
+        self.objects
+            .predict(motion, moved.turned_rad, moved.elapsed_s);
         let max_range_m = self.max_range_m(&percept.neighbours);
         let near = percept.neighbours.iter();
         for neighbour in near.filter(|neighbour| neighbour.range_m <= max_range_m) {
-            self.observe(neighbour, body, turned_rad);
+            self.observe(neighbour, body, moved);
         }
         self.movers.retain(|mover| mover.age_s <= MAX_AGE_S);
-        let speed_m_s = motion.length() / body.period_s.max(f64::MIN_POSITIVE);
+        let speed_m_s = motion.length() / moved.elapsed_s.max(f64::MIN_POSITIVE);
         let stopping_m = speed_m_s * speed_m_s / (2.0 * body.max_acceleration_m_s2);
         self.keep_nearest(&Segment {
             from: Point::default(),
@@ -88,24 +84,24 @@ impl Others {
         *max_range_m
     }
 
-    fn predict(&mut self, period_s: f64, motion: Point, turned_rad: f64) {
-        let back = direction(-turned_rad);
+    fn predict(&mut self, motion: Point, moved: &Displacement) {
+        let back = direction(-moved.turned_rad);
         for mover in &mut self.movers {
-            let moved = mover.velocity_m_s.times(period_s);
-            mover.at = turned(motion.to(mover.at.plus(moved)), back);
+            let drift = mover.velocity_m_s.times(moved.elapsed_s);
+            mover.at = turned(motion.to(mover.at.plus(drift)), back);
             mover.velocity_m_s = turned(mover.velocity_m_s, back);
             mover.course = turned(mover.course, back);
-            mover.age_s += period_s;
+            mover.age_s += moved.elapsed_s;
         }
     }
 
-    fn observe(&mut self, neighbour: &Neighbour, body: &Body, turned_rad: f64) {
+    fn observe(&mut self, neighbour: &Neighbour, body: &Body, own: &Displacement) {
         let other = body.others.get(usize::from(neighbour.id.kind));
         if other.is_some_and(|other| !other.is_in_the_way) || !is_valid(neighbour) {
             return;
         }
         // This robot has turned since the observation.
-        let since_rad = turned_rad / body.period_s.max(f64::MIN_POSITIVE) * neighbour.age_s;
+        let since_rad = own.turn_rate_rad_s() * neighbour.age_s;
         let at = direction(neighbour.bearing_rad - since_rad).times(neighbour.range_m);
         let gain = if body.neighbour_noise_m > 0.0 {
             NOISY_GAIN

@@ -42,11 +42,11 @@ pub(crate) struct Peers {
 }
 
 impl Peers {
-    pub(crate) fn advance(&mut self, period_s: f64) {
+    pub(crate) fn advance(&mut self, elapsed_s: f64) {
         for peer in &mut self.mates {
-            advance(&mut peer.reported, period_s);
-            advance(&mut peer.at, period_s);
-            advance(&mut peer.destination, period_s);
+            advance(&mut peer.reported, elapsed_s);
+            advance(&mut peer.at, elapsed_s);
+            advance(&mut peer.destination, elapsed_s);
         }
     }
 
@@ -174,9 +174,9 @@ impl Peer {
     }
 }
 
-fn advance<T>(reading: &mut Option<Reading<T>>, period_s: f64) {
+fn advance<T>(reading: &mut Option<Reading<T>>, elapsed_s: f64) {
     if let Some(reading) = reading {
-        reading.age_s += period_s;
+        reading.age_s += elapsed_s;
     }
 }
 

@@ -58,11 +58,11 @@ pub(crate) struct ScanObjects {
 impl ScanObjects {
     /// Predicts all objects after a step in which the robot moved by `motion` (in its previous
     /// frame) and turned.
-    pub(crate) fn predict(&mut self, motion: Point, turned_rad: f64, period_s: f64) {
+    pub(crate) fn predict(&mut self, motion: Point, turned_rad: f64, elapsed_s: f64) {
         let back = direction(-turned_rad);
         for object in &mut self.objects {
             object.at = turned(motion.to(object.at), back);
-            object.age_s += period_s;
+            object.age_s += elapsed_s;
         }
         self.objects.retain(|object| object.age_s <= MAX_AGE_S);
     }

@@ -9,12 +9,12 @@ use alloc::vec::Vec;
 pub(super) fn new_scans<'p>(
     percept: &'p Percept,
     rings: &'p [Ring],
-    period_s: f64,
+    elapsed_s: f64,
 ) -> impl Iterator<Item = (&'p Ring, &'p [f64])> {
     let scans = rings.iter().zip(&percept.scans);
     scans.filter_map(move |(ring, scan)| {
         let (age_s, ranges_m) = ring.fresh(Some(scan))?;
-        (age_s < ring.latency_s() + period_s).then_some((ring, ranges_m))
+        (age_s < ring.latency_s() + elapsed_s).then_some((ring, ranges_m))
     })
 }
 

@@ -3,6 +3,7 @@
 use super::battery::Battery;
 use super::broadcast::BroadcastState;
 use super::coverage_map::DetectorScan;
+use super::displacement::Displacement;
 use super::items::{Items, OwnObservation, Reception};
 use super::localisation::Localisation;
 use super::map::Map;
@@ -15,6 +16,7 @@ use super::trust::{Trust, TrustSpec};
 use crate::io::body::{Body, Detector, RobotId};
 use crate::io::percept::{Contact, Observation, Percept};
 use crate::perception::believed::BelievedItem;
+use crate::perception::dead_reckoning::Odometry;
 use crate::perception::rays::Ring;
 use crate::perception::sector::direction;
 use alloc::sync::Arc;
@@ -77,7 +79,7 @@ impl Beliefs {
             speed_m_s: 0.0,
             observations: 0,
             uptime_s: 0.0,
-            broadcast: BroadcastState::default(),
+            broadcast: BroadcastState::new(body.period_s),
         }
     }
 
@@ -141,35 +143,33 @@ impl Beliefs {
             .or_else(reported)
     }
 
-    /// Updates the beliefs after a step: `current_speed_m_s` is the estimated speed, `turned_rad` the turn
-    /// since the last step.
+    /// Updates the beliefs after a step.
     pub(crate) fn update(
         &mut self,
         percept: &Percept,
         body: &Body,
         rings: &[Ring],
-        [current_speed_m_s, turned_rad]: [f64; 2],
+        odometry: &Odometry,
     ) {
+        let elapsed_s = odometry.elapsed_s;
         self.id = percept.id;
-        self.uptime_s += body.period_s;
-        let travelled_m = travelled_m([self.speed_m_s, current_speed_m_s], body);
-        self.speed_m_s = current_speed_m_s;
-        self.localisation
-            .update(percept, body, travelled_m, turned_rad);
-        let motion = direction(turned_rad / 2.0).times(travelled_m);
-        self.others.update(percept, body, motion, turned_rad);
-        for (ring, ranges_m) in new_scans(percept, rings, body.period_s) {
+        self.uptime_s += elapsed_s;
+        let moved = Displacement::new(self.speed_m_s, odometry, body);
+        self.speed_m_s = odometry.speed_m_s;
+        self.localisation.update(percept, body, &moved);
+        self.others.update(percept, body, &moved);
+        for (ring, ranges_m) in new_scans(percept, rings, elapsed_s) {
             self.others.scan(ring, ranges_m);
         }
-        self.peers.advance(body.period_s);
-        self.battery.update(percept, body.period_s);
+        self.peers.advance(elapsed_s);
+        self.battery.update(percept, elapsed_s);
         let Some(pose) = self.localisation.pose() else {
             return;
         };
-        self.update_map(percept, &pose, rings, body.period_s);
-        let rate_rad_s = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
+        self.update_map(percept, &pose, rings, elapsed_s);
+        let rates = [odometry.speed_m_s, moved.turn_rate_rad_s()];
         for observation in &percept.observations {
-            let then = earlier(&pose, [current_speed_m_s, rate_rad_s], observation.age_s);
+            let then = earlier(&pose, rates, observation.age_s);
             self.update_items(observation, percept, body, then);
         }
         for received in &percept.inbox {
@@ -179,12 +179,12 @@ impl Beliefs {
             .learn(self.id, &mut self.trust, &self.prior.trust);
     }
 
-    fn update_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], period_s: f64) {
+    fn update_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], elapsed_s: f64) {
         let Some(map) = &mut self.map else {
             return;
         };
-        if map.is_update_due(pose, period_s) {
-            for scan in new_scans(percept, rings, period_s) {
+        if map.is_update_due(pose, elapsed_s) {
+            for scan in new_scans(percept, rings, elapsed_s) {
                 map.update(pose, &self.others, scan);
             }
         }
@@ -245,14 +245,6 @@ impl Beliefs {
             coverage.update(field, occupancy, &scan);
         }
     }
-}
-
-/// The distance travelled in a step: acceleration to the new speed first, then motion at that
-/// speed.
-fn travelled_m([previous_speed_m_s, current_speed_m_s]: [f64; 2], body: &Body) -> f64 {
-    let change_m_s = current_speed_m_s - previous_speed_m_s;
-    let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
-    current_speed_m_s * body.period_s - change_m_s * change_s.min(body.period_s) / 2.0
 }
 
 /// The pose some time ago, at a constant speed and turn rate.

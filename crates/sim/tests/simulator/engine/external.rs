@@ -226,7 +226,7 @@ fn absurd_percepts_are_handled() {
         for _ in 0..40 {
             let mut number = || absurd(&mut random);
             let percept = Percept {
-                time_s: number(),
+                time_s: Some(number()),
                 position: now(Point {
                     x: number(),
                     y: number(),

@@ -6,7 +6,7 @@ type Senders = (u32, Vec<RobotId>);
 /// The robots that broadcast in each step of a duration in seconds; all are stationary and have a
 /// destination.
 fn senders(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Senders> {
-    let mut sent = vec![BroadcastState::default(); own.len()];
+    let mut sent = vec![BroadcastState::new(period_s); own.len()];
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -5,6 +5,7 @@ use crate::io::percept::{Observation, Percept};
 use crate::perception::beliefs::coverage_map::MAX_DETECTION;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::perception::beliefs::{BeliefsSpec, TrustSpec};
+use crate::perception::dead_reckoning::Odometry;
 use crate::world_of_walls::{now, rover};
 use base::geometry::Rectangle;
 
@@ -64,7 +65,8 @@ impl Robot {
             inbox,
             ..Percept::default()
         };
-        self.beliefs.update(&percept, &self.body, &[], [0.0, 0.0]);
+        self.beliefs
+            .update(&percept, &self.body, &[], &still(&self.body));
     }
 
     /// Steps without messages for a duration in seconds.
@@ -80,6 +82,14 @@ impl Robot {
     fn detected(&self, x: f64, y: f64) -> f64 {
         let map = self.beliefs.map.as_ref().unwrap();
         1.0 - map.coverage.of(map.field.cell(Point { x, y }).unwrap())
+    }
+}
+
+fn still(body: &Body) -> Odometry {
+    Odometry {
+        elapsed_s: body.period_s,
+        speed_m_s: 0.0,
+        turned_rad: 0.0,
     }
 }
 
@@ -240,7 +250,7 @@ fn a_turning_robot_broadcasts_its_heading_at_once() {
             ..Percept::default()
         };
         let body = robot.body.clone();
-        robot.beliefs.update(&percept, &body, &[], [0.0, 0.0]);
+        robot.beliefs.update(&percept, &body, &[], &still(&body));
         let mut outbox = Vec::new();
         robot.beliefs.broadcast(None, 0.1, &mut outbox);
         let is_sender = |message: &Message| matches!(message.about, About::Sender { .. });

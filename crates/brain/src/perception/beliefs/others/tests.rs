@@ -3,6 +3,7 @@ use crate::io::body::Other;
 use crate::io::body::RobotId;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::BeliefsSpec;
+use crate::perception::dead_reckoning::Odometry;
 use crate::world_of_walls::rover;
 use base::trig::wrapped;
 use proptest::prelude::*;
@@ -19,6 +20,12 @@ fn neighbour(id: RobotId, at: Point) -> Neighbour {
     }
 }
 
+const STILL: Odometry = Odometry {
+    elapsed_s: 0.1,
+    speed_m_s: 0.0,
+    turned_rad: 0.0,
+};
+
 fn percept(neighbours: Vec<Neighbour>) -> Percept {
     Percept {
         neighbours,
@@ -28,7 +35,11 @@ fn percept(neighbours: Vec<Neighbour>) -> Percept {
 
 /// One observation at rest.
 fn observe(others: &mut Others, neighbours: Vec<Neighbour>) {
-    others.update(&percept(neighbours), &rover(), Point::default(), 0.0);
+    others.update(
+        &percept(neighbours),
+        &rover(),
+        &Displacement::along(0.0, &STILL),
+    );
 }
 
 /// The track of a robot with a constant velocity after a number of exact observations by a moving
@@ -38,26 +49,21 @@ fn tracked([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Poin
     let (mut at, mut heading_rad) = (Point::default(), 0.3);
     let mut other = Point { x: 3.0, y: -1.0 };
     let turned_rad = rate * 0.1;
-    let own_motion = direction(turned_rad / 2.0).times(speed * 0.1);
+    let turning = Odometry {
+        turned_rad,
+        ..STILL
+    };
+    let moved = Displacement::along(speed * 0.1, &turning);
+    let at_rest = Displacement::along(0.0, &STILL);
     for step in 0..steps {
         if step > 0 {
-            at = at.plus(turned(own_motion, direction(heading_rad)));
+            at = at.plus(turned(moved.chord(), direction(heading_rad)));
             heading_rad = wrapped(heading_rad + turned_rad);
             other = other.plus(velocity.times(0.1));
         }
         let observed = turned(at.to(other), direction(-heading_rad));
-        let motion = if step > 0 {
-            own_motion
-        } else {
-            Point::default()
-        };
         let percept = percept(vec![neighbour(OTHER, observed)]);
-        others.update(
-            &percept,
-            &rover(),
-            motion,
-            if step > 0 { turned_rad } else { 0.0 },
-        );
+        others.update(&percept, &rover(), if step > 0 { &moved } else { &at_rest });
     }
     (others.movers[0], turned(velocity, direction(-heading_rad)))
 }
@@ -121,7 +127,11 @@ fn invalid_neighbours_and_flying_ones_are_ignored() {
     body.others = vec![Other::default()];
     let near = neighbour(OTHER, Point { x: 1.0, y: 0.0 });
     let mut others = Others::default();
-    others.update(&percept(vec![near]), &body, Point::default(), 0.0);
+    others.update(
+        &percept(vec![near]),
+        &body,
+        &Displacement::along(0.0, &STILL),
+    );
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let off = [
             Neighbour {
@@ -172,13 +182,13 @@ fn renumbered_robots_keep_their_tracks_and_removed_ones_lose_them() {
             neighbour(robot(5), position(1.0)),
         ])
     };
-    beliefs.update(&both(3), &body, &[], [0.0, 0.0]);
+    beliefs.update(&both(3), &body, &[], &STILL);
     beliefs.renumber(&|id: RobotId| (id.index == 3).then_some(robot(1)));
     let movers = &beliefs.others.movers;
     assert_eq!(
         movers.iter().map(|mover| mover.id).collect::<Vec<_>>(),
         [Some(robot(1))]
     );
-    beliefs.update(&both(1), &body, &[], [0.0, 0.0]);
+    beliefs.update(&both(1), &body, &[], &STILL);
     assert_eq!(beliefs.others.movers[0].observations, 2);
 }
