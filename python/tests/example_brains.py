@@ -90,8 +90,8 @@ class Bumper:
     def __init__(self, body: Body) -> None:
         """Create the brain of a body."""
         self.body = body
-        self.period_s = np.float32(body["period_s"])
-        self.since_s = np.float32(0)
+        self.time_s: float | None = None
+        self.since_s: np.float32 | None = None
         self.left_rad: np.float32 | None = None
         self.patience_s = np.float32(0)
 
@@ -100,7 +100,8 @@ class Bumper:
         touch, wheels = percept["touch"], percept["motion"]
         assert touch is not None
         assert wheels is not None
-        turned_rad = wheels["value"]["turn_rate_rad_s"] * self.body["period_s"]
+        self.elapsed_s = self.elapsed(percept["time_s"])
+        turned_rad = wheels["value"]["turn_rate_rad_s"] * self.elapsed_s
         left_rad = self.left(percept["random_words"], turned_rad, is_held=touch["value"])
         most = self.body["max_turn_rate_rad_s"]
         turn = left_rad / self.body["period_s"]
@@ -108,18 +109,25 @@ class Bumper:
         motion = {"speed_m_s": speed_m_s, "turn_rate_rad_s": min(max(turn, -most), most)}
         return {"motion": motion, "requests": [], "outbox": []}  # type: ignore[typeddict-item]
 
+    def elapsed(self, time_s: float) -> float:
+        """Return the time since the previous percept: a step is not always one period long."""
+        before_s, self.time_s = self.time_s, time_s
+        period_s = self.body["period_s"]
+        elapsed_s = period_s if before_s is None else time_s - before_s
+        return period_s if math.isclose(elapsed_s, period_s, rel_tol=1e-9) else elapsed_s
+
     def left(self, random_words: Any, turned_rad: float, *, is_held: bool) -> float:
         """Return the remaining angle of a turn; 0 while it drives straight."""
         if self.left_rad is not None:
             self.left_rad -= np.float32(turned_rad)
-            self.patience_s -= np.float32(0) if is_held else self.period_s
+            self.patience_s -= np.float32(0 if is_held else self.elapsed_s)
             if abs(self.left_rad) > np.float32(0.02) and self.patience_s > 0:
                 return float(self.left_rad)
-            self.left_rad, self.since_s = None, np.float32(0)
+            self.left_rad, self.since_s = None, None
             return 0.0
-        straight_s = float(self.since_s)
-        self.since_s += self.period_s
-        if not is_held or straight_s < 0.5:
+        was_s, elapsed_s = self.since_s, np.float32(self.elapsed_s)
+        self.since_s = np.float32(0) if was_s is None else was_s + elapsed_s
+        if not is_held or self.since_s < 0.5:
             return 0.0
         least = math.pi / 4
         left_rad = least + (math.tau - least - least) * (random_words[1] / 2**32)

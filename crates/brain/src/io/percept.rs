@@ -6,7 +6,7 @@ use crate::io::message::Message;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// All that a robot knows at one moment; any part may be missing.
 ///
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub struct Percept {
     /// Time since the mission began. Without it, one period after the previous percept. A percept
     /// that is not later than the previous one is ignored.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "number")]
     #[schemars(with = "f64")]
     pub time_s: Option<f64>,
     /// Random bits of this step, the only source of randomness of a brain.
@@ -128,4 +128,9 @@ pub struct ReceivedMessage {
     pub age_s: f64,
     /// The message.
     pub message: Message,
+}
+
+/// Reads a number that may be omitted, but not be `null`, which stands for infinity in JSON.
+fn number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    f64::deserialize(from).map(Some)
 }
