@@ -248,6 +248,14 @@ ERRORS: list[tuple[Any, str]] = [
         {"motion": STAND, "outbox": {"row": [0], "confidence": 1, "item_kind": -1, "at": [1, 2]}},
         "outbox.heading_rad = None: must be",
     ),
+    (
+        {"motion": STAND, "outbox": MESSAGE | {"item_kind": -2}},
+        "outbox.issuer_kind = None: must be",
+    ),
+    (
+        {"motion": STAND, "outbox": MESSAGE | {"item_kind": -2, "issuer_kind": 256}},
+        r"outbox.issuer_kind\[0\] = 256.0: must be a whole number from 0 to 255",
+    ),
     *[
         (
             {"motion": STAND, "outbox": MESSAGE | {"confidence": [1.0, value]}},
@@ -312,6 +320,23 @@ def test_only_messages_about_the_sender_have_a_heading() -> None:
     courses = [inbox["heading_rad"].tolist() for inbox in received if len(inbox["row"])]
     assert courses
     assert {tuple(map(str, each[:2])) for each in courses} == {("0.5", "nan")}
+
+
+def test_messages_about_destinations_keep_the_ids_of_their_goals() -> None:
+    received: set[tuple[int, ...]] = set()
+
+    def announce(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del memory
+        inbox, rows = percepts["inbox"], np.arange(len(percepts["robots"]))
+        names = ("from_index", "issuer_kind", "issuer_index", "goal_number")
+        received.update(zip(*(inbox[name].tolist() for name in names), strict=True))  # type: ignore[literal-required]
+        ids = {"issuer_kind": 255, "issuer_index": 7, "goal_number": percepts["robots"]}
+        about = {"row": rows, "confidence": 1.0, "item_kind": -2, "at": [1.0, 2.0]}
+        return {"motion": STAND, "outbox": about | ids}  # type: ignore[typeddict-item]
+
+    Simulation("search", brains={"rover": Batch(announce)}).step(10)
+    assert received
+    assert all(message == (message[0], 255, 7, message[0]) for message in received)
 
 
 def test_a_batch_gets_the_same_body_as_a_class() -> None:

@@ -18,6 +18,7 @@ use crate::spec::BrainSpec;
 use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use core::cell::Cell;
 
 /// The brain of one robot.
 ///
@@ -220,11 +221,17 @@ impl Brain {
             Some(BeliefBrain { beliefs, selection }) => (Some(&*beliefs), Some(selection)),
             None => (None, None),
         };
+        let last_goal = Cell::new(
+            selection
+                .as_ref()
+                .map_or(0, |selection| selection.last_goal),
+        );
         let situation = Situation {
             percept,
             body,
             beliefs,
             rings: &governor.rings,
+            last_goal: &last_goal,
             ahead: governor.ahead(percept, body, current_speed_m_s),
             elapsed_s,
             turned_rad,
@@ -241,6 +248,7 @@ impl Brain {
             motion = governor.limit(motion, &situation, &self.odometry);
         }
         if let (Some(beliefs), Some(selection)) = (beliefs, selection) {
+            selection.last_goal = last_goal.get();
             let traffic = &mut selection.navigator.traffic;
             let odometry = Odometry {
                 elapsed_s,

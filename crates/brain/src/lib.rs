@@ -49,6 +49,7 @@ pub use goals::Verdict;
 pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, HeadingOptions};
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
+pub use io::goal_id::GoalId;
 pub use io::message::{About, CommitmentStatus, Message, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;

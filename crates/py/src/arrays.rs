@@ -1,7 +1,9 @@
 //! Percepts of all robots of a kind as arrays, with one entry per robot.
 
 use base::geometry::Point;
-use brain::{About, CommitmentStatus, Motion, Percept, Provenance, Reading, ReceivedMessage};
+use brain::{
+    About, CommitmentStatus, GoalId, Motion, Percept, Provenance, Reading, ReceivedMessage,
+};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -34,6 +36,21 @@ fn provenance(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
         i64::from(of(received).observer.index)
     })?;
     entries.put("track_id", |received| i64::from(of(received).track_id))
+}
+
+/// The goal ids of messages; zero in a message that is not about a destination.
+fn goal_ids(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
+    let of = |received: &ReceivedMessage| match received.message.about {
+        About::Goal { id, .. } => id,
+        _ => GoalId::default(),
+    };
+    entries.put("issuer_kind", |received| {
+        i64::from(of(received).issuer.kind)
+    })?;
+    entries.put("issuer_index", |received| {
+        i64::from(of(received).issuer.index)
+    })?;
+    entries.put("goal_number", |received| i64::from(of(received).number))
 }
 
 /// The percepts of the robots of a kind, by the fields of a percept; NaN or false marks a missing value.
@@ -261,6 +278,7 @@ fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
         About::Goal { .. } => 0_i64,
     })?;
     provenance(&entries)?;
+    goal_ids(&entries)?;
     entries.put("status", |received| {
         let About::Goal { status, .. } = received.message.about else {
             return 0_i64;

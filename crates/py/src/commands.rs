@@ -2,7 +2,7 @@
 
 use crate::arrays::{GOAL, STATUSES};
 use base::geometry::Point;
-use brain::{About, Message, Motion, Provenance, SensorRequest};
+use brain::{About, GoalId, Message, Motion, Provenance, RobotId, SensorRequest};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use sim::step::PendingDecision;
@@ -31,6 +31,9 @@ struct Outbox<'py> {
     at: PyReadonlyArray2<'py, f64>,
     heading_rad: PyReadonlyArray1<'py, f64>,
     observations: PyReadonlyArray1<'py, u32>,
+    issuer_kind: PyReadonlyArray1<'py, u8>,
+    issuer_index: PyReadonlyArray1<'py, u32>,
+    goal_number: PyReadonlyArray1<'py, u32>,
     status: PyReadonlyArray1<'py, u8>,
 }
 
@@ -66,6 +69,19 @@ impl Requests<'_> {
 }
 
 impl Outbox<'_> {
+    fn goal_ids(&self) -> impl Iterator<Item = GoalId> {
+        let kinds = self.issuer_kind.as_array().into_iter();
+        let issuers = kinds.zip(self.issuer_index.as_array());
+        let ids = issuers.zip(self.goal_number.as_array());
+        ids.map(|((kind, index), number)| GoalId {
+            issuer: RobotId {
+                kind: *kind,
+                index: *index,
+            },
+            number: *number,
+        })
+    }
+
     fn apply(&self, decisions: &mut [PendingDecision]) {
         let places = self.at.as_array();
         let places = places
@@ -78,9 +94,10 @@ impl Outbox<'_> {
             .observations
             .as_array()
             .into_iter()
-            .zip(self.status.as_array());
+            .zip(self.status.as_array())
+            .zip(self.goal_ids());
         let abouts = abouts.zip(more).map(|((at, (kind, heading_rad)), more)| {
-            let (observations, status) = (*more.0, *more.1);
+            let ((observations, status), id) = ((*more.0.0, *more.0.1), more.1);
             match u16::try_from(*kind) {
                 // A receiver then counts it as observed by the sender.
                 Ok(kind) => About::Item {
@@ -89,6 +106,7 @@ impl Outbox<'_> {
                     provenance: Provenance::default(),
                 },
                 Err(_) if *kind == GOAL => About::Goal {
+                    id,
                     at,
                     status: STATUSES[usize::from(status) % STATUSES.len()],
                 },

@@ -99,6 +99,10 @@ class Inbox(TypedDict):
         observer_kind: Kind of the robot that observed the item.
         observer_index: Index of that robot within its kind.
         track_id: The number that the observer gave the item.
+        issuer_kind: Kind of the robot that numbered the goal of which this is the destination; 255
+            if no robot did. The same goal has the same issuer and number in all messages.
+        issuer_index: Index of that robot within its kind.
+        goal_number: The number that the issuer gave the goal.
         status: Status of the sender's commitment to a destination: 0 active, 1 done, 2 released.
     """
 
@@ -114,6 +118,9 @@ class Inbox(TypedDict):
     observer_kind: Integers
     observer_index: Integers
     track_id: Integers
+    issuer_kind: Integers
+    issuer_index: Integers
+    goal_number: Integers
     status: Integers
 
 
@@ -172,7 +179,7 @@ class Requests(TypedDict):
 
 
 class Outbox(TypedDict):
-    """Messages to send, as in `Inbox`; the last three entries only where they apply."""
+    """Messages to send, as in `Inbox`; entries from `heading_rad` on only where they apply."""
 
     row: ArrayLike
     confidence: ArrayLike
@@ -180,6 +187,9 @@ class Outbox(TypedDict):
     at: ArrayLike
     heading_rad: NotRequired[ArrayLike]
     observations: NotRequired[ArrayLike]
+    issuer_kind: NotRequired[ArrayLike]
+    issuer_index: NotRequired[ArrayLike]
+    goal_number: NotRequired[ArrayLike]
     status: NotRequired[ArrayLike]
 
 

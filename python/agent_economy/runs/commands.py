@@ -24,7 +24,8 @@ SENDER, DESTINATION = -1, -2
 ACTIVE, RELEASED = 0, 2
 """The first and the last commitment status."""
 
-MAX_OBSERVATIONS = 2**32 - 1
+MAX_KIND, MAX_COUNT = 2**8 - 1, 2**32 - 1
+"""Maximum kind of an id, and maximum index, number and count of observations."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,9 @@ class Outbox:
     at: Floats
     heading_rad: Floats
     observations: NDArray[np.uint32]
+    issuer_kind: NDArray[np.uint8]
+    issuer_index: NDArray[np.uint32]
+    goal_number: NDArray[np.uint32]
     status: NDArray[np.uint8]
 
 
@@ -178,13 +182,30 @@ def outbox(commands: Table, robots: int, item_kinds: int) -> Outbox:
     heading_rad = table.numbers("heading_rad", row.shape) if has_heading else np.zeros(row.shape)
     observations = np.zeros(row.shape, np.uint32)
     if "observations" in table:
-        observations = table.integers("observations", row.shape, (0, MAX_OBSERVATIONS)).astype(
-            np.uint32
-        )
+        observations = table.integers("observations", row.shape, (0, MAX_COUNT)).astype(np.uint32)
     status = np.zeros(row.shape, np.uint8)
     if "status" in table:
         status = table.integers("status", row.shape, (ACTIVE, RELEASED)).astype(np.uint8)
-    return Outbox(row, confidence, item_kind, at, heading_rad, observations, status)
+    has_goals = np.any(item_kind == DESTINATION)
+    ids = goal_ids(table, row.shape) if has_goals else no_ids(row.shape)
+    return Outbox(row, confidence, item_kind, at, heading_rad, observations, *ids, status)
+
+
+GoalIds: TypeAlias = tuple[NDArray[np.uint8], NDArray[np.uint32], NDArray[np.uint32]]
+"""Ids of goals: kinds and indices of their issuers, and their numbers."""
+
+
+def goal_ids(table: Table, shape: Shape) -> GoalIds:
+    """Return the ids of the goals that messages are about."""
+    kind = table.integers("issuer_kind", shape, (0, MAX_KIND)).astype(np.uint8)
+    index = table.integers("issuer_index", shape, (0, MAX_COUNT)).astype(np.uint32)
+    return kind, index, table.integers("goal_number", shape, (0, MAX_COUNT)).astype(np.uint32)
+
+
+def no_ids(shape: Shape) -> GoalIds:
+    """Return the ids of messages that are not about a goal."""
+    zeros = np.zeros(shape, np.uint32)
+    return zeros.astype(np.uint8), zeros, zeros
 
 
 EMPTY = Table("commands", {}, batch.Commands.__annotations__)

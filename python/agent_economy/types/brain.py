@@ -35,6 +35,22 @@ class Provenance(TypedDict):
     observations: int
 
 
+class GoalId(TypedDict):
+    """The id of a goal.
+
+    It alone decides whether two goals are the same: a goal may move, and two goals may lie at
+    one place.
+
+    Attributes:
+        issuer: The robot that numbered the goal, by its id at that time. A list of waypoints
+            has an issuer of kind 255, the same for all robots with the same list.
+        number: Its number among the goals of the issuer; in a list of waypoints, its index.
+    """
+
+    issuer: RobotId
+    number: int
+
+
 CommitmentStatus: TypeAlias = Literal["active", "done", "released"]
 """The status of a commitment to a destination."""
 
@@ -71,10 +87,12 @@ class AboutGoal(TypedDict):
     """A destination of the sender.
 
     Attributes:
+        id: Its id.
         at: Its position in the world.
         status: The status of the commitment.
     """
 
+    id: GoalId
     at: Point
     status: CommitmentStatus
 

@@ -33,6 +33,8 @@ pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
     pursued: Option<Destination>,
+    /// Number of the last goal that the robot chose itself.
+    pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
     pub(crate) proposals: Vec<(usize, Proposal)>,
 }
@@ -84,7 +86,7 @@ impl GoalSelection {
 
     pub(crate) fn is_pursued(&self, goal: &Goal) -> bool {
         self.pursued
-            .is_some_and(|pursued| pursued.at == goal.destination.at)
+            .is_some_and(|pursued| pursued.id == goal.destination.id)
     }
 
     /// Index of the behaviour whose goal the robot pursues.
@@ -99,7 +101,7 @@ impl GoalSelection {
         let goals = &mut self.goals.goals;
         goals.retain(|goal| goal.behaviour < behaviour);
         let is_kept =
-            |pursued: &Destination| goals.iter().any(|goal| goal.destination.at == pursued.at);
+            |pursued: &Destination| goals.iter().any(|goal| goal.destination.id == pursued.id);
         self.pursued = self.pursued.filter(is_kept);
     }
 
@@ -112,7 +114,7 @@ impl GoalSelection {
         layers: &mut [Layer<Memory>],
         situation: &Situation,
     ) -> Motion {
-        let pursued = self.pursued.take().map(|destination| destination.at);
+        let pursued = self.pursued.take().map(|destination| destination.goal());
         let Some(beliefs) = situation.beliefs else {
             return Motion::default();
         };
@@ -131,9 +133,10 @@ impl GoalSelection {
             period_s: situation.body.period_s,
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
-            pursued: pursued.map(|to| (to, self.navigator.remaining_m(pose.at, to))),
+            pursued: pursued.map(|goal| (goal, self.navigator.remaining_m(pose.at, goal))),
         };
         self.goals.update(destinations, &step);
+        let pursued_id = pursued.map(|goal| goal.id);
         for goal in self.goals.unreported() {
             if let (Some(behaviour), Some(layer)) = (
                 behaviours.get(goal.behaviour),
@@ -141,7 +144,7 @@ impl GoalSelection {
             ) {
                 behaviour.judged(layer.memory(), goal.verdict);
             }
-            if goal.verdict == Verdict::Impossible && pursued == Some(goal.destination.at) {
+            if goal.verdict == Verdict::Impossible && pursued_id == Some(goal.destination.id) {
                 self.navigator.discard_plan();
             }
         }

@@ -108,6 +108,7 @@ mod tests {
     use crate::world_of_walls::{Walk, Wiring, outline, rover};
     use base::geometry::Segment;
     use base::trig::wrapped;
+    use core::cell::Cell;
 
     /// Keeps heading 0: Bender's "correct", as the lowest behaviour.
     #[derive(Clone)]
@@ -195,6 +196,7 @@ mod tests {
                 body: &body,
                 beliefs: None,
                 rings: &governor.rings,
+                last_goal: &Cell::new(0),
                 ahead: governor.ahead(&percept, &body, current_speed_m_s),
                 elapsed_s: body.period_s,
                 turned_rad,
@@ -275,6 +277,7 @@ mod tests {
                 body: &body,
                 beliefs: None,
                 rings: &[],
+                last_goal: &Cell::new(0),
                 ahead: None,
                 elapsed_s: body.period_s,
                 turned_rad: 0.0,

@@ -7,6 +7,7 @@ use super::survey::{Survey, destination};
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
+use crate::io::goal_id::GoalPlace;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::beliefs::{Beliefs, Map};
 use crate::perception::situation::Situation;
@@ -167,20 +168,20 @@ impl GoalBehaviour for Ready {
         let known = Known::new(situation)?;
         let search = search.get_or_insert_default();
         let destination = search.survey.current(situation.elapsed_s);
-        let is_there = |to: Point| known.pose.at.to(to).length() <= self.destination.tolerance_m;
+        let is_there =
+            |to: GoalPlace| known.pose.at.to(to.at).length() <= self.destination.tolerance_m;
         if destination.is_some_and(is_there) {
             // The expected detections that were not made on the path cannot be made from there.
             search.survey.abandon();
         }
         let min_expected = DONE * search.was;
-        let is_on = |to: &Point| known.expected(&self.outlook, *to) > min_expected;
+        let is_on = |to: &GoalPlace| known.expected(&self.outlook, to.at) > min_expected;
         let to = if let Some(to) = destination.filter(|to| !is_there(*to) && is_on(to)) {
             to
         } else {
-            let to = self.best(search, situation, &known)?;
-            search.was = known.expected(&self.outlook, to);
-            search.survey.destination = Some((to, 0.0));
-            to
+            let at = self.best(search, situation, &known)?;
+            search.was = known.expected(&self.outlook, at);
+            search.survey.select(at, situation)
         };
         Some(self.drive_to(to))
     }

@@ -26,6 +26,7 @@ mod tests {
     use crate::perception::dead_reckoning::DeadReckoning;
     use crate::world_of_walls::{Walk, room, rover};
     use base::geometry::Point;
+    use core::cell::Cell;
     use core::f64::consts::FRAC_PI_2;
 
     fn zigzag() -> BehaviourSpec {
@@ -49,6 +50,7 @@ mod tests {
                 body: &body,
                 beliefs: None,
                 rings: &sight.rings,
+                last_goal: &Cell::new(0),
                 ahead: sight.ahead(&percept, &body, current_speed_m_s),
                 elapsed_s: body.period_s,
                 turned_rad,

@@ -4,6 +4,7 @@ use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
@@ -55,6 +56,7 @@ impl Ready {
             robot: spec.robot,
             apart_m: spec.distance_m + 2.0 * body.radius_m,
             destination: Destination {
+                id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: 0.1,
                 max_speed_m_s: body.max_speed_m_s,
@@ -73,14 +75,14 @@ impl Ready {
 }
 
 impl GoalBehaviour for Ready {
-    /// The current destination.
-    type Progress = Point;
+    /// The goal, which moves with the leader.
+    type Progress = GoalPlace;
 
     fn destination(&self) -> &Destination {
         &self.destination
     }
 
-    fn goal(&self, to: &mut Option<Box<Point>>, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, to: &mut Option<Box<GoalPlace>>, situation: &Situation) -> Option<Proposal> {
         let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let leader = self.leader(situation.percept.id)?;
@@ -91,9 +93,9 @@ impl GoalBehaviour for Ready {
             return Some(Motion::default().into());
         }
         let beside = at.plus(way.times(self.apart_m / away_m));
-        let to = to.get_or_insert_with(|| Box::new(beside));
-        if to.to(beside).length() >= SAME_M {
-            **to = beside;
+        let to = to.get_or_insert_with(|| Box::new(situation.new_goal(beside)));
+        if to.at.to(beside).length() >= SAME_M {
+            to.at = beside;
         }
         Some(self.drive_to(**to))
     }

@@ -90,13 +90,12 @@ impl GoalBehaviour for Ready {
         let map = beliefs.map.as_ref()?;
         let survey = survey.get_or_insert_default();
         let current = survey.current(situation.elapsed_s);
-        let current = current.filter(|to| is_unseen(map, *to));
+        let current = current.filter(|to| is_unseen(map, to.at));
         let to = if let Some(to) = current {
             to
         } else {
-            let to = nearest(survey, situation, beliefs, map)?;
-            survey.destination = Some((to, 0.0));
-            to
+            let at = nearest(survey, situation, beliefs, map)?;
+            survey.select(at, situation)
         };
         Some(self.drive_to(to))
     }

@@ -4,9 +4,9 @@ use super::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::command::Motion;
+use crate::io::goal_id::GoalPlace;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
-use base::geometry::Point;
 
 /// A behaviour that selects places by the robot's beliefs, and stays where nothing is left to do.
 /// [Navigation](crate::navigation::navigator) finds the path.
@@ -17,7 +17,7 @@ pub(crate) trait GoalBehaviour {
     /// Whether it searches for items, for which it requires an item detector.
     const SEARCHES: bool = false;
 
-    /// Its destinations, without their position.
+    /// Its destinations, without their goal and place.
     fn destination(&self) -> &Destination;
 
     /// The destination of this step, or a motion where the robot is. `progress` is `None` until this
@@ -31,9 +31,10 @@ pub(crate) trait GoalBehaviour {
     /// Called while its destination is not being approached.
     fn judged(&self, _progress: &mut Self::Progress, _verdict: Verdict) {}
 
-    /// The proposal to be at a place.
-    fn drive_to(&self, at: Point) -> Proposal {
+    /// The proposal to be at the place of a goal.
+    fn drive_to(&self, GoalPlace { id, at }: GoalPlace) -> Proposal {
         Proposal::Destination(Destination {
+            id,
             at,
             ..*self.destination()
         })

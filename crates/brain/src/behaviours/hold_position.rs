@@ -4,6 +4,7 @@ use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::command::Motion;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -48,6 +49,7 @@ impl Ready {
         Self {
             at: spec.at_m,
             destination: Destination {
+                id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: spec.within_m,
                 max_speed_m_s: body.max_speed_m_s,
@@ -59,18 +61,19 @@ impl Ready {
 
 impl GoalBehaviour for Ready {
     /// The position to hold.
-    type Progress = Point;
+    type Progress = GoalPlace;
 
     fn destination(&self) -> &Destination {
         &self.destination
     }
 
-    fn goal(&self, held: &mut Option<Box<Point>>, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, held: &mut Option<Box<GoalPlace>>, situation: &Situation) -> Option<Proposal> {
         let Some(pose) = situation.beliefs.and_then(Beliefs::pose) else {
             return Some(Motion::default().into());
         };
-        let to = **held.get_or_insert_with(|| Box::new(self.at.unwrap_or(pose.at)));
-        let is_there = pose.at.to(to).length() <= self.destination.tolerance_m;
+        let choose = || situation.new_goal(self.at.unwrap_or(pose.at));
+        let to = **held.get_or_insert_with(|| Box::new(choose()));
+        let is_there = pose.at.to(to.at).length() <= self.destination.tolerance_m;
         Some(if is_there {
             Motion::default().into()
         } else {

@@ -4,6 +4,7 @@ use super::goal_behaviour::GoalBehaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::beliefs::field::Field;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -66,6 +67,8 @@ pub(crate) struct Progress {
     visited: u32,
     /// The next corner, once it is computed.
     to: Option<Point>,
+    /// The goal of being there.
+    goal: Option<GoalPlace>,
 }
 
 impl Ready {
@@ -76,6 +79,7 @@ impl Ready {
             width_m: width_m.max(2.0 * body.radius_m),
             inset_m: (range_m / 2.0).min(width_m / 2.0).max(1.5 * body.radius_m),
             destination: Destination {
+                id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: (0.1 * width_m).clamp(0.2, 2.0),
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
@@ -92,6 +96,7 @@ impl Progress {
             passes: 0,
             visited: 0,
             to: None,
+            goal: None,
         }
     }
 
@@ -245,7 +250,8 @@ impl GoalBehaviour for Ready {
         if progress.to.is_some_and(is_there) {
             progress.advance();
         }
-        let to = self.place(progress, field)?;
+        let to = situation.goal_at(self.place(progress, field)?, progress.goal);
+        progress.goal = Some(to);
         Some(self.drive_to(to))
     }
 

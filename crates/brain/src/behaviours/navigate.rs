@@ -1,10 +1,11 @@
 //! Visiting waypoints.
 
-use super::errands::Errands;
+use super::errands::{Errands, Waypoints};
 use super::goal_behaviour::GoalBehaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -72,15 +73,18 @@ impl Default for Navigate {
 /// [`Navigate`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    spec: Navigate,
+    assignment: Assignment,
+    waypoints: Waypoints,
     destination: Destination,
 }
 
 impl Ready {
     pub(super) fn new(spec: &Navigate, body: &Body) -> Self {
         Self {
-            spec: spec.clone(),
+            assignment: spec.assignment,
+            waypoints: Waypoints::new(&spec.waypoints_m),
             destination: Destination {
+                id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: spec.within_m,
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
@@ -90,10 +94,9 @@ impl Ready {
     }
 
     /// The waypoints of a robot, the next one last.
-    #[expect(clippy::cast_possible_truncation, reason = "ten thousand at most")]
     fn errands(&self, situation: &Situation) -> Errands {
-        let count = self.spec.waypoints_m.len() as u32;
-        Errands::new(match self.spec.assignment {
+        let count = self.waypoints.count();
+        Errands::new(match self.assignment {
             Assignment::All | Assignment::Shared => (0..count).rev().collect(),
             Assignment::OneEach => {
                 let own = situation.percept.id.index.checked_rem(count);
@@ -102,13 +105,13 @@ impl Ready {
         })
     }
 
-    fn next(&self, errands: &mut Errands, at: Point, situation: &Situation) -> Option<Point> {
-        let places = &self.spec.waypoints_m;
-        match self.spec.assignment {
-            Assignment::All | Assignment::OneEach => errands.next(places),
+    fn next(&self, errands: &mut Errands, at: Point, situation: &Situation) -> Option<GoalPlace> {
+        let waypoints = &self.waypoints;
+        match self.assignment {
+            Assignment::All | Assignment::OneEach => errands.next(waypoints),
             Assignment::Shared => {
                 let mates = &situation.beliefs?.peers;
-                errands.next_of_team(places, (situation.percept.id, at), mates)
+                errands.next_of_team(waypoints, (situation.percept.id, at), mates)
             }
         }
     }
@@ -126,7 +129,7 @@ impl GoalBehaviour for Ready {
         let at = situation.beliefs?.pose()?.at;
         let errands = errands.get_or_insert_with(|| Box::new(self.errands(situation)));
         let mut to = self.next(errands, at, situation)?;
-        if at.to(to).length() <= self.spec.within_m {
+        if at.to(to.at).length() <= self.destination.tolerance_m {
             errands.pop();
             to = self.next(errands, at, situation)?;
         }

@@ -4,6 +4,7 @@ use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::command::Motion;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -62,6 +63,7 @@ impl Ready {
         Self {
             spec: spec.clone(),
             destination: Destination {
+                id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: spec.within_m,
                 max_speed_m_s: body.max_speed_m_s,
@@ -86,7 +88,7 @@ impl Ready {
 
 impl GoalBehaviour for Ready {
     /// The base, and the minimum charge since the robot started to return, if it did.
-    type Progress = (Point, Option<f64>);
+    type Progress = (GoalPlace, Option<f64>);
 
     fn destination(&self) -> &Destination {
         &self.destination
@@ -94,14 +96,15 @@ impl GoalBehaviour for Ready {
 
     fn goal(
         &self,
-        progress: &mut Option<Box<(Point, Option<f64>)>>,
+        progress: &mut Option<Box<(GoalPlace, Option<f64>)>>,
         situation: &Situation,
     ) -> Option<Proposal> {
         let beliefs = situation.beliefs?;
         let at = beliefs.pose()?.at;
-        let begin = || Box::new((self.spec.at_m.unwrap_or(at), None));
+        let base = || situation.new_goal(self.spec.at_m.unwrap_or(at));
+        let begin = || Box::new((base(), None));
         let (to, low) = &mut **progress.get_or_insert_with(begin);
-        let way_m = at.to(*to).length();
+        let way_m = at.to(to.at).length();
         *low = self.low_since(*low, way_m, beliefs);
         low.map(|_| {
             if way_m <= self.spec.within_m {

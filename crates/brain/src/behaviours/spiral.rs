@@ -5,6 +5,7 @@ use super::lawnmower::swath_m;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::sector::direction;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -55,6 +56,25 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
+/// Progress of a robot on its spiral.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Winding {
+    middle: Point,
+    /// Distance along the spiral.
+    along_m: f64,
+    goal: Option<GoalPlace>,
+}
+
+impl Winding {
+    fn new(middle: Point) -> Self {
+        Self {
+            middle,
+            along_m: 0.0,
+            goal: None,
+        }
+    }
+}
+
 impl Ready {
     pub(super) fn new(spec: &Spiral, body: &Body) -> Self {
         let (width_m, _) = swath_m(body);
@@ -64,6 +84,7 @@ impl Ready {
             around: spec.around_m,
             width_m,
             destination: Destination {
+                id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: width_m / 4.0,
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
@@ -82,7 +103,10 @@ impl Ready {
     }
 
     /// The next point inside the field that is not within the tolerance.
-    fn next(&self, (middle, along_m): &mut (Point, f64), situation: &Situation) -> Option<Point> {
+    fn next(&self, winding: &mut Winding, situation: &Situation) -> Option<Point> {
+        let Winding {
+            middle, along_m, ..
+        } = winding;
         let beliefs = situation.beliefs?;
         let (at, field) = (beliefs.pose()?.at, &beliefs.map.as_ref()?.field);
         let size = field.size();
@@ -104,28 +128,24 @@ impl Ready {
 }
 
 impl GoalBehaviour for Ready {
-    /// The centre, and the distance along the spiral in metres.
-    type Progress = (Point, f64);
+    type Progress = Winding;
 
     fn destination(&self) -> &Destination {
         &self.destination
     }
 
-    fn goal(
-        &self,
-        spiral: &mut Option<Box<(Point, f64)>>,
-        situation: &Situation,
-    ) -> Option<Proposal> {
+    fn goal(&self, winding: &mut Option<Box<Winding>>, situation: &Situation) -> Option<Proposal> {
         let at = situation.beliefs?.pose()?.at;
         let middle = self.around.unwrap_or(at);
-        let spiral = spiral.get_or_insert_with(|| Box::new((middle, 0.0)));
-        let to = self.next(spiral, situation)?;
+        let winding = winding.get_or_insert_with(|| Box::new(Winding::new(middle)));
+        let to = situation.goal_at(self.next(winding, situation)?, winding.goal);
+        winding.goal = Some(to);
         Some(self.drive_to(to))
     }
 
-    fn judged(&self, (_, along_m): &mut (Point, f64), verdict: Verdict) {
+    fn judged(&self, winding: &mut Winding, verdict: Verdict) {
         if verdict == Verdict::Impossible {
-            *along_m += self.width_m / 2.0;
+            winding.along_m += self.width_m / 2.0;
         }
     }
 }

@@ -2,9 +2,11 @@
 
 use crate::goals::proposal::Destination;
 use crate::io::body::Body;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::navigation::path::Wavefront;
 use crate::perception::beliefs::peers::Peer;
 use crate::perception::beliefs::{Beliefs, Map};
+use crate::perception::situation::Situation;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -25,7 +27,7 @@ const MAX_ABANDONED: usize = 16;
 pub(crate) struct Survey {
     wavefront: Wavefront,
     /// The current destination, and the time since it was selected.
-    pub(crate) destination: Option<(Point, f64)>,
+    destination: Option<(GoalPlace, f64)>,
     /// Places that were unreachable, or do not need another visit soon.
     abandoned: Vec<Point>,
 }
@@ -84,10 +86,18 @@ impl Survey {
     }
 
     /// The current destination, until the next selection is due.
-    pub(crate) fn current(&mut self, elapsed_s: f64) -> Option<Point> {
+    pub(crate) fn current(&mut self, elapsed_s: f64) -> Option<GoalPlace> {
         let (to, since_s) = self.destination.as_mut()?;
         *since_s += elapsed_s;
         (*since_s < SELECTION_PERIOD_S).then_some(*to)
+    }
+
+    /// Selects a place as the current destination.
+    pub(crate) fn select(&mut self, at: Point, situation: &Situation) -> GoalPlace {
+        let previous = self.destination.map(|(to, _)| to);
+        let to = situation.goal_at(at, previous);
+        self.destination = Some((to, 0.0));
+        to
     }
 
     /// Abandons the current destination.
@@ -96,7 +106,7 @@ impl Survey {
             if self.abandoned.len() == MAX_ABANDONED {
                 self.abandoned.remove(0);
             }
-            self.abandoned.push(to);
+            self.abandoned.push(to.at);
         }
     }
 }
@@ -124,7 +134,7 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
     let takes = |peer: &Peer| {
         let goes = peer
             .destination()
-            .is_some_and(|destination| destination.to(place).length_squared() < near_m * near_m);
+            .is_some_and(|destination| destination.at.to(place).length_squared() < near_m * near_m);
         let is_nearer = peer
             .at()
             .is_some_and(|there| there.to(place).length_squared() < away);
@@ -140,6 +150,7 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
 /// A search's destination, without its position.
 pub(crate) fn destination(speed_m_s: Option<f64>, value: f64, body: &Body) -> Destination {
     Destination {
+        id: GoalId::default(),
         at: Point::default(),
         tolerance_m: 0.3,
         max_speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),

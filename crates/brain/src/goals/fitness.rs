@@ -1,6 +1,7 @@
 //! The progress towards a goal.
 
 use crate::goals::proposal::Destination;
+use crate::io::goal_id::GoalPlace;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,20 +40,23 @@ pub(crate) struct Step {
     /// Time since the previous step, and the time that a step is expected to take.
     pub(crate) elapsed_s: f64,
     pub(crate) period_s: f64,
-    /// A position to which no path is known.
-    pub(crate) unreachable: Option<Point>,
+    /// A goal to which no path is known.
+    pub(crate) unreachable: Option<GoalPlace>,
     /// Remaining battery time.
     pub(crate) battery_s: f64,
-    /// The position of the goal that was pursued in the last step, and the path length to it. For
-    /// other goals, time without progress does not count.
-    pub(crate) pursued: Option<(Point, f64)>,
+    /// The goal that was pursued in the last step, and the path length to it. For other goals, time
+    /// without progress does not count.
+    pub(crate) pursued: Option<(GoalPlace, f64)>,
 }
 
 impl Step {
-    /// Path length to a position; only a straight line unless it is the pursued one.
-    fn remaining_m(&self, to: Point) -> f64 {
-        let known = self.pursued.filter(|(pursued, _)| *pursued == to);
-        known.map_or_else(|| self.at.to(to).length(), |(_, remaining_m)| remaining_m)
+    /// Path length to a goal; only a straight line unless it is the pursued one.
+    fn remaining_m(&self, goal: GoalPlace) -> f64 {
+        let known = self.pursued.filter(|(pursued, _)| *pursued == goal);
+        known.map_or_else(
+            || self.at.to(goal.at).length(),
+            |(_, remaining_m)| remaining_m,
+        )
     }
 }
 
@@ -105,10 +109,10 @@ impl Fitness {
                 *self = Self::default();
             }
         }
-        let remaining_m = step.remaining_m(destination.at);
+        let remaining_m = step.remaining_m(destination.goal());
         self.track(remaining_m, destination, step);
         let is_out_of_range = super::time_s(remaining_m, destination) > step.battery_s;
-        let is_unreachable = step.unreachable == Some(destination.at);
+        let is_unreachable = step.unreachable == Some(destination.goal());
         let is_stuck = self.stuck_s > IMPOSSIBLE_S;
         if step.at.to(destination.at).length() <= destination.tolerance_m {
             Verdict::Complete
@@ -130,7 +134,10 @@ impl Fitness {
             self.best_m = remaining_m;
         } else if remaining_m < self.best_m - PROGRESS_M {
             (self.best_m, self.stuck_s) = (remaining_m, 0.0);
-        } else if step.pursued.is_some_and(|(to, _)| to == destination.at) {
+        } else if step
+            .pursued
+            .is_some_and(|(pursued, _)| pursued == destination.goal())
+        {
             // A gap between percepts alone does not make a goal impossible.
             self.stuck_s += step.elapsed_s.min(step.period_s.max(RECEDING_S));
         }
@@ -140,8 +147,14 @@ impl Fitness {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::body::RobotId;
+    use crate::io::goal_id::GoalId;
 
     const GOAL: Destination = Destination {
+        id: GoalId {
+            issuer: RobotId { kind: 0, index: 0 },
+            number: 1,
+        },
         at: Point { x: 9.0, y: 0.0 },
         tolerance_m: 0.5,
         max_speed_m_s: 1.0,
@@ -159,7 +172,7 @@ mod tests {
             period_s: 1.0,
             unreachable: None,
             battery_s: 20.0,
-            pursued: Some((GOAL.at, remaining_m)),
+            pursued: Some((GOAL.goal(), remaining_m)),
         }
     }
 
@@ -213,7 +226,7 @@ mod tests {
             ..step(5.0, 5.0)
         };
         let unreachable = Step {
-            unreachable: Some(GOAL.at),
+            unreachable: Some(GOAL.goal()),
             ..step(5.0, 5.0)
         };
         for step in [empty, unreachable] {

@@ -16,6 +16,7 @@ pub(crate) mod precedence;
 pub(crate) mod proposal;
 
 use crate::goals::proposal::Destination;
+use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
 use base::geometry::Point;
 pub use fitness::Verdict;
@@ -24,9 +25,6 @@ use precedence::{precedence, time_s};
 
 /// All detours on the way to a goal together are at most this fraction of the straight line to it.
 const MAX_DETOUR: f64 = 0.15;
-
-/// A goal that moves by less than this remains the same goal, in metres.
-const SAME_GOAL_M: f64 = 1.0;
 
 /// The goal of a behaviour, and its state.
 #[derive(Debug, Clone, Copy)]
@@ -51,8 +49,7 @@ pub(crate) struct Goals {
 /// The first goal, and the remaining length of detours on the way to it.
 #[derive(Debug, Clone, Copy)]
 struct DetourBudget {
-    behaviour: usize,
-    goal: Point,
+    goal: GoalId,
     /// Position of the robot when the budget was last updated.
     at: Point,
     left_m: f64,
@@ -61,16 +58,14 @@ struct DetourBudget {
 impl DetourBudget {
     fn new(goal: &Goal, at: Point) -> Self {
         Self {
-            behaviour: goal.behaviour,
-            goal: goal.destination.at,
+            goal: goal.destination.id,
             at,
             left_m: MAX_DETOUR * at.to(goal.destination.at).length(),
         }
     }
 
     fn applies_to(&self, goal: &Goal) -> bool {
-        let moved_m = self.goal.to(goal.destination.at).length();
-        self.behaviour == goal.behaviour && moved_m < SAME_GOAL_M
+        self.goal == goal.destination.id
     }
 
     /// After the robot moved to a position: what did not bring it nearer was a detour.
@@ -79,7 +74,6 @@ impl DetourBudget {
         let [before_m, after_m] = [self.at, at].map(|at| at.to(goal_at).length());
         let detour_m = self.at.to(at).length() - (before_m - after_m);
         Self {
-            goal: goal_at,
             at,
             left_m: self.left_m - detour_m.max(0.0),
             ..self
@@ -89,7 +83,8 @@ impl DetourBudget {
 
 impl Goals {
     /// Replaces the goals by those of this step's destinations, each with its behaviour's index;
-    /// the progress of goals that remain is kept.
+    /// the progress of goals that remain is kept. That of a goal that has moved starts over: it was
+    /// made on the path to another place.
     pub(crate) fn update(
         &mut self,
         destinations: impl Iterator<Item = (usize, Destination)>,
@@ -100,7 +95,7 @@ impl Goals {
             .extend(destinations.map(|(behaviour, destination)| {
                 let mut known = before.iter();
                 let same = known.find(|goal| {
-                    goal.behaviour == behaviour && goal.destination.at == destination.at
+                    goal.behaviour == behaviour && goal.destination.goal() == destination.goal()
                 });
                 let is_reported = same.is_some_and(|goal| goal.fitness.is_resting());
                 // A goal that was impossible and is proposed again starts over, unless it rests.
@@ -109,7 +104,7 @@ impl Goals {
                 let distance_m = step.at.to(destination.at).length();
                 let verdict = fitness.update(&destination, step);
                 // Without other goals, it may as well be tried again, if there is a path.
-                let must_rest = before.len() > 1 || step.unreachable == Some(destination.at);
+                let must_rest = before.len() > 1 || step.unreachable == Some(destination.goal());
                 if verdict == Verdict::Impossible && must_rest && !fitness.is_resting() {
                     fitness.start_rest();
                 }
@@ -171,9 +166,22 @@ impl Goals {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::body::RobotId;
 
+    fn id(number: u32) -> GoalId {
+        let issuer = RobotId::default();
+        GoalId { issuer, number }
+    }
+
+    /// Each place has a goal of its own.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a number"
+    )]
     fn destination(x: f64, y: f64, value: f64) -> Destination {
         Destination {
+            id: id((100.0 * x) as i32 as u32 ^ ((100.0 * y) as i32 as u32) << 16),
             at: Point { x, y },
             tolerance_m: 0.5,
             max_speed_m_s: 1.0,
@@ -257,7 +265,7 @@ mod tests {
     fn first_is_unreachable() -> ([Destination; 2], Goals) {
         let destinations = [destination(10.0, 0.0, 5.0), destination(0.0, 5.0, 0.1)];
         let unreachable = Step {
-            unreachable: Some(destinations[0].at),
+            unreachable: Some(destinations[0].goal()),
             ..step(HERE)
         };
         let mut goals = Goals::default();
@@ -283,5 +291,43 @@ mod tests {
         };
         let others = core::iter::from_fn(|| Some(next())).take_while(|next| *next == (1, 0));
         assert!((95..=101).contains(&others.count()));
+    }
+
+    #[test]
+    fn two_goals_at_one_place_are_two_goals() {
+        let [one, other] = [1, 2].map(|number| Destination {
+            id: id(number),
+            ..destination(10.0, 0.0, 1.0)
+        });
+        let stuck = Step {
+            pursued: Some((one.goal(), 10.0)),
+            ..step(HERE)
+        };
+        let mut goals = Goals::default();
+        for _ in 0..50 {
+            goals.update([one, other].into_iter().enumerate(), &stuck);
+        }
+        // Only the one that is pursued makes no progress.
+        let verdicts = goals.goals.iter().map(|goal| goal.verdict);
+        let verdicts: Vec<Verdict> = verdicts.collect();
+        assert_eq!(verdicts, [Verdict::Receding, Verdict::Approaching]);
+    }
+
+    #[test]
+    fn a_goal_that_moves_remains_the_same_goal() {
+        let mut goals = Goals::default();
+        let budget_m = |goals: &Goals| goals.detours.unwrap().left_m;
+        goals.update([(0, destination(10.0, 0.0, 1.0))].into_iter(), &step(HERE));
+        let moved = |x| Destination {
+            id: destination(10.0, 0.0, 1.0).id,
+            ..destination(x, 3.0, 1.0)
+        };
+        let aside = Point { x: 0.0, y: -0.4 };
+        goals.update([(0, moved(20.0))].into_iter(), &step(aside));
+        assert!(budget_m(&goals) < MAX_DETOUR * 10.0);
+        // The progress was made on the path to another place.
+        assert!((goals.goals[0].fitness.best_m - aside.to(moved(20.0).at).length()).abs() < 1e-9);
+        goals.update([(0, destination(20.0, 3.0, 1.0))].into_iter(), &step(aside));
+        assert!(budget_m(&goals) > MAX_DETOUR * 20.0);
     }
 }

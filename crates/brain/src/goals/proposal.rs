@@ -1,6 +1,7 @@
 //! The proposal of a behaviour.
 
 use crate::io::command::Motion;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use base::geometry::Point;
 
 /// What an active behaviour proposes.
@@ -15,6 +16,8 @@ pub(crate) enum Proposal {
 /// A place to be; the [navigator](crate::navigation::navigator) finds the path for all behaviours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Destination {
+    /// The goal of being there.
+    pub(crate) id: GoalId,
     /// In world coordinates.
     pub(crate) at: Point,
     /// It is reached within this distance.
@@ -22,6 +25,16 @@ pub(crate) struct Destination {
     pub(crate) max_speed_m_s: f64,
     /// Value of being there, relative to other destinations.
     pub(crate) value: f64,
+}
+
+impl Destination {
+    /// The goal and its place. What is known of the path to a goal holds while both are the same.
+    pub(crate) fn goal(&self) -> GoalPlace {
+        GoalPlace {
+            id: self.id,
+            at: self.at,
+        }
+    }
 }
 
 impl From<Motion> for Proposal {

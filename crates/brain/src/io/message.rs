@@ -1,6 +1,7 @@
 //! Messages between robots.
 
 use super::body::RobotId;
+use super::goal_id::GoalId;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,8 @@ pub enum About {
     },
     /// A destination of the sender.
     Goal {
+        /// Its id.
+        id: GoalId,
         /// Its position in the world.
         at: Point,
         /// The status of the commitment.

@@ -11,6 +11,7 @@ use super::shunting::{Shunting, Step};
 use super::traffic::Traffic;
 use crate::goals::proposal::Destination;
 use crate::io::command::Motion;
+use crate::io::goal_id::GoalPlace;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::beliefs::{Beliefs, Map, static_hits};
 use crate::perception::rays::Ray;
@@ -45,7 +46,7 @@ pub(crate) struct Navigator {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {
-    goal: Point,
+    goal: GoalPlace,
     /// The next waypoint; `None` if there is no path.
     waypoint: Option<Point>,
     /// Length of the path beyond the waypoint.
@@ -58,7 +59,7 @@ struct Plan {
 
 impl Plan {
     fn is_straight(&self) -> bool {
-        self.waypoint == Some(self.goal)
+        self.waypoint == Some(self.goal.at)
     }
 
     /// Whether the next waypoint has to be determined again.
@@ -92,10 +93,10 @@ impl Navigator {
         let Some(pose) = beliefs.pose() else {
             return Motion::default();
         };
-        let goal = destination.at;
+        let goal = destination.goal();
         let waypoint = match &beliefs.map {
             Some(map) => self.next_waypoint(goal, &pose, map, situation),
-            None => Some(goal),
+            None => Some(goal.at),
         };
         let Some(waypoint) = waypoint else {
             return Motion::default();
@@ -107,7 +108,7 @@ impl Navigator {
             &mut self.hits,
         );
         let step = Step {
-            goal,
+            goal: goal.at,
             target: pose.in_own_frame(waypoint),
             remaining_m: self.remaining_m(pose.at, goal),
             turned_rad: situation.turned_rad,
@@ -129,16 +130,16 @@ impl Navigator {
     }
 
     /// The goal of the current plan if no path to it is known.
-    pub(crate) fn unreachable_goal(&self) -> Option<Point> {
+    pub(crate) fn unreachable_goal(&self) -> Option<GoalPlace> {
         let plan = self.plan.filter(|plan| plan.waypoint.is_none())?;
         Some(plan.goal)
     }
 
     /// Length of the path from a position to a goal; the straight line if no path is known.
-    pub(crate) fn remaining_m(&self, at: Point, goal: Point) -> f64 {
+    pub(crate) fn remaining_m(&self, at: Point, goal: GoalPlace) -> f64 {
         let plan = self.plan.filter(|plan| plan.goal == goal);
         let known = plan.and_then(|plan| Some((plan.waypoint?, plan.beyond_m)));
-        let (waypoint, beyond_m) = known.unwrap_or((goal, 0.0));
+        let (waypoint, beyond_m) = known.unwrap_or((goal.at, 0.0));
         at.to(waypoint).length() + beyond_m
     }
 
@@ -149,7 +150,7 @@ impl Navigator {
     /// The next waypoint on the path: the goal itself if no known obstacle lies before it.
     fn next_waypoint(
         &mut self,
-        goal: Point,
+        goal: GoalPlace,
         pose: &Pose,
         map: &Map,
         situation: &Situation,
@@ -157,26 +158,26 @@ impl Navigator {
         let body = situation.body;
         let waypoint = match self.waypoint_source(goal, pose.at, map) {
             Source::Plan(plan) => return self.keep(plan, situation.elapsed_s),
-            Source::StraightLine => Some(goal),
+            Source::StraightLine => Some(goal.at),
             Source::LastSearch => self.wavefront.waypoint(&map.field, &map.occupancy, pose.at),
-            Source::NewSearch => self.search(goal, pose.at, map, body.radius_m),
+            Source::NewSearch => self.search(goal.at, pose.at, map, body.radius_m),
         };
         self.plan = Some(Plan {
             goal,
             waypoint,
-            beyond_m: self.beyond_m(waypoint, goal, map),
+            beyond_m: self.beyond_m(waypoint, goal.at, map),
             age_s: 0.0,
             map_changes: map.occupancy.changes,
         });
         waypoint
     }
 
-    fn waypoint_source(&self, goal: Point, at: Point, map: &Map) -> Source {
+    fn waypoint_source(&self, goal: GoalPlace, at: Point, map: &Map) -> Source {
         let plan = self.plan.filter(|plan| plan.goal == goal);
         if let Some(plan) = plan.filter(|plan| !plan.is_due(at, map.field.cell_m)) {
             return Source::Plan(plan);
         }
-        if map.occupancy.is_free_between(&map.field, at, goal) {
+        if map.occupancy.is_free_between(&map.field, at, goal.at) {
             return Source::StraightLine;
         }
         let is_valid = plan

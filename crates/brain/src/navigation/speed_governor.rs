@@ -281,6 +281,7 @@ mod tests {
     use crate::world_of_walls::{Walk, Wiring, outline, ring, room, rover};
     use crate::{Body, Brain, BrainSpec, Command, Motion, Percept, Scan};
     use base::geometry::{Point, Segment};
+    use core::cell::Cell;
     use proptest::prelude::*;
     use std::sync::Arc;
 
@@ -373,6 +374,7 @@ mod tests {
                     percept: &percept,
                     body: &body,
                     rings: &governor.rings,
+                    last_goal: &Cell::new(0),
                     ahead: governor.ahead(&percept, &body, current_speed_m_s),
                     elapsed_s: body.period_s,
                     turned_rad: 0.0,

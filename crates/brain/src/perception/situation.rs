@@ -1,10 +1,13 @@
 //! The situation of one step, as behaviours read it.
 
 use crate::io::body::Body;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::io::percept::Percept;
 use crate::io::random_words::RandomWords;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::rays::Ring;
+use base::geometry::Point;
+use core::cell::Cell;
 
 /// Time for which touch is ignored after a turn, in seconds: the body needs it to leave what it
 /// touched.
@@ -28,6 +31,8 @@ pub(crate) struct Situation<'s> {
     /// Beliefs from all percepts so far; `None` in a brain without beliefs.
     pub(crate) beliefs: Option<&'s Beliefs>,
     pub(crate) rings: &'s [Ring],
+    /// Number of the last goal that the robot chose itself.
+    pub(crate) last_goal: &'s Cell<u32>,
     /// Free distance straight ahead; `None` without a sensor to the front or without a fresh scan.
     pub(crate) ahead: Option<ClearAhead>,
     /// Time since the previous step.
@@ -39,6 +44,23 @@ pub(crate) struct Situation<'s> {
 }
 
 impl Situation<'_> {
+    /// A new goal of the robot at a place.
+    pub(crate) fn new_goal(&self, at: Point) -> GoalPlace {
+        let number = self.last_goal.get().wrapping_add(1);
+        self.last_goal.set(number);
+        let issuer = self.percept.id;
+        GoalPlace {
+            id: GoalId { issuer, number },
+            at,
+        }
+    }
+
+    /// The goal at a place that a behaviour has chosen: the previous one if it chose the same place.
+    pub(crate) fn goal_at(&self, at: Point, previous: Option<GoalPlace>) -> GoalPlace {
+        let same = previous.filter(|previous| previous.at == at);
+        same.unwrap_or_else(|| self.new_goal(at))
+    }
+
     /// Time since the previous step, in single precision, as behaviours store times.
     #[inline]
     #[expect(

@@ -5,8 +5,8 @@ use base::geometry::{Point, Rectangle};
 use brain::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
 use brain::{
     About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, CommitmentStatus, Contact,
-    Detector, Message, Motion, Neighbour, Observation, Other, Percept, Provenance, RangeRing,
-    Reading, ReceivedMessage, RobotId, Scan, SensorRequest,
+    Detector, GoalId, Message, Motion, Neighbour, Observation, Other, Percept, Provenance,
+    RangeRing, Reading, ReceivedMessage, RobotId, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -171,7 +171,9 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
         CommitmentStatus::Done,
         CommitmentStatus::Released,
     ];
-    let goal = (point(number), 0_usize..2).prop_map(move |(at, status)| About::Goal {
+    let id = (robot(), 0_u32..4).prop_map(|(issuer, number)| GoalId { issuer, number });
+    let goal = (id, point(number), 0_usize..2).prop_map(move |(id, at, status)| About::Goal {
+        id,
         at,
         status: stands[status],
     });

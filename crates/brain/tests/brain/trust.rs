@@ -52,7 +52,16 @@ fn brain(behaviour: &str, trust: &str) -> Brain {
 
 /// A step at (10, 10); returns the goals of the outgoing messages.
 fn step(brain: &mut Brain, inbox: Vec<ReceivedMessage>) -> Vec<(Point, CommitmentStatus)> {
-    let percept = Percept {
+    let goals = brain.step(&percept(inbox)).outbox.into_iter();
+    let goal = |message: Message| match message.about {
+        About::Goal { at, status, .. } => Some((at, status)),
+        _ => None,
+    };
+    goals.filter_map(goal).collect()
+}
+
+fn percept(inbox: Vec<ReceivedMessage>) -> Percept {
+    Percept {
         id: ME,
         team_size: 8,
         motion: now(Motion::default()),
@@ -62,13 +71,7 @@ fn step(brain: &mut Brain, inbox: Vec<ReceivedMessage>) -> Vec<(Point, Commitmen
         }],
         inbox,
         ..percept_at(10.0, 10.0, 0.0)
-    };
-    let goals = brain.step(&percept).outbox.into_iter();
-    let goal = |message: Message| match message.about {
-        About::Goal { at, status } => Some((at, status)),
-        _ => None,
-    };
-    goals.filter_map(goal).collect()
+    }
 }
 
 /// Whether it announces a place as its destination within some seconds.
@@ -117,9 +120,21 @@ fn all_over() -> impl Iterator<Item = Point> {
 const PLACE: Point = Point { x: 15.0, y: 10.0 };
 const ERRAND: &str = r#"{"kind": "navigate", "assignment": "shared", "waypoints_m": [[15, 10]]}"#;
 
+/// A message about the waypoint, with the id that every robot with this errand gives it.
+fn commitment(status: CommitmentStatus) -> About {
+    let mut brain = brain(ERRAND, "");
+    let mut announced = (0..40).flat_map(|_| brain.step(&percept(Vec::new())).outbox);
+    let ids = announced.find_map(|message| match message.about {
+        About::Goal { id, .. } => Some(id),
+        _ => None,
+    });
+    let (id, at) = (ids.unwrap(), PLACE);
+    About::Goal { id, at, status }
+}
+
 fn done(confidence: f64) -> ReceivedMessage {
-    let (at, status) = (PLACE, CommitmentStatus::Done);
-    received(LEADER, About::Goal { at, status }, [0.0, confidence])
+    let about = commitment(CommitmentStatus::Done);
+    received(LEADER, about, [0.0, confidence])
 }
 
 #[test]
@@ -142,10 +157,7 @@ fn visits_reported_with_low_trust_or_confidence_are_ignored() {
 #[test]
 fn a_commitment_expires_if_only_poses_are_reported() {
     let mut brain = brain(ERRAND, "");
-    let about = About::Goal {
-        at: PLACE,
-        status: CommitmentStatus::Active,
-    };
+    let about = commitment(CommitmentStatus::Active);
     let here = Point { x: 3.0, y: 3.0 };
     let messages = vec![received(LEADER, about, [0.0, 1.0])];
     assert!(step(&mut brain, messages).is_empty());
@@ -170,10 +182,7 @@ fn old_commitments_and_those_without_a_valid_age_are_ignored() {
         (f64::NAN, false),
     ] {
         let mut brain = brain(ERRAND, "");
-        let about = About::Goal {
-            at: PLACE,
-            status: CommitmentStatus::Active,
-        };
+        let about = commitment(CommitmentStatus::Active);
         step(&mut brain, vec![received(LEADER, about, [age_s, 1.0])]);
         assert_eq!(!goes_to(&mut brain, PLACE, 3), is_held, "{age_s}");
     }

@@ -93,6 +93,7 @@ mod tests {
     use super::*;
     use crate::Percept;
     use crate::world_of_walls::rover;
+    use core::cell::Cell;
 
     /// The length of a robot's noise after each second at a speed.
     fn lengths(noise: &mut Noise, speed_m_s: f64, seconds: u32) -> Vec<f64> {
@@ -102,6 +103,7 @@ mod tests {
             body: &body,
             beliefs: None,
             rings: &[],
+            last_goal: &Cell::new(0),
             ahead: None,
             elapsed_s: 0.1,
             turned_rad: 0.0,
@@ -144,6 +146,7 @@ mod tests {
                 body: &body,
                 beliefs: None,
                 rings: &[],
+                last_goal: &Cell::new(0),
                 ahead: None,
                 elapsed_s: 0.1,
                 turned_rad: 0.05,
@@ -176,6 +179,7 @@ mod tests {
             body: &body,
             beliefs: None,
             rings: &[],
+            last_goal: &Cell::new(0),
             ahead: None,
             elapsed_s: 0.1,
             turned_rad: 0.0,

@@ -67,13 +67,15 @@ impl BroadcastState {
         outbox: &mut Vec<Message>,
     ) {
         let previous = self.goal;
-        let is_new =
-            goal.map(|destination| destination.at) != previous.map(|destination| destination.at);
-        if !is_new && !is_due {
+        let ids = [goal, previous].map(|goal| goal.map(|destination| destination.id));
+        let places = [goal, previous].map(|goal| goal.map(|destination| destination.at));
+        let (is_new, has_moved) = (ids[0] != ids[1], places[0] != places[1]);
+        if !is_new && !has_moved && !is_due {
             return;
         }
         let message = |destination: Destination, status| {
             certain(About::Goal {
+                id: destination.id,
                 at: destination.at,
                 status,
             })

@@ -7,6 +7,7 @@ use super::trust::MIN_TRUST;
 use super::world_model::Beliefs;
 use crate::goals::proposal::Destination;
 use crate::io::body::Body;
+use crate::io::goal_id::GoalPlace;
 use crate::io::message::{About, Message, Provenance};
 use crate::io::percept::{Reading, ReceivedMessage};
 use alloc::vec::Vec;
@@ -77,9 +78,13 @@ impl Beliefs {
                     observations,
                 );
             }
-            About::Goal { at, status } if is_valid_position(at) && weight >= MIN_TRUST => {
-                self.peers
-                    .update_destination(received.from, at, status, received.age_s);
+            About::Goal { id, at, status } if is_valid_position(at) && weight >= MIN_TRUST => {
+                self.peers.update_destination(
+                    received.from,
+                    GoalPlace { id, at },
+                    status,
+                    received.age_s,
+                );
             }
             _ => {}
         }

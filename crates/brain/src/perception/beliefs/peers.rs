@@ -3,6 +3,7 @@
 //! Each of these has its own age, which starts at the age of its message.
 
 use crate::io::body::RobotId;
+use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::io::message::CommitmentStatus;
 use crate::io::percept::Reading;
 use alloc::vec::Vec;
@@ -29,14 +30,14 @@ pub(crate) struct Peer {
     /// Its last trusted position.
     at: Option<Reading<Point>>,
     /// Its last trusted destination, or that it has none.
-    destination: Option<Reading<Option<Point>>>,
+    destination: Option<Reading<Option<GoalPlace>>>,
 }
 
 /// All robots from which a message was received.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Peers {
     pub(crate) mates: Vec<Peer>,
-    visits: Vec<Point>,
+    visits: Vec<GoalId>,
     /// Total number of visits.
     visited: u32,
 }
@@ -89,42 +90,46 @@ impl Peers {
     pub(crate) fn update_destination(
         &mut self,
         id: RobotId,
-        at: Point,
+        goal: GoalPlace,
         status: CommitmentStatus,
         age_s: f64,
     ) {
         if status == CommitmentStatus::Done {
-            self.add_visit(at);
+            self.add_visit(goal.id);
         }
         if age_s > MAX_AGE_S {
             return;
         }
         let peer = self.peer(id);
-        let value = (status == CommitmentStatus::Active).then_some(at);
-        if !is_outdated(peer.destination, age_s) && (value.is_some() || peer.is_going_to(at)) {
+        let value = (status == CommitmentStatus::Active).then_some(goal);
+        if !is_outdated(peer.destination, age_s) && (value.is_some() || peer.is_going_to(goal.id)) {
             peer.destination = Some(Reading { value, age_s });
         }
     }
 
-    fn add_visit(&mut self, at: Point) {
+    fn add_visit(&mut self, goal: GoalId) {
         if self.visits.len() == MAX_VISITS {
             self.visits.remove(0);
         }
-        self.visits.push(at);
+        self.visits.push(goal);
         self.visited = self.visited.wrapping_add(1);
     }
 
     /// Returns the remembered visits after the first `since`, and sets `since` to the total number.
-    pub(crate) fn visits_since(&self, since: &mut u32) -> &[Point] {
+    pub(crate) fn visits_since(&self, since: &mut u32) -> &[GoalId] {
         let new = self.visited.wrapping_sub(*since) as usize;
         *since = self.visited;
         &self.visits[self.visits.len().saturating_sub(new)..]
     }
 
-    /// Returns whether a robot that fulfils a condition is going to a place.
-    pub(crate) fn is_any_going_to(&self, to: Point, condition: impl Fn(RobotId) -> bool) -> bool {
+    /// Returns whether a robot that fulfils a condition has committed to a goal.
+    pub(crate) fn is_any_going_to(
+        &self,
+        goal: GoalId,
+        condition: impl Fn(RobotId) -> bool,
+    ) -> bool {
         let mut mates = self.mates.iter();
-        mates.any(|peer| peer.is_going_to(to) && condition(peer.id))
+        mates.any(|peer| peer.is_going_to(goal) && condition(peer.id))
     }
 
     fn peer(&mut self, id: RobotId) -> &mut Peer {
@@ -155,12 +160,12 @@ impl Peer {
     }
 
     /// Its destination, unless it is too old.
-    pub(crate) fn destination(&self) -> Option<Point> {
+    pub(crate) fn destination(&self) -> Option<GoalPlace> {
         fresh(self.destination).flatten()
     }
 
-    fn is_going_to(&self, to: Point) -> bool {
-        self.destination() == Some(to)
+    fn is_going_to(&self, goal: GoalId) -> bool {
+        self.destination().is_some_and(|to| to.id == goal)
     }
 
     /// Age of its newest message, in seconds.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::io::body::{Detector, RobotId};
+use crate::io::goal_id::GoalId;
 use crate::io::message::CommitmentStatus;
 use crate::io::percept::{Observation, Percept};
 use crate::perception::beliefs::coverage_map::MAX_DETECTION;
@@ -264,9 +265,14 @@ fn a_turning_robot_broadcasts_its_heading_at_once() {
 fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(true, Vec::new());
+    let (far, here) = (Point { x: 1.0, y: 2.0 }, Point { x: 8.3, y: 10.0 });
     let goals = |robot: &mut Robot, goal: Option<Point>| {
         let mut outbox = Vec::new();
         let aim = goal.map(|at| Destination {
+            id: GoalId {
+                issuer: RobotId::default(),
+                number: u32::from(at == here),
+            },
             at,
             tolerance_m: 0.5,
             max_speed_m_s: 1.0,
@@ -275,7 +281,6 @@ fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
         robot.beliefs.broadcast(aim, 0.01, &mut outbox);
         outbox.iter().filter_map(status).collect::<Vec<_>>()
     };
-    let (far, here) = (Point { x: 1.0, y: 2.0 }, Point { x: 8.3, y: 10.0 });
     assert_eq!(
         goals(&mut robot, Some(far)),
         [(far, CommitmentStatus::Active)]
@@ -293,9 +298,31 @@ fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
     assert_eq!(goals(&mut robot, None), [(far, CommitmentStatus::Released)]);
 }
 
+#[test]
+fn a_goal_that_moves_is_broadcast_at_its_new_place_and_is_neither_done_nor_released() {
+    let mut robot = Robot::new(1.0, 1.0);
+    robot.step(true, Vec::new());
+    let mut sent = |x| {
+        let moving = Destination {
+            id: GoalId::default(),
+            at: Point { x, y: 10.0 },
+            tolerance_m: 0.5,
+            max_speed_m_s: 1.0,
+            value: 1.0,
+        };
+        let mut outbox = Vec::new();
+        robot.beliefs.broadcast(Some(moving), 0.01, &mut outbox);
+        outbox.iter().filter_map(status).collect::<Vec<_>>()
+    };
+    for x in [8.1, 8.4, 9.0] {
+        assert_eq!(sent(x), [(Point { x, y: 10.0 }, CommitmentStatus::Active)]);
+        assert_eq!(sent(x), []);
+    }
+}
+
 fn status(message: &Message) -> Option<(Point, CommitmentStatus)> {
     match message.about {
-        About::Goal { at, status } => Some((at, status)),
+        About::Goal { at, status, .. } => Some((at, status)),
         _ => None,
     }
 }

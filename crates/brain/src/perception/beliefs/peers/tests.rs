@@ -4,6 +4,20 @@ const MATE: RobotId = RobotId { kind: 0, index: 1 };
 const HERE: Point = Point { x: 1.0, y: 1.0 };
 const THERE: Point = Point { x: 3.0, y: 1.0 };
 
+/// The goal of a place: each has its own.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "small"
+)]
+fn goal(at: Point) -> GoalPlace {
+    let (issuer, number) = (MATE, at.x as u32);
+    GoalPlace {
+        id: GoalId { issuer, number },
+        at,
+    }
+}
+
 fn report(peers: &mut Peers, at: Point, observations: u32, age_s: f64) -> (Point, u32, f64) {
     let value = (at, observations);
     peers.update_observations(MATE, Reading { value, age_s })
@@ -14,7 +28,7 @@ fn position(peers: &Peers) -> Option<Point> {
 }
 
 fn is_taken(peers: &Peers, to: Point) -> bool {
-    peers.is_any_going_to(to, |_| true)
+    peers.is_any_going_to(goal(to).id, |_| true)
 }
 
 #[test]
@@ -41,14 +55,14 @@ fn an_overtaken_message_is_ignored() {
 #[test]
 fn a_destination_is_known_until_arrival_or_expiry() {
     let mut peers = Peers::default();
-    peers.update_destination(MATE, THERE, CommitmentStatus::Active, 0.0);
-    assert!(is_taken(&peers, THERE) && !peers.is_any_going_to(THERE, |id| id != MATE));
+    peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 0.0);
+    assert!(is_taken(&peers, THERE) && !peers.is_any_going_to(goal(THERE).id, |id| id != MATE));
     for status in [CommitmentStatus::Done, CommitmentStatus::Released] {
-        peers.update_destination(MATE, THERE, CommitmentStatus::Active, 0.0);
-        peers.update_destination(MATE, THERE, status, 0.0);
+        peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 0.0);
+        peers.update_destination(MATE, goal(THERE), status, 0.0);
         assert!(!is_taken(&peers, THERE));
     }
-    peers.update_destination(MATE, THERE, CommitmentStatus::Active, 0.0);
+    peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 0.0);
     peers.advance(9.9);
     assert!(is_taken(&peers, THERE));
     peers.advance(0.2);
@@ -58,7 +72,7 @@ fn a_destination_is_known_until_arrival_or_expiry() {
 #[test]
 fn position_reports_do_not_extend_a_destination() {
     let mut peers = Peers::default();
-    peers.update_destination(MATE, THERE, CommitmentStatus::Active, 0.0);
+    peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 0.0);
     for _ in 0..11 {
         peers.advance(1.0);
         peers.update_position(MATE, HERE, 0.0);
@@ -70,10 +84,10 @@ fn position_reports_do_not_extend_a_destination() {
 #[test]
 fn ages_start_at_the_age_of_the_message_and_old_messages_are_ignored() {
     let mut peers = Peers::default();
-    peers.update_destination(MATE, THERE, CommitmentStatus::Active, 500.0);
+    peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 500.0);
     peers.update_position(MATE, HERE, 500.0);
     assert!(!is_taken(&peers, THERE) && position(&peers).is_none());
-    peers.update_destination(MATE, THERE, CommitmentStatus::Active, 9.0);
+    peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 9.0);
     peers.update_position(MATE, HERE, 9.0);
     assert!(is_taken(&peers, THERE) && position(&peers) == Some(HERE));
     peers.advance(1.1);
@@ -83,12 +97,12 @@ fn ages_start_at_the_age_of_the_message_and_old_messages_are_ignored() {
 #[test]
 fn an_old_message_does_not_override_a_newer_one() {
     let mut peers = Peers::default();
-    peers.update_destination(MATE, HERE, CommitmentStatus::Active, 1.0);
-    peers.update_destination(MATE, THERE, CommitmentStatus::Active, 4.0);
-    peers.update_destination(MATE, HERE, CommitmentStatus::Released, 2.0);
+    peers.update_destination(MATE, goal(HERE), CommitmentStatus::Active, 1.0);
+    peers.update_destination(MATE, goal(THERE), CommitmentStatus::Active, 4.0);
+    peers.update_destination(MATE, goal(HERE), CommitmentStatus::Released, 2.0);
     assert!(is_taken(&peers, HERE) && !is_taken(&peers, THERE));
-    peers.update_destination(MATE, HERE, CommitmentStatus::Released, 0.5);
-    peers.update_destination(MATE, HERE, CommitmentStatus::Active, 1.0);
+    peers.update_destination(MATE, goal(HERE), CommitmentStatus::Released, 0.5);
+    peers.update_destination(MATE, goal(HERE), CommitmentStatus::Active, 1.0);
     assert!(!is_taken(&peers, HERE));
 }
 
@@ -100,10 +114,10 @@ fn each_visit_is_returned_once() {
             x: f64::from(x),
             y: 0.0,
         };
-        peers.update_destination(MATE, at, CommitmentStatus::Done, 100.0);
-        peers.update_destination(MATE, at, CommitmentStatus::Released, 0.0);
+        peers.update_destination(MATE, goal(at), CommitmentStatus::Done, 100.0);
+        peers.update_destination(MATE, goal(at), CommitmentStatus::Released, 0.0);
         if x < 50 {
-            assert_eq!(peers.visits_since(&mut since), [at]);
+            assert_eq!(peers.visits_since(&mut since), [goal(at).id]);
             assert_eq!(peers.visits_since(&mut since), []);
         }
     }
@@ -116,7 +130,7 @@ fn memory_is_bounded_for_any_number_of_peers() {
     let mut peers = Peers::default();
     for index in 0..1000 {
         let id = RobotId { kind: 0, index };
-        peers.update_destination(id, Point::default(), CommitmentStatus::Active, 0.0);
+        peers.update_destination(id, goal(HERE), CommitmentStatus::Active, 0.0);
     }
     assert_eq!(peers.mates.len(), MAX_PEERS);
 }
