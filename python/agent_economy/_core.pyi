@@ -15,7 +15,9 @@ __all__ = [
     "ClassicSimulation",
     "ClassicSnapshot",
     "Configuration",
+    "Document",
     "InputError",
+    "LocalFrame",
     "MetricScenario",
     "NoRoomError",
     "Procedure",
@@ -37,6 +39,8 @@ __all__ = [
     "mean_bounds",
     "mean_exceeds",
     "missing_files",
+    "polygon_contains",
+    "polygon_error",
     "random_start",
     "read_classic",
     "read_configuration",
@@ -87,6 +91,23 @@ class InputError(ValueError):
 
 class NoRoomError(InputError): ...
 
+@final
+class Document:
+    def __new__(cls, file: str, text: str) -> Document: ...
+    def values(self) -> dict[str, Any]: ...
+    def errors(self, schema: str) -> list[ErrorDetails]: ...
+    def error(
+        self, path: Sequence[str | int], allowed: str, names: Sequence[str]
+    ) -> ErrorDetails: ...
+    def unknown_key(
+        self, path: Sequence[str | int], allowed: str, names: Sequence[str]
+    ) -> ErrorDetails: ...
+    def warning(self, path: Sequence[str | int], effect: str) -> WarningDetails: ...
+
+def polygon_error(corners: Sequence[Sequence[float]]) -> str | None: ...
+def polygon_contains(
+    corners: Sequence[Sequence[float]], points: Sequence[Sequence[float]]
+) -> list[bool]: ...
 def refusal(name: str, given: object, allowed: str) -> InputError: ...
 
 @final
@@ -99,6 +120,20 @@ class Brain:
     def copy(self) -> Brain: ...
     @staticmethod
     def schemas() -> dict[str, dict[str, Any]]: ...
+
+@final
+class LocalFrame:
+    def __new__(
+        cls,
+        latitude_deg: float,
+        longitude_deg: float,
+        rotation_deg: float = 0.0,
+        declination_deg: float = 0.0,
+    ) -> LocalFrame: ...
+    def to_local(self, latitude_deg: float, longitude_deg: float) -> tuple[float, float]: ...
+    def to_geographic(self, x_m: float, y_m: float) -> tuple[float, float]: ...
+    def heading_rad(self, magnetic_bearing_deg: float, mounting_deg: float = 0.0) -> float: ...
+    def magnetic_bearing_deg(self, heading_rad: float) -> float: ...
 
 @final
 class Procedure:
@@ -210,7 +245,13 @@ class CompiledRun:
 @final
 class Simulation(CompiledRun):
     def __new__(
-        cls, scenario: MetricScenario, *, seed: int, run: int, threads: int | None
+        cls,
+        scenario: MetricScenario,
+        *,
+        seed: int,
+        run: int,
+        threads: int | None,
+        external: Sequence[str],
     ) -> Simulation: ...
     @property
     def robots(self) -> list[str]: ...

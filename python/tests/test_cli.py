@@ -153,7 +153,8 @@ def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Pat
 def test_bundled_scenarios_are_listed_and_valid(tmp_path: Path) -> None:
     given = succeed("scenarios", cwd=tmp_path)
     rows = json.loads(run("scenarios", "--json", cwd=tmp_path).stdout)
-    assert {"name": "classic", "engine": "classic"}.items() <= rows[0].items()
+    engines = {row["name"]: row["engine"] for row in rows}
+    assert {"bender": "metric", "classic": "classic"}.items() <= engines.items()
     for line, row in zip(given.stdout.splitlines(), rows, strict=True):
         assert line.split(maxsplit=2) == [row["name"], row["engine"], row["summary"]]
         assert Path(row["file"]).is_file()

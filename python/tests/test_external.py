@@ -43,6 +43,59 @@ def test_an_external_body_has_the_pose_of_its_percepts() -> None:
     assert simulation.percept("rover/1") is None
 
 
+def test_a_declared_body_stands_where_it_starts_until_its_first_percept() -> None:
+    simulation = Simulation("search", seed=2, external=["rover/1"])
+    assert simulation.declared_external == ("rover/1",)
+    assert simulation.external.tolist() == [False, True, False, False]
+    assert simulation.hash != Simulation("search", seed=2).hash
+    start = simulation.poses
+    simulation.step(20)
+    assert simulation.poses[1].tolist() == start[1].tolist()
+    assert (simulation.poses[[0, 2, 3]] != start[[0, 2, 3]]).any(axis=1).all()
+    simulation.step(percepts={"rover/1": percept_at(3.5, 7.25, 0.5)})
+    np.testing.assert_allclose(simulation.poses[1], [3.5, 7.25, 0.5])
+
+
+def test_all_errors_of_declared_bodies_are_reported() -> None:
+    with pytest.raises(InputError) as raised:
+        Simulation("search", external=["rover/9", "rover/0", "rovre/0"])
+    assert [error["value"] for error in raised.value.errors] == ['"rover/9"', '"rovre/0"']
+    with pytest.raises(InputError, match=r"external = 'rover/0': must be a list of robot names"):
+        Simulation("search", external="rover/0")
+    with pytest.raises(InputError, match=r"external = .* must be a list of robot names"):
+        Simulation("search", external=["\udcff"])
+    twice = ["rover/1", "rover/0", "rover/1"]
+    with pytest.raises(InputError, match=r"external = \['rover/1'\]: must be different robots"):
+        Simulation("search", external=twice)
+    brains = {"rover": lambda _: Brain.of("search", "rover")}
+    with pytest.raises(
+        InputError, match=r"external = \['rover/0'\]: must be robots with the brain"
+    ):
+        Simulation("search", brains=brains, external=["rover/0"])
+    with pytest.raises(InputError, match="commands"):
+        Simulation("search", external=["rover/0"]).step(commands={"rover/0": STOP})
+
+
+def test_a_percept_that_is_not_later_repeats_the_motion() -> None:
+    simulation = Simulation("search", seed=2)
+    far, near = scans(3.0), scans(0.3)
+    first = simulation.step(percepts={"rover/0": percept_at(5, 8, 0.1, time_s=1.0, scans=far)})
+    late = percept_at(9, 9, 0.1, time_s=1.0, scans=near)
+    assert simulation.step(percepts={"rover/0": late}) == first
+    np.testing.assert_allclose(simulation.poses[0], [5, 8, 0.1])
+    assert simulation.step(percepts={"rover/0": {**late, "time_s": 1.1}}) != first
+
+
+def test_a_snapshot_is_of_a_run_with_the_same_external_bodies() -> None:
+    simulation = Simulation("search", external=["rover/1"])
+    snapshot = simulation.snapshot()
+    simulation.step(percepts={"rover/0": percept_at(3.5, 7.25, 0.5)})
+    simulation.restore(snapshot)
+    assert simulation.external.tolist() == [False, True, False, False]
+    with pytest.raises(InputError, match=r"external=\('rover/1',\): must be of this run"):
+        Simulation("search").restore(snapshot)
+
+
 @pytest.mark.parametrize(("rate_hz", "steps"), [(10, 1), (5, 2), (1, 10)])
 def test_a_command_holds_until_the_brain_decides_again(rate_hz: float, steps: int) -> None:
     simulation = Simulation(search({"robots.rover.brain.rate_hz": rate_hz}), seed=2)

@@ -22,7 +22,9 @@ from recorded import SECOND_NS, Message, contents
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario
+from agent_economy.recording.reading import read
 from agent_economy.runs.brain import Command, Percept
+from agent_economy.server.runs.timeline import Timeline
 
 SCENARIOS = ROOT / "scenarios"
 
@@ -122,6 +124,24 @@ def test_external_inputs_are_replayed(mcap: Path) -> None:
     assert set(answers) == {"rover/1"}
     assert ae.replay(mcap).agrees
     assert len(contents(mcap).topics["/input"]) == 2
+
+
+def test_declared_external_bodies_are_replayed(mcap: Path) -> None:
+    simulation = ae.Simulation(search(), 4, external=["rover/1", "rover/0"])
+    percept: Percept = {"position": {"value": (3.0, 4.0), "age_s": 0.0}, "time_s": 1.0}
+    with ae.Recording(simulation, mcap) as recording:
+        recording.step(5)
+        for _ in range(2):  # the second one is not later
+            recording.step(percepts={"rover/1": percept})
+        recording.step(5)
+    assert ae.replay(mcap).agrees
+    identity, recorded = read(mcap)
+    assert identity.external == recorded.external == ("rover/0", "rover/1")
+    timeline = Timeline(identity.scenario, identity.seed, identity.run, None, recorded)
+    timeline.seek(12, 60.0)
+    assert timeline.simulation.hash == simulation.hash
+    assert timeline.recorded.mismatch_tick is None
+    assert timeline.history.external == identity.external
 
 
 @pytest.mark.parametrize("age_s", [-1e308, -5.0, 1.0, 1e308])

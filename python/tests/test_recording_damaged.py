@@ -141,11 +141,12 @@ def test_missing_metadata_is_named(recorded: Path, tmp_path: Path) -> None:
 def test_invalid_metadata_raises_input_errors_only(recorded: Path, tmp_path: Path) -> None:
     records = records_of(recorded)
     refused = 0
-    for name, key in [("run", "overrides"), ("run", "seed"), ("change", "tick"), ("end", "tick")]:
+    entries = [("overrides", "run"), ("seed", "run"), ("external", "run"), ("tick", "change")]
+    for key, name in [*entries, ("tick", "end")]:
         for junk in JUNK:
             edited = with_entry(records, f"agent_economy.{name}", key, junk)
             refused += bool(errors(written(tmp_path / "junk.mcap", edited)))
-    assert refused > 3 * len(JUNK)
+    assert refused > 4 * len(JUNK)
 
 
 def test_invalid_messages_raise_input_errors_only(recorded: Path, tmp_path: Path) -> None:
@@ -181,6 +182,15 @@ def test_inputs_of_the_classic_engine_are_rejected(mcap: Path) -> None:
     file.close()
     with pytest.raises(InputError, match=r"run\.mcap: is damaged: it has percepts or commands for"):
         ae.replay(mcap)
+
+
+def test_external_bodies_of_the_classic_engine_are_rejected(mcap: Path, tmp_path: Path) -> None:
+    with ae.Recording(ae.ClassicSimulation("classic", 1), mcap) as recording:
+        recording.step(5)
+    edited = with_entry(records_of(mcap), "agent_economy.run", "external", '["wanderer/0"]')
+    path = written(tmp_path / "run.mcap", edited)
+    with pytest.raises(InputError, match=r"run\.mcap: is damaged: .* has external bodies"):
+        ae.replay(path)
 
 
 def test_a_truncated_file_is_compared_up_to_its_end(tmp_path: Path, mcap: Path) -> None:

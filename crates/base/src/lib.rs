@@ -2,6 +2,7 @@
 //!
 //! * [`geometry`], [`trig`]: points, walls, pillars and polygons; trigonometry that returns the same
 //!   bits on every machine;
+//! * [`geodesy`]: geographic coordinates and bearings, and those of a world;
 //! * [`random`], [`philox`], [`noise`]: counter-based random streams, keyed by (seed, run, entity,
 //!   purpose), and the distributions drawn from them;
 //! * [`hash`]: a hash of simulation states;
@@ -16,6 +17,7 @@
 pub mod document;
 pub mod engine;
 pub mod error;
+pub mod geodesy;
 pub mod geometry;
 pub mod hash;
 pub mod map;

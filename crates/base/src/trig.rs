@@ -98,6 +98,20 @@ pub fn wrapped(angle_rad: f64) -> f64 {
     angle_rad - turns * TAU
 }
 
+/// The same direction in degrees, above -180 and at most 180.
+#[must_use]
+pub fn wrapped_deg(angle_deg: f64) -> f64 {
+    if angle_deg > -180.0 && angle_deg <= 180.0 {
+        return angle_deg;
+    }
+    let turned_deg = angle_deg.rem_euclid(360.0);
+    if turned_deg > 180.0 {
+        turned_deg - 360.0
+    } else {
+        turned_deg
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,6 +131,21 @@ mod tests {
             prop_assert!(near.abs() <= std::f64::consts::PI + 1e-9);
             prop_assert!((libm::sin(near) - libm::sin(angle)).abs() < 1e-11);
             prop_assert!((libm::cos(near) - libm::cos(angle)).abs() < 1e-11);
+        }
+    }
+
+    #[test]
+    #[expect(clippy::float_cmp, reason = "exact by construction")]
+    fn whole_turns_are_taken_from_degrees() {
+        for (angle, wrapped) in [
+            (180.0, 180.0),
+            (-180.0, 180.0),
+            (-0.1, -0.1),
+            (190.0, -170.0),
+            (-540.0, 180.0),
+            (725.0, 5.0),
+        ] {
+            assert_eq!(wrapped_deg(angle), wrapped, "{angle}");
         }
     }
 

@@ -166,6 +166,21 @@ impl Brain {
         self.decide_into(percept, command);
     }
 
+    /// Whether [`Brain::step`] decides by a percept: see there.
+    #[must_use]
+    pub fn is_later(&self, percept: &Percept) -> bool {
+        self.odometry.is_later(percept.time_s)
+    }
+
+    /// The command that [`Brain::step`] returns for a percept that is not later than the last one.
+    #[must_use]
+    pub fn last_command(&self) -> Command {
+        Command {
+            motion: self.odometry.command(),
+            ..Command::default()
+        }
+    }
+
     /// Leaves out a percept for which the decision is made elsewhere: the time since the previous
     /// percept does not count.
     pub fn skip(&mut self, percept: &Percept) {

@@ -1,11 +1,14 @@
 //! Checks of arguments of Python functions: all errors of a call in one exception.
 
 use crate::error::input_error;
+use crate::metric_scenario::robot_of;
 use base::error::{InputError, InputErrors};
+use brain::RobotId;
 use classic::Contact;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
+use sim::scenario::Scenario;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
@@ -35,6 +38,26 @@ impl Arguments {
         number
     }
 
+    /// A Python number (not a bool) in `range`, in a unit.
+    pub(crate) fn number(
+        &self,
+        name: &str,
+        given: &Bound<PyAny>,
+        (range, unit): (RangeInclusive<f64>, &str),
+    ) -> Option<f64> {
+        let number = (!given.is_instance_of::<PyBool>()).then(|| given.extract::<f64>().ok());
+        let number = number.flatten().filter(|number| range.contains(number));
+        if number.is_none() {
+            let allowed = format!(
+                "a number from {} to {} ({unit})",
+                range.start(),
+                range.end()
+            );
+            self.error(name, given, allowed);
+        }
+        number
+    }
+
     /// The seed of all random numbers.
     pub(crate) fn seed(&self, given: &Bound<PyAny>) -> Option<u64> {
         self.integer("seed", given, 0..=u64::MAX)
@@ -49,6 +72,22 @@ impl Arguments {
     pub(crate) fn robots(&self, given: &Bound<PyAny>, max: u32) -> Option<u32> {
         let robots = self.integer("robots", given, 1..=max.into())?;
         u32::try_from(robots).ok()
+    }
+
+    /// The ids of robots of a scenario, by their names.
+    pub(crate) fn robots_of(
+        &self,
+        scenario: &Scenario,
+        name: &str,
+        given: &[String],
+    ) -> Option<Vec<RobotId>> {
+        let robots = given.iter().map(|each| {
+            let id = robot_of(scenario, name, each);
+            id.map_err(|error| self.errors.borrow_mut().push(error))
+                .ok()
+        });
+        let robots: Vec<Option<RobotId>> = robots.collect();
+        robots.into_iter().collect()
     }
 
     /// The name of a contact definition.

@@ -87,7 +87,8 @@ pub(crate) fn scenario_warnings<'py>(
     dicts.collect()
 }
 
-fn warning_dict<'py>(
+/// A warning as a dict.
+pub(crate) fn warning_dict<'py>(
     py: Python<'py>,
     warning: &Warning,
     file: &str,

@@ -36,14 +36,15 @@ fn noted(error: PyErr, errors: &InputErrors, file: &str) -> PyErr {
         let dicts: PyResult<Vec<_>> = errors
             .0
             .iter()
-            .map(|each| as_dict(py, each, file))
+            .map(|each| error_dict(py, each, file))
             .collect();
         let noted = dicts.and_then(|dicts| error.value(py).setattr("errors", dicts));
         noted.err().unwrap_or(error)
     })
 }
 
-fn as_dict<'py>(
+/// An error as a dict.
+pub(crate) fn error_dict<'py>(
     py: Python<'py>,
     error: &input::InputError,
     file: &str,

@@ -10,10 +10,12 @@ mod classic_trace;
 mod commands;
 mod configuration;
 mod convert;
+mod document;
 mod engines;
 mod error;
 mod external;
 mod frame;
+mod geodesy;
 mod inspect;
 mod long_work;
 mod message_check;
@@ -21,6 +23,7 @@ mod metric_scenario;
 mod overlay;
 mod page;
 mod percept_check;
+mod polygon;
 mod python_brain;
 mod recording;
 mod scenario;
@@ -50,9 +53,13 @@ mod _core {
         Configuration, read_configuration, run_block, run_one, scenario_warnings,
     };
     #[pymodule_export]
+    use crate::document::Document;
+    #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]
     use crate::frame::frame;
+    #[pymodule_export]
+    use crate::geodesy::LocalFrame;
     #[pymodule_export]
     use crate::inspect::{believed_map, inspect, inspection};
     #[pymodule_export]
@@ -61,6 +68,8 @@ mod _core {
     use crate::overlay::{drawn_footprints, drawn_links, footprints, links};
     #[pymodule_export]
     use crate::page::check_page_message;
+    #[pymodule_export]
+    use crate::polygon::{polygon_contains, polygon_error};
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]

@@ -237,7 +237,7 @@ fn factor_dicts<'py>(py: Python<'py>, factors: &[Factor]) -> PyResult<Vec<Bound<
 }
 
 /// Converts a document value to Python; a date becomes a string.
-fn plain<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn plain<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     match value {
         Value::Bool(value) => Ok(PyBool::new(py, *value).to_owned().into_any()),
         Value::Integer(number) => number.into_bound_py_any(py),

@@ -56,13 +56,16 @@ pub(crate) struct Simulation {
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (scenario, *, seed, run, threads))]
+    #[pyo3(signature = (scenario, *, seed, run, threads, external))]
+    #[expect(clippy::needless_pass_by_value, reason = "PyO3 passes an owned list")]
+    #[expect(clippy::too_many_arguments, reason = "PyO3 passes the interpreter too")]
     fn new(
         py: Python,
         scenario: &Bound<MetricScenario>,
         seed: &Bound<PyAny>,
         run: &Bound<PyAny>,
         threads: &Bound<PyAny>,
+        external: Vec<String>,
     ) -> PyResult<Self> {
         let check = Arguments::default();
         let (seed, run, threads) = (
@@ -70,11 +73,14 @@ impl Simulation {
             check.run("run", run),
             check.threads(threads),
         );
-        let all = (|| Some((seed?, run?, threads?)))();
-        let (seed, run, threads) = check.or_errors(all)?;
         let scenario = &scenario.get().0;
+        let external = check.robots_of(scenario, "external", &external);
+        let all = (|| Some((seed?, run?, threads?, external?)))();
+        let (seed, run, threads, external) = check.or_errors(all)?;
         let begun = py.detach(|| Run::new(Arc::clone(scenario), seed, run));
         let begun = begun.map_err(|why| no_room(scenario, why))?;
+        let begun = begun.with_external(&external);
+        let begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(Self {
             run: Mutex::new(begun),
             threads,

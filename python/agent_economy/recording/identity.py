@@ -31,12 +31,14 @@ class Identity:
         seed: Seed of all random numbers.
         run: Run number.
         build: The build that recorded it.
+        external: Names of the robots that had external bodies from the start.
     """
 
     scenario: Scenario
     seed: int
     run: int
     build: Build
+    external: tuple[str, ...] = ()
 
 
 def write_identity(file: File, simulation: Stepped) -> None:
@@ -44,7 +46,7 @@ def write_identity(file: File, simulation: Stepped) -> None:
     source = simulation.scenario.source
     initial = source.overrides[: len(source.overrides) - len(simulation.changes)]
     name = Path(source.file).name
-    own = own_build()
+    own, external = own_build(), simulation.declared_external
     file.note(
         RUN,
         {
@@ -55,7 +57,8 @@ def write_identity(file: File, simulation: Stepped) -> None:
             "overrides": json.dumps([[list(each.path), strict(each.value)] for each in initial]),
             "seed": str(simulation.seed),
             "run": str(simulation.run),
-        },
+        }
+        | ({"external": json.dumps(external)} if external else {}),
     )
     file.attach(f"scenario/{name}", "application/toml", source.text.encode())
 
@@ -125,8 +128,19 @@ def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> I
     if missing := _core.missing_files(source):
         message = f"lacks files that the scenario refers to: {', '.join(missing)}"
         raise InputError(message)
-    seed, number = run.whole("seed"), run.whole("run")
-    return Identity(Scenario.of(source), seed, number, read_build(run))
+    scenario, seed, number = Scenario.of(source), run.whole("seed"), run.whole("run")
+    external = read_external(run)
+    if external and scenario.engine != "metric":
+        run.refuse("external bodies, which its engine does not have")
+    return Identity(scenario, seed, number, read_build(run), external)
+
+
+def read_external(run: Entries) -> tuple[str, ...]:
+    """Return the names of the robots that had external bodies from the start."""
+    names = run.json("external") if "external" in run else []
+    if not (isinstance(names, list) and all(map(validation.is_text, names))):
+        run.refuse("external bodies that are not a list of names")
+    return tuple(names)
 
 
 def read_overrides(run: Entries) -> tuple[Override, ...]:

@@ -14,7 +14,15 @@ from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
-from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change, read_identity
+from agent_economy.recording.identity import (
+    CHANGE,
+    RUN,
+    Identity,
+    read_change,
+    read_external,
+    read_identity,
+    read_run,
+)
 from agent_economy.regular_file import open_regular
 from agent_economy.runs.stepped import Change
 
@@ -58,10 +66,8 @@ class Recorded:
 
     def read_all(self, stream: IO[bytes]) -> None:
         """Add the records of a file, up to its end or to where it is truncated."""
-        exact = cast("IO[bytes]", ExactStream(stream))  # the reader uses only this method
-        reader = StreamReader(exact, validate_crcs=True, record_size_limit=MAX_BYTES)
         with suppress(EndOfFile):
-            for record in reader.records:
+            for record in stream_records(stream):
                 self.add(record)
             self.is_complete = True
 
@@ -78,6 +84,11 @@ class Recorded:
                 self._topics[record.id] = record.topic
             case Message():
                 self._add_message(self._topics.get(record.channel_id, ""), record.data)
+
+    @property
+    def external(self) -> tuple[str, ...]:
+        """Names of the robots that had external bodies from the start."""
+        return () if self._run is None else read_external(read_run(self._run))
 
     def identity(self) -> Identity:
         """Return the identity of the run.
@@ -110,6 +121,26 @@ class Recorded:
     def _add_input(self, entries: Entries) -> None:
         each = {name: entries.by_name(name) for name in ("percepts", "commands")}
         self.inputs[entries.whole("tick")] = each
+
+
+def stream_records(stream: IO[bytes]) -> Iterator[McapRecord]:
+    """Yield the records of a stream.
+
+    Raises:
+        EndOfFile: After the last one, if the file is truncated.
+    """
+    exact = cast("IO[bytes]", ExactStream(stream))  # the reader uses only this method
+    yield from StreamReader(exact, validate_crcs=True, record_size_limit=MAX_BYTES).records
+
+
+def each_record(path: Path) -> Iterator[McapRecord]:
+    """Yield the records of a file, up to its end or to where it is truncated.
+
+    Raises:
+        InputError: If it cannot be read, or is damaged.
+    """
+    with file_errors(path), open_regular(path) as stream, suppress(EndOfFile):
+        yield from stream_records(stream)
 
 
 def read(path: Path) -> tuple[Identity, Recorded]:

@@ -21,7 +21,7 @@ from agent_economy.scenario import Source, validation
 SUFFIX = ".mcap"
 """Suffix of the file names of recordings."""
 
-FLUSH_NS = 5 * SECOND_NS
+FLUSH_S = 5.0
 """Simulated time that a kill of the process loses; shorter intervals make larger files."""
 
 
@@ -43,6 +43,7 @@ class Recording:
         *,
         every: int = 1,
         percepts: Sequence[str] = (),
+        flush_s: float = FLUSH_S,
     ) -> None:
         """Start a recording at the current step of the run.
 
@@ -55,6 +56,8 @@ class Recording:
             percepts: Names of robots, KIND/INDEX, of which the percepts, commands and range scans
                 are recorded in each step. None by default: those of all robots take about twenty
                 times the space of everything else. Not available for the classic engine.
+            flush_s: Simulated time that a kill of the process loses; shorter times make larger
+                files.
 
         Raises:
             InputError: If an argument is not allowed, or the file cannot be written.
@@ -64,6 +67,7 @@ class Recording:
         self._engine = check(simulation, path, every, selected)
         self.simulation = simulation
         self._every, self._selected = every, selected
+        self._flush_ns = round(flush_s * SECOND_NS)
         self._clock = Clock(simulation.step_s)
         self._file = File(path)
         self._flushed_ns = self._clock.time_ns(simulation.tick)
@@ -118,9 +122,29 @@ class Recording:
         time_ns = self._clock.time_ns(self.simulation.tick)
         if self.simulation.tick != self._moments.tick:
             self._moments.write(time_ns)
-        if time_ns - self._flushed_ns >= FLUSH_NS:
+        if time_ns - self._flushed_ns >= self._flush_ns:
             self._file.flush()
             self._flushed_ns = time_ns
+
+    def write_json(self, topic: str, schema: str, message: object, time_s: float) -> None:
+        """Add a message of the caller's own topic.
+
+        Args:
+            topic: The topic; none of those of the run.
+            schema: Its JSON Schema, with a title.
+            message: The message, which the schema allows.
+            time_s: Its time since the start of the run.
+
+        Raises:
+            RecordingError: If the file cannot be written. The recording is then closed.
+        """
+        self._file.declare(topic, schema)
+        self._file.write_json(topic, message, max(0, round(time_s * SECOND_NS)))
+
+    def note_values(self, name: str, values: Mapping[str, str]) -> None:
+        """Add metadata, and write it to the file at once."""
+        self._file.note(name, values)
+        self._file.flush()
 
     def close(self) -> None:
         """Record the current step and the outcome, and close the file."""

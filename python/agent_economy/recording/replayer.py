@@ -32,6 +32,8 @@ class Replay:
         mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
             it reproduces all.
         outcome: The outcome of the replay.
+        lines: Number of lines of robots from which the percepts were made again; None if the
+            recording is not of a drive.
     """
 
     scenario: Scenario
@@ -44,6 +46,7 @@ class Replay:
     hash: str
     mismatch_tick: int | None
     outcome: Outcome
+    lines: int | None = None
 
     @property
     def agrees(self) -> bool:
@@ -68,7 +71,8 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
     with named(path):
         if verify:
             check_build(identity)
-        simulation = factory.create(identity.scenario, identity.seed, identity.run)
+        begun = identity.scenario, identity.seed, identity.run
+        simulation = factory.create(*begun, identity.external)
         return compared(simulation, identity, recorded)
 
 

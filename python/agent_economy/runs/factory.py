@@ -1,6 +1,6 @@
 """Creates the stepped run of a scenario, for any engine."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from agent_economy.runs.classic_simulation import ClassicSimulation
 from agent_economy.runs.simulation import Simulation
@@ -13,11 +13,19 @@ ENGINES: dict[str, Callable[[Scenario, int, int], Stepped]] = {
 }
 
 
-def create(scenario: Scenario, seed: int, run: int) -> Stepped:
+def create(scenario: Scenario, seed: int, run: int, external: Sequence[str] = ()) -> Stepped:
     """Create a run of a scenario's engine, at its first step.
+
+    Args:
+        scenario: The scenario.
+        seed: Seed of all random numbers.
+        run: Run number.
+        external: Names of robots that have external bodies from the start; of the metric engine.
 
     Raises:
         InputError: If an argument is out of range, or the world has no room for the team or the
             items.
     """
+    if external:
+        return Simulation(scenario, seed, run, external=external)
     return ENGINES[scenario.engine](scenario, seed, run)

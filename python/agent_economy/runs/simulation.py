@@ -1,6 +1,6 @@
 """An interactive run of the metric engine."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from numbers import Integral
 from pathlib import Path
 from typing import Any, NamedTuple, cast
@@ -48,18 +48,21 @@ class Simulation(Stepped):
         scenario: The scenario, with all changes made during the run.
         seed: Seed of all random numbers.
         run: Run number.
+        declared_external: Names of the robots that had external bodies from the start, sorted.
     """
 
     _run: _core.Simulation
     _state_type = _core.Snapshot
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  (keywords with defaults)
         self,
         scenario: Scenario | str | Path,
         seed: int = 0,
         run: int = 0,
         threads: int | None = None,
         brains: Brains | None = None,
+        *,
+        external: Iterable[str] = (),
     ) -> None:
         """Create a run at its first step.
 
@@ -73,15 +76,20 @@ class Simulation(Stepped):
                 the body of a robot and returns its brain: an object with a method `step(percept)`
                 that returns a command, as `Brain` has. It decides instead of the scenario's brain,
                 at the same steps. Or a `Batch`, which decides for all robots of the kind at once.
+            external: Names of robots that have external bodies from the start: see `step`. Until
+                its first percept, such a body is stationary where it starts.
 
         Raises:
             InputError: If the scenario has errors or is of another engine, an argument is out of
                 range, or the world has no room for the team or the items.
         """
-        super().__init__(as_scenario(scenario), seed, run)
-        metric = self.scenario.metric()
-        self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads)
+        super().__init__(as_scenario(scenario), seed, run, sorted_names(external))
+        metric, names = self.scenario.metric(), self.declared_external
+        self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads, external=names)
         self._brains = python_brains(brains, metric, self.scenario.robots)
+        in_python = [name for name in names if self._is_in_python(name)]
+        allowed = "robots with the brain of the scenario: step the brains in `brains` yourself"
+        validation.check(not in_python, "external", in_python, allowed)
         self._inspected: str | None = None
 
     def step(
@@ -97,7 +105,8 @@ class Simulation(Stepped):
         each percept triggers one step of its brain, and the command is returned instead of being
         executed. The run adds the messages of other robots to the percept, and counts the items of
         its contacts as found. In a step without a percept, the robot does not move and its brain
-        does not step.
+        does not step. A percept with a time that is not later than that of the one before is
+        ignored: the last motion is returned again.
 
         Args:
             steps: Number of steps, 0 or more; 1 with percepts or commands.
@@ -349,6 +358,18 @@ class Simulation(Stepped):
                 "found_s": arrow.column(items["found_s"], np.isnan(items["found_s"])),
             }
         )
+
+
+def sorted_names(external: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of declared external bodies, sorted.
+
+    Raises:
+        InputError: If they are not names, or one occurs twice.
+    """
+    names = validation.texts("external", external, "a list of robot names")
+    repeated = [name for place, name in enumerate(names) if name in names[:place]]
+    validation.check(not repeated, "external", repeated, "different robots, each named once")
+    return tuple(sorted(names))
 
 
 def as_dict(name: str, mapping: Mapping[str, Any] | None) -> dict[str, Any]:

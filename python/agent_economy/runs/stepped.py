@@ -32,15 +32,16 @@ class Change(NamedTuple):
 class Snapshot:
     """The state of a run at one step, for `restore` of the same run in this process.
 
-    That is any run that began with the same scenario, seed and run number; its changes may differ.
-    It cannot be pickled. To keep a run, store its scenario, seed, run number and `changes`, and
-    step again.
+    That is any run that began with the same scenario, seed, run number and external bodies; its
+    changes may differ. It cannot be pickled. To keep a run, store its scenario, seed, run number
+    and `changes`, and step again.
     """
 
     scenario: Scenario
     seed: int
     run: int
     changes: tuple[Change, ...]
+    _external: tuple[str, ...] = field(repr=False)
     _initial: Scenario = field(repr=False)
     _state: Any = field(repr=False)
 
@@ -59,17 +60,22 @@ class Stepped(ABC):
         scenario: The scenario, with all changes made during the run.
         seed: Seed of all random numbers.
         run: Run number.
+        declared_external: Names of the robots that had external bodies from the start, sorted.
     """
 
     scenario: Scenario
     seed: int
     run: int
+    declared_external: tuple[str, ...]
     _run: "_core.CompiledRun"
     _state_type: ClassVar[type]
 
-    def __init__(self, scenario: Scenario, seed: int, run: int) -> None:
+    def __init__(
+        self, scenario: Scenario, seed: int, run: int, external: tuple[str, ...] = ()
+    ) -> None:
         """Create a run without changes."""
         self.scenario, self.seed, self.run = scenario, seed, run
+        self.declared_external = external
         self._initial = scenario
         self._changes: tuple[Change, ...] = ()
         self._lock = RLock()
@@ -100,15 +106,15 @@ class Stepped(ABC):
         """Return a copy of the complete state of the run. It takes as much memory as the run."""
         with self._lock:
             state = self._run.snapshot()
-            changes = self._changes
-            return Snapshot(self.scenario, self.seed, self.run, changes, self._initial, state)
+            begun = self.scenario, self.seed, self.run
+            return Snapshot(*begun, self._changes, self.declared_external, self._initial, state)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Return to a snapshot: its state, its scenario and its changes.
 
         Raises:
             InputError: If `snapshot` is not a snapshot of this run: of one that began with the same
-                scenario, seed and run number.
+                scenario, seed, run number and external bodies.
         """
         state = getattr(snapshot, "_state", None)
         is_own = isinstance(state, self._state_type)
@@ -119,8 +125,8 @@ class Stepped(ABC):
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
 
     def _check_same_run(self, snapshot: Snapshot) -> None:
-        theirs = begun(snapshot._initial, snapshot.seed, snapshot.run)  # noqa: SLF001  (its own type)
-        own = begun(self._initial, self.seed, self.run)
+        theirs = begun(snapshot._initial, snapshot.seed, snapshot.run, snapshot._external)  # noqa: SLF001  (its own type)
+        own = begun(self._initial, self.seed, self.run, self.declared_external)
         if theirs == own and is_same(snapshot._initial, self._initial):  # noqa: SLF001
             return
         other = " with another scenario of this name" if theirs == own else ""
@@ -172,9 +178,10 @@ class Stepped(ABC):
         return self._run.hash
 
 
-def begun(scenario: Scenario, seed: int, run: int) -> str:
+def begun(scenario: Scenario, seed: int, run: int, external: tuple[str, ...]) -> str:
     """Return how a run began, in words."""
-    return f"{scenario.name!r}, seed={seed}, run={run}"
+    declared = f", external={external!r}" if external else ""
+    return f"{scenario.name!r}, seed={seed}, run={run}{declared}"
 
 
 def is_same(one: Scenario, other: Scenario) -> bool:

@@ -80,7 +80,7 @@ def texts(name: str, value: Iterable[str], allowed: str) -> tuple[str, ...]:
     of_type(name, value, Iterable, allowed)
     check(not isinstance(value, str), name, value, allowed)
     values = tuple(value)
-    check(all(isinstance(each, str) for each in values), name, value, allowed)
+    check(all(map(is_text, values)), name, value, allowed)
     return values
 
 

@@ -73,9 +73,7 @@ impl DeadReckoning {
             self.time_s += period_s;
             return Some(period_s);
         };
-        // False for NaN.
-        let is_later = now_s > self.time_s && now_s < f64::INFINITY;
-        if !is_later {
+        if !self.is_later(time_s) {
             return None;
         }
         let elapsed_s = now_s - core::mem::replace(&mut self.time_s, now_s);
@@ -86,6 +84,13 @@ impl DeadReckoning {
         } else {
             elapsed_s.min(MAX_ELAPSED_S)
         })
+    }
+
+    /// Whether a percept at a time, or without one, is later than the last one.
+    #[inline]
+    pub(crate) fn is_later(&self, time_s: Option<f64>) -> bool {
+        // False for NaN.
+        time_s.is_none_or(|time_s| time_s > self.time_s && time_s < f64::INFINITY)
     }
 
     /// The command in force.

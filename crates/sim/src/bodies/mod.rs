@@ -7,6 +7,7 @@ pub mod drive;
 pub(crate) mod kind;
 pub mod models;
 pub(crate) mod path;
+pub(crate) mod source;
 
 use crate::radio::RadioSpec;
 use crate::sensors::SensorSpec;

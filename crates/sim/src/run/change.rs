@@ -80,7 +80,7 @@ impl State {
             self.agents[robot] = kept_agent(&before.agents[was], old_kind, kind);
             let is_same =
                 kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
-            let is_placed = self.body_states[robot].is_external || is_same_ground && is_same;
+            let is_placed = self.body_states[robot].is_external() || is_same_ground && is_same;
             *start = if is_placed {
                 Start::Unchanged
             } else {
@@ -190,7 +190,7 @@ fn kept_body_state(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodySt
         .is_some_and(|battery| body_state.energy_j >= battery.capacity_j);
     let status = match body_state.status {
         Status::Broken => Status::Broken,
-        status if body_state.is_external => status,
+        status if body_state.is_external() => status,
         _ if is_used_up => Status::Empty,
         _ => Status::Active,
     };

@@ -87,7 +87,7 @@ impl State {
                 speed_m_s: body_state.speed_m_s,
                 setpoint: self.agents[robot].setpoint,
                 status: body_state.status,
-                is_external: body_state.is_external,
+                is_external: body_state.is_external(),
                 is_touching: body_state.is_pressed,
                 energy_j: body_state.energy_j,
                 battery: body_state.charge(kind),

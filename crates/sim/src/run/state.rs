@@ -4,6 +4,7 @@ use super::agent::Agent;
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::bodies::path::Orientation;
+use crate::bodies::source::BodySource;
 use crate::radio::channel::RadioChannel;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
@@ -48,8 +49,7 @@ pub(crate) struct BodyState {
     pub(crate) held_until: u64,
     pub(crate) collisions: u32,
     pub(crate) status: Status,
-    /// Its percepts come from outside the simulation, and its commands are returned there.
-    pub(crate) is_external: bool,
+    pub(crate) source: BodySource,
     /// It touched something in the last step, or it has not moved freely since.
     pub(crate) is_touching: bool,
     /// Something stopped it in the last step.
@@ -57,6 +57,10 @@ pub(crate) struct BodyState {
 }
 
 impl BodyState {
+    pub(crate) fn is_external(&self) -> bool {
+        self.source == BodySource::External
+    }
+
     /// Remaining fraction of its battery, 0 to 1; `None` if it never runs empty.
     pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
         let capacity_j = kind.battery?.capacity_j;
@@ -234,7 +238,9 @@ impl State {
                 .iter()
                 .chain(&more)
                 .for_each(|number| hash.add(number.to_bits()));
-            hash.add(u64::from(body_state.collisions) << 8 | body_state.status as u64);
+            let is_external = u64::from(body_state.is_external());
+            let status = is_external << 7 | body_state.status as u64;
+            hash.add(u64::from(body_state.collisions) << 8 | status);
         }
         for (kind, found) in self.items.each() {
             hash.add(u64::from(kind) << 48 | found.map_or(0, |tick| tick + 1));

@@ -62,7 +62,7 @@ impl Simulation {
         let number = self.number(id).ok();
         let can_go_on = |robot: &usize| {
             let body_state = &self.state.body_states[*robot];
-            body_state.status == Status::Active && !body_state.is_external
+            body_state.status == Status::Active && !body_state.is_external()
         };
         let Some(robot) = number.filter(can_go_on) else {
             self.probe.forget();

@@ -11,10 +11,11 @@ pub use inspect::Inspected;
 pub use links::Link;
 
 use crate::bodies::path::Orientation;
+use crate::bodies::source::BodySource;
 use crate::clock::seconds;
 use crate::run::agent::Agent;
 use crate::run::outcome::Outcome;
-use crate::run::state::{NoRoom, State};
+use crate::run::state::{NoRoom, State, Status};
 use crate::scenario::Scenario;
 use crate::step::external::ExternalInputs;
 use crate::step::neighbours::Neighbours;
@@ -29,10 +30,11 @@ use std::sync::Arc;
 
 /// A run, and what it needs to continue.
 ///
-/// A body can be external: from the first percept that [`Simulation::step_with`] gets for a robot, its
-/// pose comes from its percepts, and the commands of its brain are returned instead of executed. In
-/// a step without a percept it is stationary, and its brain does not step. Its damage and battery are
-/// not simulated: it neither breaks nor runs empty, and uses no energy.
+/// A body can be external, from the start ([`Simulation::with_external`]) or from the first percept that
+/// [`Simulation::step_with`] gets for a robot: its pose comes from its percepts, and the commands of its
+/// brain are returned instead of executed. In a step without a percept it is stationary, and its brain does
+/// not step. A percept that is not later than the one before is ignored: the last motion is returned
+/// again. Its damage and battery are not simulated: it neither breaks nor runs empty, and uses no energy.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scenario: Arc<Scenario>,
@@ -60,6 +62,19 @@ impl Simulation {
             scratch,
             probe: Probe::default(),
         })
+    }
+
+    /// The run, with external bodies of these robots. Until its first percept, such a body stands where it
+    /// starts.
+    ///
+    /// # Errors
+    /// If there is no such robot.
+    pub fn with_external(mut self, robots: &[RobotId]) -> Result<Self, NoRobot> {
+        for id in robots {
+            let robot = self.number(*id)?;
+            self.state.body_states[robot].source = BodySource::External;
+        }
+        Ok(self)
     }
 
     /// Takes one step, also after the run is over.
@@ -108,10 +123,12 @@ impl Simulation {
         self.probe.forget();
         self.scratch
             .tick(&self.scenario, &mut self.state, &external);
+        let repeated: Vec<_> = self.repeated_commands(&external).collect();
         self.scratch.decisions = external.decisions;
         let ids = &self.state.ids;
-        self.scratch
-            .external_commands()
+        let decided = self.scratch.external_commands();
+        let commands = repeated.into_iter().chain(decided);
+        commands
             .map(|(robot, command)| (ids[robot], command))
             .collect()
     }
@@ -210,29 +227,48 @@ impl Simulation {
         percepts: BTreeMap<RobotId, Percept>,
         commands: BTreeMap<RobotId, Command>,
     ) -> Result<ExternalInputs, NoRobot> {
-        let external = ExternalInputs {
+        let mut external = ExternalInputs {
             percepts: self.numbered(percepts)?,
             commands: self.numbered(commands)?,
             ..ExternalInputs::default()
         };
-        for (robot, percept) in &external.percepts {
-            self.place_external(*robot, percept);
+        for robot in external.percepts.keys() {
+            self.state.body_states[*robot].source = BodySource::External;
         }
+        let agents = &self.state.agents;
+        external.keep_later(|robot, percept| agents[robot].brain.is_later(percept));
+        let mut farthest_m: f64 = 0.0;
+        for (robot, percept) in &external.percepts {
+            farthest_m = farthest_m.max(self.place_external(*robot, percept));
+        }
+        self.scratch.note_placed(farthest_m);
         Ok(external)
     }
 
-    /// Marks a body as external and moves it to the pose of its percept.
-    fn place_external(&mut self, robot: usize, percept: &Percept) {
-        self.state.body_states[robot].is_external = true;
+    /// The commands for the bodies whose percepts were ignored: the last motion.
+    fn repeated_commands(
+        &self,
+        external: &ExternalInputs,
+    ) -> impl Iterator<Item = (usize, Command)> {
+        let is_active = |robot: &&usize| self.state.body_states[**robot].status == Status::Active;
+        let active = external.repeated.iter().filter(is_active);
+        active.map(|robot| (*robot, self.state.agents[*robot].brain.last_command()))
+    }
+
+    /// Moves an external body to the pose of its percept; returns how far.
+    fn place_external(&mut self, robot: usize, percept: &Percept) -> f64 {
+        let centre = &mut self.state.discs[robot].centre;
+        let before = *centre;
         let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
         if let Some(at) = percept.position.map(|read| read.value).filter(is_finite) {
-            self.state.discs[robot].centre = self.scenario.home(at);
-            self.scratch.invalidate();
+            *centre = self.scenario.home(at);
         }
+        let moved_m = before.to(self.scenario.image(before, *centre)).length();
         let heading_rad = percept.heading_rad.map(|read| read.value);
         if let Some(heading_rad) = heading_rad.filter(|heading_rad| heading_rad.abs() < 1e6) {
             self.state.orientations[robot] = Orientation::new(heading_rad);
         }
+        moved_m
     }
 
     fn numbered<T>(&self, given: BTreeMap<RobotId, T>) -> Result<BTreeMap<usize, T>, NoRobot> {

@@ -150,7 +150,7 @@ impl BodyState {
         self.collisions += 1;
         self.held_until = tick + 1 + kind.collision.stop_steps;
         let is_too_often = self.collisions >= kind.collision.max_collisions;
-        if is_too_often && self.status == Status::Active && !self.is_external {
+        if is_too_often && self.status == Status::Active && !self.is_external() {
             self.status = Status::Broken;
         }
     }
@@ -158,7 +158,7 @@ impl BodyState {
     /// Takes the energy of a step from the battery.
     #[inline]
     fn drain(&mut self, plan: &Plan, kind: &Kind, gone_m: f64, step_s: f64) {
-        let is_drained = self.status == Status::Active && !self.is_external;
+        let is_drained = self.status == Status::Active && !self.is_external();
         let Some(battery) = kind.battery.filter(|_| is_drained) else {
             return;
         };

@@ -52,7 +52,7 @@ impl WorkerScratch {
             agent.setpoint = Motion::default();
         } else if let Some(external) = inputs.external {
             self.serve_with_inputs(inputs, robot, agent, external);
-        } else if !body_state.is_external {
+        } else if !body_state.is_external() {
             self.serve_simulated(inputs, robot, agent);
         }
     }
@@ -85,7 +85,7 @@ impl WorkerScratch {
             self.recognise(view, robot);
             agent.brain.step_into(&self.percept, &mut self.command);
             self.external_commands.push((robot, self.command.clone()));
-        } else if view.body_states[robot].is_external {
+        } else if view.body_states[robot].is_external() {
             return;
         } else {
             let Some(command) = external.commands.get(&robot) else {

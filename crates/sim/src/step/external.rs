@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 pub struct ExternalInputs {
     /// By the number of the robot, as are commands.
     pub(crate) percepts: BTreeMap<usize, Percept>,
+    /// External bodies whose percept is not later than the one before: their last motion is repeated.
+    pub(crate) repeated: Vec<usize>,
     pub(crate) commands: BTreeMap<usize, Command>,
     pub(crate) decisions: PendingDecisions,
 }
@@ -18,6 +20,18 @@ impl ExternalInputs {
     /// The robots whose decisions are made elsewhere, in their order.
     pub fn decisions(&mut self) -> &mut [PendingDecision] {
         &mut self.decisions.robots
+    }
+
+    /// Removes the percepts that are not later than those before.
+    pub(crate) fn keep_later(&mut self, is_later: impl Fn(usize, &Percept) -> bool) {
+        let repeated = &mut self.repeated;
+        self.percepts.retain(|robot, percept| {
+            let is_later = is_later(*robot, percept);
+            if !is_later {
+                repeated.push(*robot);
+            }
+            is_later
+        });
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -48,10 +62,14 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 radio = { range_m = 5 }
 ";
 
-    fn start() -> Simulation {
-        let document = Document::parse("t", TWO).unwrap();
+    fn of(text: &str) -> Simulation {
+        let document = Document::parse("t", text).unwrap();
         let read = ScenarioSpec::read(&document);
         Simulation::new(Arc::new(read.unwrap().scenario), 1, 0).unwrap()
+    }
+
+    fn start() -> Simulation {
+        of(TWO)
     }
 
     const HERE: RobotId = RobotId { kind: 0, index: 0 };
@@ -103,6 +121,77 @@ radio = { range_m = 5 }
         assert_eq!(waiting(&simulation), 0);
         speak(&mut simulation, 6.0);
         assert_eq!(waiting(&simulation), 1);
+    }
+
+    #[test]
+    fn messages_wait_while_percepts_are_not_later() {
+        let mut simulation = start();
+        let mut percept_at = |time_s: f64| {
+            let time_s = Some(time_s);
+            let percept = Percept { time_s, ..at(12.0) };
+            let (percepts, commands) = ([(OUT, percept)], [(HERE, saying(1))]);
+            simulation
+                .step_with(percepts.into(), commands.into())
+                .unwrap();
+            waiting(&simulation)
+        };
+        let counts = [1.0, 1.0, 0.5, 1.0, 2.0].map(&mut percept_at);
+        assert_eq!(counts, [1, 2, 3, 4, 1]);
+    }
+
+    fn at(x: f64) -> Percept {
+        Percept {
+            position: Some(brain::Reading {
+                value: Point { x, y: 10.0 },
+                age_s: 0.0,
+            }),
+            ..Percept::default()
+        }
+    }
+
+    #[test]
+    fn lists_of_neighbours_stay_valid_while_an_external_body_moves_a_little() {
+        let mut simulation = start();
+        let still = BTreeMap::from([(HERE, Command::default())]);
+        let mut are_valid_at = |x: f64| {
+            let percepts = [(OUT, at(x))].into();
+            let external = simulation.begin_step(percepts, still.clone(), &[]).unwrap();
+            let are_valid = simulation.neighbours().are_valid();
+            simulation.finish_step(external);
+            are_valid
+        };
+        // Lists reach 0.6 m farther than needed.
+        are_valid_at(12.0);
+        assert!(are_valid_at(12.1) && are_valid_at(12.2) && are_valid_at(12.25));
+        assert!(are_valid_at(12.25));
+    }
+
+    #[test]
+    fn the_age_of_lists_of_neighbours_changes_nothing_where_external_bodies_move() {
+        let text = TWO
+            .replace("count = 2", "count = 12")
+            .replace(", at_m = [[10, 10], [12, 10]]", "")
+            .replace("\"fixed\"", "\"uniform\"")
+            + "sensors.sonar = { kind = \"range\", rays = 8, range_m = 4 }\n";
+        for world in ["", ", periodic = true"] {
+            let text = text.replace("size_m = [40, 20]", &format!("size_m = [40, 20]{world}"));
+            let mut kept = of(&text);
+            let mut rebuilt = kept.clone();
+            for step in 0..300 {
+                let x = f64::from(step) * 0.13;
+                // Now and then it jumps.
+                let x = if step % 50 == 49 { 45.0 - x } else { x };
+                for simulation in [&mut kept, &mut rebuilt] {
+                    simulation
+                        .step_with([(OUT, at(x))].into(), [].into())
+                        .unwrap();
+                }
+                // Restoring a state forgets the lists.
+                let state = rebuilt.state().clone();
+                rebuilt.restore(state);
+                assert_eq!(kept.state().hash(), rebuilt.state().hash(), "{step}");
+            }
+        }
     }
 
     #[test]

@@ -77,7 +77,8 @@ fn flock_step_some(
         let kind = &scenario.kinds[usize::from(id.kind)];
         if body_state.status != Status::Active {
             agent.setpoint = Motion::default();
-        } else if let Some(flocking) = kind.flocking.as_ref().filter(|_| !body_state.is_external) {
+        } else if let Some(flocking) = kind.flocking.as_ref().filter(|_| !body_state.is_external())
+        {
             let turn_rate = turn_rates[place % AT_ONCE];
             agent.setpoint = flocking.setpoint(agent, turn_rate, course, (*noise, tick));
         }

@@ -90,6 +90,11 @@ impl Neighbours {
         self.gone_m = f64::INFINITY;
     }
 
+    /// Whether no robot can have moved too far since the lists were built.
+    pub(crate) fn are_valid(&self) -> bool {
+        2.0 * self.gone_m <= self.skin_m
+    }
+
     /// Rebuilds the lists if they are no longer valid.
     pub(crate) fn refresh(
         &mut self,
@@ -98,7 +103,7 @@ impl Neighbours {
         discs: &[Disc],
         is_shared: bool,
     ) {
-        if 2.0 * self.gone_m <= self.skin_m {
+        if self.are_valid() {
             return;
         }
         self.gone_m = 0.0;

@@ -142,7 +142,7 @@ impl BodyState {
     /// Whether its body moves in this step.
     #[inline]
     fn can_move(&self, tick: u64) -> bool {
-        self.status == Status::Active && !self.is_external && tick >= self.held_until
+        self.status == Status::Active && !self.is_external() && tick >= self.held_until
     }
 }
 

@@ -58,6 +58,11 @@ impl StepScratch {
         self.neighbours.forget();
     }
 
+    /// Notes that external bodies were placed, none of them farther than this from where it was.
+    pub(crate) fn note_placed(&mut self, farthest_m: f64) {
+        self.neighbours.note(farthest_m);
+    }
+
     /// Takes one step.
     pub(crate) fn tick(
         &mut self,

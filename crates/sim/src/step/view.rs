@@ -59,7 +59,7 @@ impl<'a> View<'a> {
     /// Whether its body is simulated, and can still move.
     pub(crate) fn is_simulated(&self, robot: usize) -> bool {
         let body_state = &self.body_states[robot];
-        body_state.status == Status::Active && !body_state.is_external
+        body_state.status == Status::Active && !body_state.is_external()
     }
 
     /// Whether its brain steps now, and its body is simulated.
@@ -96,10 +96,7 @@ impl State {
             noises: &self.noises,
             items: &self.items,
             neighbours,
-            has_external_bodies: self
-                .body_states
-                .iter()
-                .any(|body_state| body_state.is_external),
+            has_external_bodies: self.body_states.iter().any(BodyState::is_external),
         };
         (view, &mut self.agents)
     }

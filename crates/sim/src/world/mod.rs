@@ -4,10 +4,12 @@ pub(crate) mod buckets;
 pub(crate) mod grid;
 pub mod items;
 pub mod obstacles;
+pub mod origin;
 pub(crate) mod static_geometry;
 pub mod terrain;
 
 use obstacles::ObstacleSpec;
+use origin::OriginSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +25,8 @@ pub struct WorldSpec {
     /// Obstacles on the ground.
     #[serde(default)]
     pub obstacles: Vec<ObstacleSpec>,
+    /// Place of the world on the earth.
+    pub origin: Option<OriginSpec>,
 }
 
 /// A length of a world, in metres.

@@ -18,6 +18,7 @@ class RunHistory:
         log: Changes of the scenario, in order.
         inputs: External percepts and commands by tick, as keyword arguments of `Simulation.step`.
         latest_tick: The last tick that was reached.
+        external: Names of the robots that had external bodies from the start.
     """
 
     scenario: Scenario
@@ -26,3 +27,4 @@ class RunHistory:
     log: tuple[Change, ...]
     inputs: dict[int, dict[str, Any]]
     latest_tick: int
+    external: tuple[str, ...] = ()

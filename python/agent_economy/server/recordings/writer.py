@@ -55,7 +55,8 @@ class RecordingWriter:
             InputError: If the run is too long, or the file cannot be written; no file is left.
         """
         history = self.history
-        simulation = factory.create(history.scenario, history.seed, history.run)
+        begun = history.scenario, history.seed, history.run
+        simulation = factory.create(*begun, history.external)
         check_size(history.latest_tick * size_of_step(simulation))
         with write_errors(self._folder):
             self._folder.mkdir(exist_ok=True)

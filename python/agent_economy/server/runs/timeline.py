@@ -53,7 +53,8 @@ class Timeline:
         Raises:
             InputError: If the world has no room for the team.
         """
-        self.simulation = factory.create(scenario, seed, run)
+        external = recorded.external if recorded else ()
+        self.simulation = factory.create(scenario, seed, run, external)
         self._first = scenario
         self._is_recording = recorded is not None
         self.recorded = RecordedRun(recorded or Recorded())
@@ -87,7 +88,13 @@ class Timeline:
         """Everything that is needed to replay the run."""
         simulation, inputs = self.simulation, self.recorded.inputs
         return RunHistory(
-            self._first, simulation.seed, simulation.run, self.log, inputs, self.latest_tick
+            self._first,
+            simulation.seed,
+            simulation.run,
+            self.log,
+            inputs,
+            self.latest_tick,
+            simulation.declared_external,
         )
 
     @property

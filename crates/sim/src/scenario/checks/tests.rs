@@ -76,6 +76,26 @@ fn a_good_scenario_is_read() {
 }
 
 #[test]
+fn the_place_on_the_earth_is_optional_and_checked_as_a_whole() {
+    assert_eq!(read(GOOD).unwrap().spec.world.origin, None);
+    let zurich = "[world.origin]\nlatitude_deg = 47.4\nlongitude_deg = 8.5\nrotation_deg = 30";
+    let spec = read(&format!("{GOOD}\n{zurich}")).unwrap().spec;
+    let origin = spec.world.origin.unwrap();
+    assert_eq!((origin.latitude_deg, origin.longitude_deg), (47.4, 8.5));
+    assert_eq!((origin.rotation_deg, origin.declination_deg), (30.0, 0.0));
+    let bad = "[world.origin]\nlatitude_deg = 91\nlongtude_deg = 8.5\nrotation_deg = inf";
+    let errors = read(&format!("{GOOD}\n{bad}")).unwrap_err().to_string();
+    for part in [
+        "world.origin.latitude_deg = 91: must be a number from -85 to 85 (degrees)",
+        "did you mean longitude_deg?",
+        "world.origin.longitude_deg is missing",
+        "world.origin.rotation_deg = inf: must be a number from -360 to 360 (degrees)",
+    ] {
+        assert!(errors.contains(part), "{errors}");
+    }
+}
+
+#[test]
 fn keys_that_are_not_the_engines_are_left_to_others() {
     assert!(read(&format!("merit = 3\nstudy = 4\nx = 5\n{GOOD}")).is_ok());
 }

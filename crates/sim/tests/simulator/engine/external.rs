@@ -37,6 +37,14 @@ fn at(x: f64, y: f64) -> Percept {
     }
 }
 
+/// A current scan that is equally far in all directions.
+fn scans(range_m: f64) -> Vec<Scan> {
+    vec![Scan {
+        age_s: Some(0.0),
+        ranges_m: vec![range_m; 8],
+    }]
+}
+
 fn with(simulation: &mut Simulation, percept: Percept) -> BTreeMap<RobotId, brain::Command> {
     let percepts = BTreeMap::from([(OUT, percept)]);
     simulation.step_with(percepts, BTreeMap::new()).unwrap()
@@ -201,6 +209,131 @@ fn simulated_collisions_and_energy_do_not_stop_an_external_body() {
     let body = robots(&simulation)[0];
     assert_eq!((body.status, body.energy_j), (Status::Active, 0.0));
     assert_eq!(robots(&simulation)[2].status, Status::Empty);
+}
+
+#[test]
+fn a_declared_body_stands_where_it_starts_until_its_first_percept() {
+    let declared = start(FIELD).with_external(&[OUT]).unwrap();
+    let mut simulation = declared.clone();
+    assert_ne!(simulation.state().hash(), start(FIELD).state().hash());
+    let there = robots(&simulation)[0].at;
+    for _ in 0..10 {
+        assert_eq!(simulation.percept(OUT).unwrap(), None);
+        simulation.step();
+        let robot = robots(&simulation)[0];
+        assert!(robot.is_external && robot.at == there && robot.energy_j == 0.0);
+    }
+    // Another robot would have moved.
+    assert_ne!(robots(&simulation)[2].at, robots(&start(FIELD))[2].at);
+    with(&mut simulation, at(5.5, 6.5));
+    assert_eq!(robots(&simulation)[0].at, Point { x: 5.5, y: 6.5 });
+}
+
+#[test]
+fn a_body_that_is_declared_external_acts_like_one_that_becomes_external() {
+    let mut becomes = start(FIELD);
+    let mut declared = start(FIELD).with_external(&[OUT]).unwrap();
+    for step in 0..50 {
+        let percept = at(2.0 + f64::from(step) / 10.0, 6.5);
+        assert_eq!(
+            with(&mut becomes, percept.clone()),
+            with(&mut declared, percept)
+        );
+        assert_eq!(becomes.state().hash(), declared.state().hash());
+    }
+}
+
+#[test]
+fn an_unknown_robot_cannot_be_declared_external() {
+    let refused = start(FIELD).with_external(&[OUT, id(0, 3)]);
+    assert_eq!(refused.unwrap_err(), NoRobot(id(0, 3)));
+}
+
+#[test]
+fn a_percept_that_is_not_later_than_the_one_before_repeats_the_motion_and_nothing_else() {
+    let mut simulation = start(FIELD);
+    let percept = Percept {
+        time_s: Some(3.0),
+        scans: scans(f64::INFINITY),
+        ..at(2.0, 2.0)
+    };
+    let first = with(&mut simulation, percept.clone());
+    assert!(first[&OUT].motion.speed_m_s > 0.0);
+    // Elsewhere, near an obstacle, and its detector reports an item where there is none.
+    let late = Percept {
+        scans: scans(0.45),
+        contacts: vec![Contact {
+            sensor: 0,
+            kind: 0,
+            range_m: 0.5,
+            bearing_rad: 0.0,
+            age_s: 0.0,
+        }],
+        position: now(Point { x: 9.0, y: 2.0 }),
+        ..percept
+    };
+    for time_s in [3.0, 2.0, f64::NAN] {
+        let late = Percept {
+            time_s: Some(time_s),
+            ..late.clone()
+        };
+        let answers = with(&mut simulation, late);
+        let repeated = go(
+            first[&OUT].motion.speed_m_s,
+            first[&OUT].motion.turn_rate_rad_s,
+        );
+        assert_eq!(answers, BTreeMap::from([(OUT, repeated)]));
+        assert_eq!(robots(&simulation)[0].at, Point { x: 2.0, y: 2.0 });
+        assert_eq!(simulation.outcome().false_alarms, 0);
+    }
+    let next = Percept {
+        time_s: Some(3.1),
+        ..late
+    };
+    assert_ne!(with(&mut simulation, next), first);
+    assert_eq!(robots(&simulation)[0].at, Point { x: 9.0, y: 2.0 });
+    assert_eq!(simulation.outcome().false_alarms, 1);
+}
+
+#[test]
+fn a_percept_of_a_step_that_was_not_finished_can_be_given_again() {
+    let mut simulation = start(FIELD);
+    let percepts = || {
+        let percept = Percept {
+            time_s: Some(3.0),
+            scans: scans(f64::INFINITY),
+            ..at(2.0, 2.0)
+        };
+        BTreeMap::from([(OUT, percept)])
+    };
+    let begun = simulation.begin_step(percepts(), BTreeMap::new(), &[]);
+    drop(begun.unwrap());
+    let mut at_once = start(FIELD);
+    let command = at_once.step_with(percepts(), BTreeMap::new()).unwrap();
+    assert_ne!(command[&OUT], go(0.0, 0.0));
+    assert_eq!(
+        simulation.step_with(percepts(), BTreeMap::new()).unwrap(),
+        command
+    );
+}
+
+#[test]
+fn a_change_keeps_external_bodies() {
+    let mut simulation = start(FIELD).with_external(&[OUT]).unwrap();
+    simulation.step();
+    let before = simulation.state().clone();
+    simulation
+        .change(scenario(&FIELD.replace("count = 3", "count = 2")))
+        .unwrap();
+    let external: Vec<bool> = robots(&simulation)
+        .iter()
+        .map(|robot| robot.is_external)
+        .collect();
+    assert_eq!(external, [true, false]);
+    simulation.change(scenario(FIELD)).unwrap();
+    simulation.restore(before.clone());
+    assert_eq!(simulation.state().hash(), before.hash());
+    assert!(robots(&simulation)[0].is_external);
 }
 
 fn absurd(random: &mut Random) -> f64 {
