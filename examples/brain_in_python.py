@@ -34,6 +34,7 @@ class Wanderer:
                 "speed_m_s": 0.0 if is_turning else self.body["max_speed_m_s"],
                 "turn_rate_rad_s": self.body["max_turn_rate_rad_s"] if is_turning else 0.0,
             },
+            "heading_rad": None,  # only for bodies that turn to a heading by themselves
             "requests": [],  # sensors to switch on or off
             "outbox": [],  # messages to other robots
         }

@@ -41,6 +41,7 @@ behaviours = [{ kind = "cruise" }, { kind = "random_bounce" }]
 
 AHEAD: Command = {
     "motion": {"speed_m_s": 9.0, "turn_rate_rad_s": 0.1},
+    "heading_rad": None,
     "requests": [],
     "outbox": [],
 }
@@ -79,6 +80,7 @@ class Talker(Ahead):
                 "speed_m_s": 0.1 + 0.1 * len(percept["neighbours"]),
                 "turn_rate_rad_s": 0.2 * senders + percept["random_words"][0] / 2**33,
             },
+            "heading_rad": None,
             "requests": [{"sensor": 1, "on": self.steps % 5 != 0}],
             "outbox": [{"about": about, "confidence": 0.5} for _ in percept["contacts"]],
         }

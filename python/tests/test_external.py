@@ -11,7 +11,12 @@ from agent_economy import Brain, InputError, Scenario, Simulation
 from agent_economy.recording.metric_writer import moment_of
 from agent_economy.runs.brain import Command, Percept
 
-STOP: Command = {"motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "requests": [], "outbox": []}
+STOP: Command = {
+    "motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0},
+    "heading_rad": None,
+    "requests": [],
+    "outbox": [],
+}
 
 
 def percept_at(x_m: float, y_m: float, heading_rad: float, **more: Any) -> Percept:
@@ -84,6 +89,33 @@ def test_a_percept_that_is_not_later_repeats_the_motion() -> None:
     assert simulation.step(percepts={"rover/0": late}) == first
     np.testing.assert_allclose(simulation.poses[0], [5, 8, 0.1])
     assert simulation.step(percepts={"rover/0": {**late, "time_s": 1.1}}) != first
+
+
+def test_the_heading_of_a_turn_is_in_the_command_of_an_external_body() -> None:
+    layers = [{"kind": "cruise"}, {"kind": "correct", "waypoints_m": [[5, 18]]}, {"kind": "avoid"}]
+    scenario = search({"robots.rover.brain": {"behaviours": layers}})
+    simulation = Simulation(scenario, external=["rover/0"])
+
+    def command(heading_rad: float, far_m: float) -> Command:
+        percept = percept_at(5, 8, heading_rad, time_s=simulation.time_s, scans=scans(far_m))
+        return simulation.step(percepts={"rover/0": percept})["rover/0"]
+
+    assert command(0.0, 3.0)["heading_rad"] == pytest.approx(math.pi / 2)
+    assert command(0.2, 3.0)["heading_rad"] == pytest.approx(math.pi / 2)
+    assert command(0.3, 0.2)["heading_rad"] is None  # avoid
+    simulation = Simulation(scenario, external=["rover/0"])
+    straight = command(1.57, 3.0)
+    assert straight["motion"]["speed_m_s"] > 0
+    assert straight["heading_rad"] is None
+
+
+def test_a_simulated_body_ignores_a_heading() -> None:
+    plain, ahead = Simulation("search", seed=4), Simulation("search", seed=4)
+    motion = {"motion": {"speed_m_s": 0.5, "turn_rate_rad_s": 0.3}}
+    for heading_rad in [None, 0.5, -1e9]:
+        plain.step(commands={"rover/0": motion})  # type: ignore[dict-item]
+        ahead.step(commands={"rover/0": motion | {"heading_rad": heading_rad}})  # type: ignore[dict-item]
+    assert plain.hash == ahead.hash
 
 
 def test_a_snapshot_is_of_a_run_with_the_same_external_bodies() -> None:
@@ -209,6 +241,11 @@ ERRORS: list[tuple[dict[str, Any], str]] = [
         r'percepts."rover/1".tiem_s is not a known key: expected one of',
     ),
     ({"percepts": {"rover/1": {"time_s": math.nan}}}, r'percepts."rover/1".time_s = nan: must be'),
+    (
+        {"commands": {"rover/1": {"heading_rad": "north"}}},
+        r'commands."rover/1".heading_rad = "north": must be a number',
+    ),
+    ({"commands": {"rover/1": {"heading_rad": math.nan}}}, "heading_rad = nan: must be a finite"),
     ({"percepts": {"rover/1": []}}, r'percepts."rover/1" = \[\]: must be a dict'),
     ({"commands": {"rover/1": ()}}, r'commands."rover/1" = \[\]: must be a dict'),
     (

@@ -32,6 +32,7 @@ SHORT = {"clock.time_limit_s": 10}
 
 DRIVE: Command = {
     "motion": {"speed_m_s": 0.5, "turn_rate_rad_s": 0.3},
+    "heading_rad": None,
     "requests": [],
     "outbox": [],
 }

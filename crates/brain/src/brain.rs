@@ -3,7 +3,7 @@
 use crate::arbitration::arbiter::{Arbiter, ArbitrationMemory};
 use crate::arbitration::goal_selection::BeliefBrain;
 use crate::arbitration::motor_schemas::Noise;
-use crate::arbitration::subsumption::{Layer, layers};
+use crate::arbitration::subsumption::{Layer, heading_rad, layers};
 use crate::behaviours::{BehaviourSpec, Memory, Ready, flock};
 use crate::inspect::BeliefState;
 use crate::inspect::BelievedMap;
@@ -151,8 +151,8 @@ impl Brain {
     /// rarely than that for long.
     ///
     /// A percept with a time that is not later than that of the last one, or not finite, changes
-    /// nothing. The command then repeats the last motion, without requests and messages: those were
-    /// in the last command.
+    /// nothing. The command then repeats the last motion and heading, without requests and messages:
+    /// those were in the last command.
     ///
     /// Whatever the percept contains, the command contains finite numbers within the body's limits.
     pub fn step(&mut self, percept: &Percept) -> Command {
@@ -175,10 +175,9 @@ impl Brain {
     /// The command that [`Brain::step`] returns for a percept that is not later than the last one.
     #[must_use]
     pub fn last_command(&self) -> Command {
-        Command {
-            motion: self.odometry.command(),
-            ..Command::default()
-        }
+        let mut command = Command::default();
+        self.repeat_into(&mut command);
+        command
     }
 
     /// Leaves out a percept for which the decision is made elsewhere: the time since the previous
@@ -196,16 +195,27 @@ impl Brain {
         command.outbox.clear();
         let period_s = self.kind.body.period_s;
         let Some(elapsed_s) = self.odometry.elapsed_s(percept.time_s, period_s) else {
-            command.motion = self.odometry.command();
+            self.repeat_into(command);
             return None;
         };
         let (leading, motion) = self.motion(percept, elapsed_s);
-        command.motion = motion;
         self.odometry.record_command(motion);
+        self.odometry.decided_by = leading.and_then(|place| u16::try_from(place).ok());
+        self.repeat_into(command);
         if let Some(brain) = &mut self.beliefs {
             brain.publish(elapsed_s, &mut command.outbox);
         }
         leading
+    }
+
+    /// Writes the motion in force, and the heading that it turns to.
+    #[inline]
+    fn repeat_into(&self, command: &mut Command) {
+        command.motion = self.odometry.command();
+        let is_turning = command.motion.turn_rate_rad_s != 0.0;
+        let active = self.odometry.decided_by.filter(|_| is_turning);
+        command.heading_rad = active
+            .and_then(|active| heading_rad(&self.kind.behaviours, &self.layers, active.into()));
     }
 
     #[inline]

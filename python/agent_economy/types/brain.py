@@ -400,12 +400,17 @@ class Command(TypedDict):
 
     Attributes:
         motion: The motion setpoint; the body executes it as far as it can.
+        heading_rad: The heading at which the turn that `motion` is part of ends, in radians
+            from the x axis, anticlockwise, above -pi and at most pi; only while the robot turns
+            on the spot to a known heading. A body that has a heading controller can turn there
+            by itself; others ignore it.
         requests: Sensors to switch on or off; each stays so until it is switched again.
             Initially all are on.
         outbox: Messages to other robots.
     """
 
     motion: Motion
+    heading_rad: float | None
     requests: Sequence[SensorRequest]
     outbox: Sequence[Message]
 

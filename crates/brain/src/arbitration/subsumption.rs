@@ -81,6 +81,17 @@ pub(crate) fn proposals<B: Behaviour>(
     }
 }
 
+/// The heading that the active behaviour turns to, if it turns to one.
+#[inline]
+pub(crate) fn heading_rad<B: Behaviour>(
+    behaviours: &[B],
+    layers: &[Layer<B::Memory>],
+    active: usize,
+) -> Option<f64> {
+    let (behaviour, layer) = (behaviours.get(active)?, layers.get(active)?);
+    behaviour.heading_rad(&layer.memory)
+}
+
 #[inline]
 pub(crate) fn step<B: Behaviour>(
     behaviour: &B,

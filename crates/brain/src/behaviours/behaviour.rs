@@ -36,6 +36,12 @@ pub(crate) trait Behaviour {
     /// The motion while it is active without being triggered.
     fn held(&self) -> Motion;
 
+    /// The heading at which the turn that it proposed last ends, from -pi (excluded) to pi; `None` if
+    /// it did not propose a turn on the spot to a heading.
+    fn heading_rad(&self, _memory: &Self::Memory) -> Option<f64> {
+        None
+    }
+
     /// Called instead of `triggered` while a higher behaviour is active.
     fn suppressed(&self, _memory: &mut Self::Memory) {}
 }

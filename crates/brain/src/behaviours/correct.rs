@@ -12,6 +12,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
+use core::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -74,7 +75,15 @@ pub(crate) struct Progress {
     wait: Countdown,
     /// Time since its last turn; older compass readings are not its heading.
     straight: Stopwatch,
-    turn: Option<Turn>,
+    turn: Option<TurnTo>,
+}
+
+/// A turn to a heading.
+#[derive(Debug, Clone)]
+struct TurnTo {
+    turn: Turn,
+    /// From -pi (excluded) to pi.
+    heading_rad: f64,
 }
 
 impl Ready {
@@ -106,10 +115,15 @@ impl Ready {
         let to = self.next(progress, at)?;
         let heading_rad = heading_rad(situation.percept, straight_s)?;
         let way = at.to(to);
-        let off_rad = wrapped(libm::atan2(way.y, way.x) - heading_rad);
+        let course_rad = libm::atan2(way.y, way.x);
+        let off_rad = wrapped(course_rad - heading_rad);
         (off_rad.abs() > self.tolerance_rad).then(|| {
             let (turn, motion) = Turn::by(off_rad, situation.body);
-            progress.turn = Some(turn);
+            progress.turn = Some(TurnTo {
+                turn,
+                // The arc tangent of -0 is -pi.
+                heading_rad: if course_rad > -PI { course_rad } else { PI },
+            });
             motion
         })
     }
@@ -144,7 +158,7 @@ impl Behaviour for Ready {
 
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         let progress = &mut **memory.get_or_insert_default();
-        if let Some(turn) = &mut progress.turn {
+        if let Some(TurnTo { turn, .. }) = &mut progress.turn {
             let motion = turn.next_motion(situation);
             if motion.is_some() {
                 return motion.map(Proposal::Motion);
@@ -157,6 +171,11 @@ impl Behaviour for Ready {
 
     fn held(&self) -> Motion {
         Motion::default()
+    }
+
+    fn heading_rad(&self, memory: &Memory) -> Option<f64> {
+        let turn = memory.as_deref()?.turn.as_ref()?;
+        Some(turn.heading_rad)
     }
 
     fn suppressed(&self, memory: &mut Memory) {

@@ -153,6 +153,14 @@ macro_rules! behaviours {
             }
 
             #[inline]
+            fn heading_rad(&self, memory: &Memory) -> Option<f64> {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => ready.heading_rad(memory),)+
+                    _ => None,
+                }
+            }
+
+            #[inline]
             fn suppressed(&self, memory: &mut Memory) {
                 match (self, memory) {
                     $((Self::$kind(ready), Memory::$kind(memory)) => ready.suppressed(memory),)+

@@ -11,6 +11,10 @@ use serde::{Deserialize, Serialize};
 pub struct Command {
     /// The motion setpoint; the body executes it as far as it can.
     pub motion: Motion,
+    /// The heading at which the turn that `motion` is part of ends, in radians from the x axis,
+    /// anticlockwise, above -pi and at most pi; only while the robot turns on the spot to a known
+    /// heading. A body that has a heading controller can turn there by itself; others ignore it.
+    pub heading_rad: Option<f64>,
     /// Sensors to switch on or off; each stays so until it is switched again. Initially all are on.
     pub requests: Vec<SensorRequest>,
     /// Messages to other robots.

@@ -48,6 +48,8 @@ pub(crate) struct DeadReckoning {
     straight_s: f32,
     /// Compass heading in the previous step; NaN without one.
     heading_rad: f32,
+    /// Index of the behaviour that decided the command in force, if there is a single one.
+    pub(crate) decided_by: Option<u16>,
 }
 
 impl Default for DeadReckoning {
@@ -59,6 +61,7 @@ impl Default for DeadReckoning {
             speed_m_s: 0.0,
             straight_s: 0.0,
             heading_rad: f32::NAN,
+            decided_by: None,
         }
     }
 }

@@ -6,6 +6,7 @@
     reason = "fields of percepts are optional, and tests may panic"
 )]
 
+mod headings;
 mod homing;
 mod percepts;
 mod poses;

@@ -275,11 +275,13 @@ fn command() -> impl Strategy<Value = Command> {
     let request = any::<(u16, bool)>().prop_map(|(sensor, on)| SensorRequest { sensor, on });
     (
         motion(finite),
+        proptest::option::of(finite(-3.0, 3.0)),
         proptest::collection::vec(request, 0..3),
         proptest::collection::vec(message(finite), 0..3),
     )
-        .prop_map(|(motion, requests, outbox)| Command {
+        .prop_map(|(motion, heading_rad, requests, outbox)| Command {
             motion,
+            heading_rad,
             requests,
             outbox,
         })

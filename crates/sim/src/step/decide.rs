@@ -103,6 +103,7 @@ impl WorkerScratch {
     /// Takes over a decision that was made elsewhere.
     fn take(&mut self, command: &Command) {
         self.command.motion = command.motion;
+        self.command.heading_rad = command.heading_rad;
         self.command.requests.clone_from(&command.requests);
         self.command.outbox.clone_from(&command.outbox);
     }

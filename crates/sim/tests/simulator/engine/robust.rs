@@ -55,6 +55,7 @@ fn command(random: &mut Random) -> Command {
     };
     Command {
         motion: motion(random.one_of(&values), random.one_of(&values)),
+        heading_rad: Some(random.one_of(&values)),
         requests: vec![request],
         outbox: vec![message; random.below(4) as usize],
     }
