@@ -8,6 +8,7 @@
 
 mod headings;
 mod homing;
+mod layers;
 mod percepts;
 mod poses;
 mod times;
