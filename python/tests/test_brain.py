@@ -124,7 +124,7 @@ RECEIVED = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         ({"heading_rad": 1.0}, "percept.heading_rad = 1.0: must be a dict with value and age_s"),
         (
             {"inbox": [RECEIVED | {"message": {"about": {}}}]},
-            "must be a dict with item, a dict with sender or a dict with goal",
+            "must be a dict with item, a dict with sender, a dict with goal or a dict with order",
         ),
         ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
         ({"touch": {"value": 3, "age_s": 0.0}}, "percept.touch.value = 3: must be True or False"),

@@ -4,7 +4,9 @@ use crate::arbitration::arbiter::{Arbiter, ArbitrationMemory};
 use crate::arbitration::goal_selection::BeliefBrain;
 use crate::arbitration::motor_schemas::Noise;
 use crate::arbitration::subsumption::{Layer, heading_rad, layers};
+use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{BehaviourSpec, Memory, Ready, flock};
+use crate::goals::orders::AssignedGoal;
 use crate::inspect::BeliefState;
 use crate::inspect::BelievedMap;
 use crate::inspect::Decision;
@@ -42,6 +44,8 @@ struct Kind {
     body: Arc<Body>,
     governor: SpeedGovernor,
     behaviours: Vec<Ready>,
+    /// Index of the highest behaviour that takes a person's orders.
+    order_taker: Option<usize>,
     arbiter: Arbiter,
 }
 
@@ -59,6 +63,7 @@ impl Brain {
             noise: matches!(arbiter, Arbiter::Schemas(_)).then(Box::default),
             kind: Arc::new(Kind {
                 governor: SpeedGovernor::new(&body),
+                order_taker: order_taker(&spec),
                 spec,
                 body,
                 behaviours,
@@ -99,6 +104,17 @@ impl Brain {
     #[must_use]
     pub fn belief_state(&self) -> Option<BeliefState> {
         self.beliefs.as_deref().map(BeliefState::of)
+    }
+
+    /// The goals that a person has assigned, in the order of assignment; none if no behaviour of the
+    /// brain takes orders.
+    #[must_use]
+    pub fn assigned_goals(&self) -> Vec<AssignedGoal> {
+        let goals = self.kind.order_taker.and_then(|place| {
+            let (behaviour, layer) = (self.kind.behaviours.get(place)?, self.layers.get(place)?);
+            Some(behaviour.assigned_goals(layer.memory_now()))
+        });
+        goals.unwrap_or_default()
     }
 
     /// Its map; `None` if it has none.
@@ -225,6 +241,7 @@ impl Brain {
             body,
             governor,
             behaviours,
+            order_taker,
             arbiter,
         } = &*self.kind;
         let mut turned_rad = self.odometry.update(percept, body, elapsed_s);
@@ -262,6 +279,11 @@ impl Brain {
             turned_rad,
             current_speed_m_s,
         };
+        let layers = &mut self.layers;
+        let taker = order_taker.and_then(|place| behaviours.get(place).zip(layers.get_mut(place)));
+        if let Some((behaviour, layer)) = taker {
+            behaviour.serve_orders(layer.memory(), &situation);
+        }
         let memory = ArbitrationMemory {
             layers: &mut self.layers,
             noise: self.noise.as_deref_mut(),
@@ -288,6 +310,12 @@ impl Brain {
 }
 
 /// The beliefs and goals, if the specification has beliefs or a behaviour needs them.
+/// Index of the highest behaviour that takes a person's orders.
+fn order_taker(spec: &BrainSpec) -> Option<usize> {
+    let mut behaviours = spec.behaviours.iter();
+    behaviours.rposition(BehaviourSpec::takes_orders)
+}
+
 fn belief_brain(spec: &BrainSpec, body: &Body) -> Option<Box<BeliefBrain>> {
     let mut behaviours = spec.behaviours.iter();
     let is_needed = spec.beliefs.is_some() || behaviours.any(BehaviourSpec::needs_beliefs);

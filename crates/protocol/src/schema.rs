@@ -3,7 +3,7 @@
 use crate::lists::{Checked, ScenarioEntry};
 use crate::page::PageMessage;
 use crate::server::ServerMessage;
-use brain::{BeliefState, Body, Command, Percept};
+use brain::{AssignedGoal, BeliefState, Body, Command, Percept};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value as Json, json};
 
@@ -18,6 +18,7 @@ pub fn brain_schema() -> Json {
         .for_serialize()
         .into_generator();
     outputs.subschema_for::<BeliefState>();
+    outputs.subschema_for::<AssignedGoal>();
     definitions("Percepts, commands, bodies and beliefs", [outputs, inputs])
 }
 

@@ -9,9 +9,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sim::step::PendingDecision;
 
-/// Codes in place of an item kind: messages about their sender, and about its goal.
+/// Codes in place of an item kind: messages about their sender, about its goal, and orders.
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
+const ORDER: i64 = -3;
 
 /// Status of a commitment, by its code.
 pub(crate) const STATUSES: [CommitmentStatus; 3] = [
@@ -38,10 +39,10 @@ fn provenance(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
     entries.put("track_id", |received| i64::from(of(received).track_id))
 }
 
-/// The goal ids of messages; zero in a message that is not about a destination.
+/// The goal ids of messages; zero in a message that is neither about a destination nor an order.
 fn goal_ids(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
     let of = |received: &ReceivedMessage| match received.message.about {
-        About::Goal { id, .. } => id,
+        About::Goal { id, .. } | About::Order { goal: id, .. } => id,
         _ => GoalId::default(),
     };
     entries.put("issuer_kind", |received| {
@@ -267,31 +268,32 @@ fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
         About::Item { kind, .. } => kind.into(),
         About::Sender { .. } => SENDER,
         About::Goal { .. } => GOAL,
+        About::Order { .. } => ORDER,
     })?;
     entries.put("heading_rad", |received| match received.message.about {
         About::Sender { heading_rad, .. } => heading_rad,
-        About::Item { .. } | About::Goal { .. } => f64::NAN,
+        About::Item { .. } | About::Goal { .. } | About::Order { .. } => f64::NAN,
     })?;
     entries.put("observations", |received| match received.message.about {
         About::Item { provenance, .. } => provenance.observations.into(),
         About::Sender { observations, .. } => observations.into(),
-        About::Goal { .. } => 0_i64,
+        About::Goal { .. } | About::Order { .. } => 0_i64,
     })?;
     provenance(&entries)?;
     goal_ids(&entries)?;
-    entries.put("status", |received| {
-        let About::Goal { status, .. } = received.message.about else {
-            return 0_i64;
-        };
-        status as i64
+    entries.put("status", |received| match received.message.about {
+        About::Goal { status, .. } => status as i64,
+        About::Order { action, .. } => action as i64,
+        About::Item { .. } | About::Sender { .. } => 0,
     })?;
     let places = entries
         .all
         .iter()
         .map(|(_, received)| match received.message.about {
-            About::Item { at, .. } | About::Sender { at, .. } | About::Goal { at, .. } => {
-                [at.x, at.y]
-            }
+            About::Item { at, .. }
+            | About::Sender { at, .. }
+            | About::Goal { at, .. }
+            | About::Order { at, .. } => [at.x, at.y],
         });
     entries.dict.set_item("at", table(py, places)?)?;
     Ok(entries.dict)

@@ -10,7 +10,7 @@ use crate::serde_error::as_in_python;
 use base::document::Document;
 use base::document::schema::Schema;
 use base::error::{InputError, InputErrors};
-use brain::{BeliefState, Body, BrainSpec, Command, Percept};
+use brain::{AssignedGoal, BeliefState, Body, BrainSpec, Command, Percept};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use schemars::{JsonSchema, schema_for};
@@ -66,6 +66,11 @@ impl Brain {
             .transpose()
     }
 
+    /// The goals that a person has assigned, in the order of assignment.
+    fn assigned_goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        convert::write(py, &self.with(|brain| brain.assigned_goals()))
+    }
+
     /// An independent copy in the same state.
     fn copy(&self) -> Self {
         Self(Mutex::new(self.with(|brain| brain.clone())))
@@ -81,6 +86,7 @@ impl Brain {
             ("Percept", schema_for!(Percept)),
             ("Command", schema_for!(Command)),
             ("BeliefState", schema_for!(BeliefState)),
+            ("AssignedGoal", schema_for!(AssignedGoal)),
         ];
         convert::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
     }

@@ -37,6 +37,15 @@ impl Kinds {
         unless_below(self.robots?, &format!("{at}.kind"), id.kind.into(), "robot")
     }
 
+    /// An error, unless there is the kind of a sender; `at` is the path of its id. The operator is no
+    /// robot.
+    pub(crate) fn sender(&self, at: &str, id: RobotId) -> Option<InputError> {
+        if id == RobotId::OPERATOR {
+            return None;
+        }
+        self.robot(at, id)
+    }
+
     /// The first error of a message; `at` is its path.
     pub(crate) fn message(&self, at: &str, message: &Message) -> Option<InputError> {
         if !(0.0..=1.0).contains(&message.confidence) {

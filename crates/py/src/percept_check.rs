@@ -49,7 +49,7 @@ fn unknown_kind(at: &str, percept: &Percept, kinds: &Kinds) -> Option<InputError
     let received = || {
         inbox.find_map(|(number, received)| {
             let at = format!("{at}.inbox[{number}]");
-            let sender = kinds.robot(&format!("{at}.from"), received.from);
+            let sender = kinds.sender(&format!("{at}.from"), received.from);
             sender.or_else(|| kinds.message(&format!("{at}.message"), &received.message))
         })
     };

@@ -179,6 +179,17 @@ impl Simulation {
             .transpose()
     }
 
+    /// The goals that a person has assigned to a robot, in the order of assignment.
+    fn assigned_goals<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let run = self.locked(py)?;
+        let robot = id_of(run.scenario(), robot)?;
+        convert::write(py, &run.state().assigned_goals(robot))
+    }
+
     /// The outcome at the current step, by column; None if it is not finite.
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let run = self.locked(py)?;

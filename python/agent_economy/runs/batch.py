@@ -91,7 +91,8 @@ class Inbox(TypedDict):
         age_s: Time since it was sent.
         confidence: Confidence of the sender, 0 to 1.
         item_kind: Kind of the item that it reports; -1 for a message about the sender, -2 for one
-            about its destination.
+            about its destination, -3 for an order of a person (sender of kind 255), which robots
+            cannot send.
         at: Position of the item, sender or destination, shape (messages, 2).
         heading_rad: Heading of the sender; NaN if it is not about the sender.
         observations: Number of observations of the item by the observer, or of all observations
@@ -103,7 +104,8 @@ class Inbox(TypedDict):
             if no robot did. The same goal has the same issuer and number in all messages.
         issuer_index: Index of that robot within its kind.
         goal_number: The number that the issuer gave the goal.
-        status: Status of the sender's commitment to a destination: 0 active, 1 done, 2 released.
+        status: Status of the sender's commitment to a destination: 0 active, 1 done, 2 released; of
+            an order: 0 assign, 1 withdraw.
     """
 
     row: Integers

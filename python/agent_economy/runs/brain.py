@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from agent_economy import _core
 from agent_economy.scenario import Scenario, as_scenario, validation
-from agent_economy.types.brain import BeliefState, Body, Command, Percept, Point
+from agent_economy.types.brain import AssignedGoal, BeliefState, Body, Command, Percept, Point
 
 __all__ = [
+    "AssignedGoal",
     "BeliefState",
     "BelievedMap",
     "Body",
@@ -127,6 +128,16 @@ class Brain:
         """
         return cast("BeliefState | None", self._brain.belief_state())
 
+    def assigned_goals(self) -> list[AssignedGoal]:
+        """Return the goals that a person has assigned, as of the last step.
+
+        They are in the order of assignment, each with its verdict.
+
+        Returns:
+            An empty list if there are none, or no behaviour of the brain takes orders.
+        """
+        return cast("list[AssignedGoal]", self._brain.assigned_goals())
+
     def copy(self) -> "Brain":
         """Return an independent copy in the same state."""
         brain = Brain.__new__(Brain)
@@ -137,6 +148,6 @@ class Brain:
 def schemas() -> dict[str, dict[str, Any]]:
     """Return the JSON Schemas of brains, for other languages.
 
-    By name: `BrainSpec`, `Body`, `Percept`, `Command` and `BeliefState`.
+    By name: `BrainSpec`, `Body`, `Percept`, `Command`, `BeliefState` and `AssignedGoal`.
     """
     return _core.Brain.schemas()

@@ -10,7 +10,14 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core, arrow
-from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Inspection, Percept
+from agent_economy.runs.brain import (
+    AssignedGoal,
+    BeliefState,
+    BelievedMap,
+    Command,
+    Inspection,
+    Percept,
+)
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, python_brains, resized
 from agent_economy.runs.stepped import Change, Snapshot, Stepped
@@ -172,6 +179,25 @@ class Simulation(Stepped):
         """
         belief_state = self._run.belief_state(robot)
         return None if self._is_in_python(robot) else cast("BeliefState | None", belief_state)
+
+    def assigned_goals(self, robot: str) -> list[AssignedGoal]:
+        """Return the goals that a person has assigned to a robot, as of its brain's last step.
+
+        They are in the order of assignment, each with its verdict. Complete goals remain in the
+        list until they are withdrawn.
+
+        Args:
+            robot: Name of the robot.
+
+        Returns:
+            An empty list if there are none, no behaviour of its brain takes orders, or it is a
+            Python brain.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        goals = self._run.assigned_goals(robot)
+        return [] if self._is_in_python(robot) else cast("list[AssignedGoal]", goals)
 
     def believed_map(self, robot: str) -> BelievedMap | None:
         """Return the map that a robot believes, as of the last step of its brain.

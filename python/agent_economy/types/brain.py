@@ -42,8 +42,9 @@ class GoalId(TypedDict):
     one place.
 
     Attributes:
-        issuer: The robot that numbered the goal, by its id at that time. A list of waypoints
-            has an issuer of kind 255, the same for all robots with the same list.
+        issuer: The robot that numbered the goal, by its id at that time. The kind 255 stands
+            for others: with the index 0 for a person, otherwise for a list of waypoints, the
+            same for all robots with the same list.
         number: Its number among the goals of the issuer; in a list of waypoints, its index.
     """
 
@@ -53,6 +54,10 @@ class GoalId(TypedDict):
 
 CommitmentStatus: TypeAlias = Literal["active", "done", "released"]
 """The status of a commitment to a destination."""
+
+
+OrderAction: TypeAlias = Literal["assign", "withdraw"]
+"""What a person orders."""
 
 
 class AboutItem(TypedDict):
@@ -97,6 +102,23 @@ class AboutGoal(TypedDict):
     status: CommitmentStatus
 
 
+class AboutOrder(TypedDict):
+    """An order of a person.
+
+    It is accepted only if its sender and the issuer of the goal are the operator: kind 255,
+    index 0.
+
+    Attributes:
+        goal: The id of the goal.
+        at: Its position in the world.
+        action: What to do with it.
+    """
+
+    goal: GoalId
+    at: Point
+    action: OrderAction
+
+
 class About(TypedDict, total=False):
     """The content of a message.
 
@@ -106,6 +128,25 @@ class About(TypedDict, total=False):
     item: AboutItem
     sender: AboutSender
     goal: AboutGoal
+    order: AboutOrder
+
+
+OrderVerdict: TypeAlias = Literal["pending", "approaching", "receding", "complete", "impossible"]
+"""The state of a goal that a person has assigned."""
+
+
+class AssignedGoal(TypedDict):
+    """A goal that a person has assigned.
+
+    Attributes:
+        id: Its id.
+        at: Its position in the world.
+        verdict: Its state.
+    """
+
+    id: GoalId
+    at: Point
+    verdict: OrderVerdict
 
 
 class Pose(TypedDict):

@@ -134,6 +134,7 @@ impl GoalSelection {
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
             pursued: pursued.map(|goal| (goal, self.navigator.remaining_m(pose.at, goal))),
+            noise_m: 0.0,
         };
         self.goals.update(destinations, &step);
         let pursued_id = pursued.map(|goal| goal.id);

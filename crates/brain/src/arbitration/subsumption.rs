@@ -19,6 +19,10 @@ pub(crate) struct Layer<M> {
 }
 
 impl<M> Layer<M> {
+    pub(crate) fn memory_now(&self) -> &M {
+        &self.memory
+    }
+
     pub(crate) fn memory(&mut self) -> &mut M {
         &mut self.memory
     }

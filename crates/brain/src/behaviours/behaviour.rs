@@ -1,9 +1,11 @@
 //! The interface of a behaviour.
 
 use crate::goals::Verdict;
+use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
 use crate::io::command::Motion;
 use crate::perception::situation::Situation;
+use alloc::vec::Vec;
 
 /// A behaviour in a body.
 pub(crate) trait Behaviour {
@@ -19,12 +21,24 @@ pub(crate) trait Behaviour {
     /// Whether it requires an item detector.
     const NEEDS_DETECTOR: bool = false;
 
+    /// Whether it takes a person's orders.
+    const TAKES_ORDERS: bool = false;
+
     /// The initial memory.
     fn memory(&self) -> Self::Memory;
 
     /// Time for which it stays active after its trigger has ended, in seconds.
     fn hold_s(&self) -> f64 {
         0.0
+    }
+
+    /// Takes a person's orders from the messages, and judges assigned goals. Called first in each
+    /// step if it is the highest behaviour that takes orders.
+    fn serve_orders(&self, _memory: &mut Self::Memory, _situation: &Situation) {}
+
+    /// The goals that a person has assigned.
+    fn assigned_goals(&self, _memory: &Self::Memory) -> Vec<AssignedGoal> {
+        Vec::new()
     }
 
     /// Its proposal, if it is triggered. Called in each step in which no higher behaviour is active.

@@ -2,9 +2,12 @@
 
 use super::turn::Turn;
 use crate::behaviours::behaviour::Behaviour;
-use crate::goals::proposal::Proposal;
+use crate::goals::fitness::Step;
+use crate::goals::orders::{AssignedGoal, Orders, order_of};
+use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::command::Motion;
+use crate::io::goal_id::GoalId;
 use crate::io::percept::{Percept, Reading};
 use crate::perception::situation::Situation;
 use crate::perception::timer::{Countdown, Stopwatch};
@@ -16,6 +19,10 @@ use core::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Minimum arrival radius, in standard deviations of the position sensor: a robot at a waypoint
+/// would miss it within a smaller one.
+const MIN_DEVIATIONS: f64 = 2.0;
+
 /// Maximum age of a position, in seconds.
 const OLDEST_S: f64 = 5.0;
 
@@ -24,7 +31,7 @@ const FARTHEST_M: f64 = 1e7;
 const MAX_RAD: f64 = 1e4;
 
 /// Turns on the spot towards a waypoint when the heading is off, one waypoint after the other; then
-/// it has nothing more to do. Between *cruise*, which moves there, and *avoid* it is the middle
+/// it visits the goals that a person assigns to it, in the order of assignment. Between *cruise*, which moves there, and *avoid* it is the middle
 /// layer of Bender (Williams 2003). It needs a position and a heading, but no beliefs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -33,7 +40,8 @@ pub struct Correct {
     /// The waypoints, in metres.
     #[schemars(length(max = 10_000))]
     pub waypoints_m: Vec<Point>,
-    /// A waypoint within this distance is reached, in metres.
+    /// A waypoint within this distance is reached, in metres. At least twice the standard deviation
+    /// of the position sensor applies.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
     /// It turns when the heading is off by more than this, in degrees.
@@ -44,6 +52,9 @@ pub struct Correct {
     /// around what it can pass in this time.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub wait_s: f64,
+    /// The robot stands still while no waypoint and no assigned goal is left. Otherwise it has nothing
+    /// more to do then, and lower behaviours are active.
+    pub stop_when_done: bool,
 }
 
 impl Default for Correct {
@@ -53,6 +64,7 @@ impl Default for Correct {
             within_m: 0.5,
             course_error_deg: 6.3,
             wait_s: 5.0,
+            stop_when_done: false,
         }
     }
 }
@@ -62,6 +74,8 @@ impl Default for Correct {
 pub(crate) struct Ready {
     spec: Correct,
     tolerance_rad: f64,
+    /// A destination without goal and place.
+    destination: Destination,
 }
 
 /// Progress; `None` before the first step.
@@ -76,6 +90,8 @@ pub(crate) struct Progress {
     /// Time since its last turn; older compass readings are not its heading.
     straight: Stopwatch,
     turn: Option<TurnTo>,
+    /// The goals that a person has assigned, if there are any.
+    orders: Option<Box<Orders>>,
 }
 
 /// A turn to a heading.
@@ -87,32 +103,75 @@ struct TurnTo {
 }
 
 impl Ready {
-    pub(super) fn new(spec: &Correct, _body: &Body) -> Self {
+    pub(super) fn new(spec: &Correct, body: &Body) -> Self {
         Self {
             spec: spec.clone(),
             tolerance_rad: spec.course_error_deg.to_radians(),
+            destination: Destination {
+                id: GoalId::default(),
+                at: Point::default(),
+                tolerance_m: spec.within_m.max(MIN_DEVIATIONS * body.position_noise_m),
+                max_speed_m_s: body.max_speed_m_s,
+                value: 1.0,
+            },
         }
     }
 
-    /// The vector to the next waypoint.
+    /// The next waypoint, or the next assigned goal after the last one.
     fn next(&self, progress: &mut Progress, at: Point) -> Option<Point> {
-        loop {
-            let place = self.spec.waypoints_m.get(progress.visited)?;
-            if at.to(*place).length() > self.spec.within_m {
+        while let Some(place) = self.spec.waypoints_m.get(progress.visited) {
+            if at.to(*place).length() > self.destination.tolerance_m {
                 return Some(*place);
             }
             progress.visited += 1;
         }
+        Some(progress.orders.as_ref()?.next()?.at)
+    }
+
+    fn has_visited_all(&self, progress: &Progress) -> bool {
+        progress.visited >= self.spec.waypoints_m.len()
+    }
+
+    /// Whether no waypoint and no assigned goal is left.
+    fn is_done(&self, progress: &Progress) -> bool {
+        let next = progress.orders.as_ref().and_then(|orders| orders.next());
+        self.has_visited_all(progress) && next.is_none()
+    }
+
+    /// The motion while nothing is left.
+    fn rest(&self) -> Option<Motion> {
+        self.spec.stop_when_done.then(Motion::default)
+    }
+
+    fn judge(&self, orders: &mut Orders, situation: &Situation) {
+        let Some(at) = position(situation.percept) else {
+            return;
+        };
+        let step = Step {
+            at,
+            elapsed_s: situation.elapsed_s,
+            period_s: situation.body.period_s,
+            unreachable: None,
+            battery_s: f64::INFINITY,
+            pursued: None,
+            noise_m: situation.body.position_noise_m,
+        };
+        orders.judge(&self.destination, &step);
     }
 
     fn look(&self, progress: &mut Progress, situation: &Situation) -> Option<Motion> {
         let straight_s = progress.straight.read_s(situation);
         progress.wait.advance(situation);
+        if self.is_done(progress) {
+            return self.rest();
+        }
         if progress.wait.is_running(situation) {
             return None;
         }
         let at = position(situation.percept)?;
-        let to = self.next(progress, at)?;
+        let Some(to) = self.next(progress, at) else {
+            return self.rest();
+        };
         let heading_rad = heading_rad(situation.percept, straight_s)?;
         let way = at.to(to);
         let course_rad = libm::atan2(way.y, way.x);
@@ -151,15 +210,45 @@ impl Behaviour for Ready {
     type Memory = Memory;
 
     const NEEDS_POSE: bool = true;
+    const TAKES_ORDERS: bool = true;
 
     fn memory(&self) -> Memory {
         None
     }
 
+    fn serve_orders(&self, memory: &mut Memory, situation: &Situation) {
+        let mut new = situation
+            .percept
+            .inbox
+            .iter()
+            .filter_map(order_of)
+            .peekable();
+        let has_orders = memory.as_ref().is_some_and(|known| known.orders.is_some());
+        if new.peek().is_none() && !has_orders {
+            return;
+        }
+        let progress = memory.get_or_insert_default();
+        let mut orders = progress.orders.take().unwrap_or_default();
+        for (goal, action) in new {
+            orders.obey(goal, action);
+        }
+        if self.has_visited_all(progress) {
+            self.judge(&mut orders, situation);
+        }
+        progress.orders = (!orders.is_empty()).then_some(orders);
+    }
+
+    fn assigned_goals(&self, memory: &Memory) -> Vec<AssignedGoal> {
+        let orders = memory.as_ref().and_then(|known| known.orders.as_deref());
+        orders.map(Orders::assigned).unwrap_or_default()
+    }
+
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         let progress = &mut **memory.get_or_insert_default();
+        let is_done = self.is_done(progress);
         if let Some(TurnTo { turn, .. }) = &mut progress.turn {
-            let motion = turn.next_motion(situation);
+            // It may have been withdrawn.
+            let motion = turn.next_motion(situation).filter(|_| !is_done);
             if motion.is_some() {
                 return motion.map(Proposal::Motion);
             }

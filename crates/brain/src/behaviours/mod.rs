@@ -39,10 +39,12 @@ pub use spiral::Spiral;
 
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
+use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::perception::situation::Situation;
+use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -90,6 +92,14 @@ macro_rules! behaviours {
                 }
             }
 
+            /// Whether it takes a person's orders.
+            #[must_use]
+            pub fn takes_orders(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $file::Ready::TAKES_ORDERS,)+
+                }
+            }
+
             pub(crate) fn ready(&self, body: &Body) -> Ready {
                 match self {
                     $(Self::$kind(spec) => Ready::$kind($file::Ready::new(spec, body)),)+
@@ -122,6 +132,24 @@ macro_rules! behaviours {
             fn hold_s(&self) -> f64 {
                 match self {
                     $(Self::$kind(ready) => ready.hold_s(),)+
+                }
+            }
+
+            fn serve_orders(&self, memory: &mut Memory, situation: &Situation) {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.serve_orders(memory, situation)
+                    })+
+                    _ => {}
+                }
+            }
+
+            fn assigned_goals(&self, memory: &Memory) -> Vec<AssignedGoal> {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.assigned_goals(memory)
+                    })+
+                    _ => Vec::new(),
                 }
             }
 

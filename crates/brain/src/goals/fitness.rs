@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The robot makes progress when the path to the goal is shorter by this than ever before, in
-/// metres.
+/// metres; more if its position is noisy.
 const PROGRESS_M: f64 = 0.1;
 
 /// Time without progress after which the robot recedes, and after which the goal is impossible, in
@@ -47,9 +47,21 @@ pub(crate) struct Step {
     /// The goal that was pursued in the last step, and the path length to it. For other goals, time
     /// without progress does not count.
     pub(crate) pursued: Option<(GoalPlace, f64)>,
+    /// Standard deviation of `at` from one step to the next; 0 for a filtered position.
+    pub(crate) noise_m: f64,
 }
 
 impl Step {
+    /// The robot makes progress when the path is shorter by this than ever before.
+    pub(crate) fn min_progress_m(&self) -> f64 {
+        PROGRESS_M + 2.0 * self.noise_m
+    }
+
+    /// Maximum change of the path length in this step; beyond it, the path is another one.
+    fn max_change_m(&self, max_speed_m_s: f64) -> f64 {
+        max_speed_m_s * self.elapsed_s + PROGRESS_M + 6.0 * self.noise_m
+    }
+
     /// Path length to a goal; only a straight line unless it is the pursued one.
     fn remaining_m(&self, goal: GoalPlace) -> f64 {
         let known = self.pursued.filter(|(pursued, _)| *pursued == goal);
@@ -127,12 +139,12 @@ impl Fitness {
 
     fn track(&mut self, remaining_m: f64, destination: &Destination, step: &Step) {
         // No robot moves that far in a step: the old path is blocked, or a shorter one was found.
-        let max_step_m = destination.max_speed_m_s * step.elapsed_s + PROGRESS_M;
-        let is_new_path = (remaining_m - self.last_m).abs() > max_step_m;
+        let max_change_m = step.max_change_m(destination.max_speed_m_s);
+        let is_new_path = (remaining_m - self.last_m).abs() > max_change_m;
         self.last_m = remaining_m;
         if is_new_path {
             self.best_m = remaining_m;
-        } else if remaining_m < self.best_m - PROGRESS_M {
+        } else if remaining_m < self.best_m - step.min_progress_m() {
             (self.best_m, self.stuck_s) = (remaining_m, 0.0);
         } else if step
             .pursued
@@ -173,6 +185,7 @@ mod tests {
             unreachable: None,
             battery_s: 20.0,
             pursued: Some((GOAL.goal(), remaining_m)),
+            noise_m: 0.0,
         }
     }
 

@@ -12,6 +12,7 @@
 //!   checked for obstacles [every second](crate::navigation::navigator) in any case.
 
 pub(crate) mod fitness;
+pub(crate) mod orders;
 pub(crate) mod precedence;
 pub(crate) mod proposal;
 
@@ -197,6 +198,7 @@ mod tests {
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,
+            noise_m: 0.0,
         }
     }
 

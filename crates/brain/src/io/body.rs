@@ -29,6 +29,18 @@ pub struct RobotId {
     pub index: u32,
 }
 
+/// The kind of ids that are not those of robots: no scenario has that many kinds.
+pub(crate) const NO_ROBOT: u8 = u8::MAX;
+
+impl RobotId {
+    /// The sender of a person's orders. No robot has this id, and radios name the true sender of a
+    /// message.
+    pub const OPERATOR: Self = Self {
+        kind: NO_ROBOT,
+        index: 0,
+    };
+}
+
 /// What a brain knows of its body, the same for all robots of a kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

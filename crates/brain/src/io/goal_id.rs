@@ -1,12 +1,9 @@
 //! Ids of goals.
 
-use super::body::RobotId;
+use super::body::{NO_ROBOT, RobotId};
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// The kind of issuers that are no robots: no scenario has that many kinds.
-const NO_ROBOT: u8 = u8::MAX;
 
 /// Constants of the hash FNV-1a of 32 bits.
 const FNV_OFFSET: u32 = 0x811c_9dc5;
@@ -30,8 +27,9 @@ const FNV_PRIME: u32 = 0x0100_0193;
 )]
 #[serde(deny_unknown_fields)]
 pub struct GoalId {
-    /// The robot that numbered the goal, by its id at that time. A list of waypoints has an issuer
-    /// of kind 255, the same for all robots with the same list.
+    /// The robot that numbered the goal, by its id at that time. The kind 255 stands for others:
+    /// with the index 0 for a person, otherwise for a list of waypoints, the same for all robots with
+    /// the same list.
     pub issuer: RobotId,
     /// Its number among the goals of the issuer; in a list of waypoints, its index.
     pub number: u32,
@@ -55,7 +53,7 @@ pub(crate) fn issuer_of(waypoints: &[Point]) -> RobotId {
     });
     RobotId {
         kind: NO_ROBOT,
-        // 0 is not the index of a list.
+        // 0 is the index of the operator.
         index: hash.max(1),
     }
 }

@@ -49,6 +49,16 @@ pub enum About {
         /// The status of the commitment.
         status: CommitmentStatus,
     },
+    /// An order of a person. It is accepted only if its sender and the issuer of the goal are the
+    /// operator: kind 255, index 0.
+    Order {
+        /// The id of the goal.
+        goal: GoalId,
+        /// Its position in the world.
+        at: Point,
+        /// What to do with it.
+        action: OrderAction,
+    },
 }
 
 /// The observations of one item by one robot: they count once, whichever robot reports them, and
@@ -64,6 +74,16 @@ pub struct Provenance {
     pub track_id: u32,
     /// Number of observations: of two reports with the same track id, the one with more counts.
     pub observations: u32,
+}
+
+/// What a person orders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OrderAction {
+    /// Visit the goal after those assigned before; move it if it is known.
+    Assign,
+    /// Remove the goal, wherever it is.
+    Withdraw,
 }
 
 /// The status of a commitment to a destination.

@@ -9,6 +9,7 @@
 mod headings;
 mod homing;
 mod layers;
+mod orders;
 mod percepts;
 mod poses;
 mod times;

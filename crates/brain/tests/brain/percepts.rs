@@ -292,7 +292,10 @@ fn check_outbox(outbox: &[Message]) -> Result<(), TestCaseError> {
     for message in outbox {
         prop_assert!((0.0..=1.0).contains(&message.confidence), "{message:?}");
         let (About::Item { at, .. } | About::Goal { at, .. } | About::Sender { at, .. }) =
-            message.about;
+            message.about
+        else {
+            return Err(TestCaseError::fail("only a person gives orders"));
+        };
         prop_assert!(at.x.is_finite() && at.y.is_finite(), "{message:?}");
     }
     Ok(())

@@ -5,7 +5,7 @@ use crate::bodies::Layer;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{BeliefState, BelievedMap, Motion, RobotId};
+use brain::{AssignedGoal, BeliefState, BelievedMap, Motion, RobotId};
 
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +64,16 @@ impl State {
     pub fn belief_state(&self, id: RobotId) -> Option<BeliefState> {
         let robot = self.ids.binary_search(&id).ok()?;
         self.agents[robot].brain.belief_state()
+    }
+
+    /// The goals that a person has assigned to a robot; none if there is no such robot.
+    #[must_use]
+    pub fn assigned_goals(&self, id: RobotId) -> Vec<AssignedGoal> {
+        let robot = self.ids.binary_search(&id);
+        robot.map_or_else(
+            |_| Vec::new(),
+            |robot| self.agents[robot].brain.assigned_goals(),
+        )
     }
 
     /// The map of a robot; `None` if there is no such robot, or it has none.

@@ -101,10 +101,12 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         BehaviourSpec::Spiral(spiral) => place("around_m", &spiral.around_m),
         _ => return Vec::new(),
     };
-    let goes = matches!(
-        behaviour,
-        BehaviourSpec::Correct(_) | BehaviourSpec::Navigate(_)
-    );
+    let goes = match behaviour {
+        // It can wait for a person's orders.
+        BehaviourSpec::Correct(correct) => !correct.stop_when_done,
+        BehaviourSpec::Navigate(_) => true,
+        _ => false,
+    };
     if goes && places.is_empty() {
         let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
         return vec![at.key("waypoints_m").error(allowed)];

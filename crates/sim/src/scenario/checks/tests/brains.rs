@@ -42,6 +42,20 @@ fn behaviours_need_sensors_and_places() {
 }
 
 #[test]
+fn a_robot_that_stands_when_nothing_is_left_may_wait_for_orders_without_waypoints() {
+    let drive = "drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }";
+    let is_accepted = |more: &str| {
+        let more = format!(
+            "{drive}\nsensors = {{ gps = {{ kind = \"position\" }}, compass = {{ kind = \"heading\" }} }}\n\
+             brain = {{ behaviours = [{{ kind = \"correct\"{more} }}] }}"
+        );
+        read(&GOOD.replace(drive, &more)).is_ok()
+    };
+    assert!(is_accepted(", stop_when_done = true"));
+    assert!(!is_accepted(""));
+}
+
+#[test]
 fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
     let reported = errors_of_brain(
         "behaviours = [{ kind = \"follow\" }, { kind = \"flock\" }, { kind = \"lawnmower\" }, \
