@@ -90,7 +90,7 @@ pub(crate) struct Progress {
     /// Time since its last turn; older compass readings are not its heading.
     straight: Stopwatch,
     turn: Option<TurnTo>,
-    /// The goals that a person has assigned, if there are any.
+    /// From the first order of a person on: the waypoints, and the goals that the person assigned.
     orders: Option<Box<Orders>>,
 }
 
@@ -117,25 +117,26 @@ impl Ready {
         }
     }
 
-    /// The next waypoint, or the next assigned goal after the last one.
+    /// The next waypoint or assigned goal.
     fn next(&self, progress: &mut Progress, at: Point) -> Option<Point> {
+        if let Some(orders) = &progress.orders {
+            return orders.next().map(|goal| goal.at);
+        }
         while let Some(place) = self.spec.waypoints_m.get(progress.visited) {
             if at.to(*place).length() > self.destination.tolerance_m {
                 return Some(*place);
             }
             progress.visited += 1;
         }
-        Some(progress.orders.as_ref()?.next()?.at)
-    }
-
-    fn has_visited_all(&self, progress: &Progress) -> bool {
-        progress.visited >= self.spec.waypoints_m.len()
+        None
     }
 
     /// Whether no waypoint and no assigned goal is left.
     fn is_done(&self, progress: &Progress) -> bool {
-        let next = progress.orders.as_ref().and_then(|orders| orders.next());
-        self.has_visited_all(progress) && next.is_none()
+        match &progress.orders {
+            Some(orders) => orders.next().is_none(),
+            None => progress.visited >= self.spec.waypoints_m.len(),
+        }
     }
 
     /// The motion while nothing is left.
@@ -228,14 +229,14 @@ impl Behaviour for Ready {
             return;
         }
         let progress = memory.get_or_insert_default();
-        let mut orders = progress.orders.take().unwrap_or_default();
+        let visited = progress.visited;
+        let orders = progress
+            .orders
+            .get_or_insert_with(|| Box::new(Orders::of_waypoints(&self.spec.waypoints_m, visited)));
         for (goal, action) in new {
             orders.obey(goal, action);
         }
-        if self.has_visited_all(progress) {
-            self.judge(&mut orders, situation);
-        }
-        progress.orders = (!orders.is_empty()).then_some(orders);
+        self.judge(orders, situation);
     }
 
     fn assigned_goals(&self, memory: &Memory) -> Vec<AssignedGoal> {

@@ -6,7 +6,7 @@
 use super::fitness::{Fitness, Step, Verdict};
 use super::proposal::Destination;
 use crate::io::body::RobotId;
-use crate::io::goal_id::{GoalId, GoalPlace};
+use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
 use crate::io::message::{About, OrderAction};
 use crate::io::percept::ReceivedMessage;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Maximum number of goals; complete ones count until they are withdrawn.
+/// Maximum number of goals, waypoints included; complete ones count until they are withdrawn.
 const MAX_GOALS: usize = 10_000;
 
 /// Larger coordinates in metres are invalid.
@@ -48,7 +48,7 @@ pub enum OrderVerdict {
 }
 
 /// The goals that a person has assigned to a robot, in the order of assignment.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Orders {
     goals: Vec<Order>,
     /// The goal that was pursued in the last step.
@@ -79,8 +79,21 @@ pub(crate) fn order_of(received: &ReceivedMessage) -> Option<(GoalPlace, OrderAc
 }
 
 impl Orders {
-    pub(crate) fn is_empty(&self) -> bool {
-        self.goals.is_empty()
+    /// The waypoints of a list, of which the first have been visited, before any order.
+    pub(crate) fn of_waypoints(waypoints: &[Point], visited: usize) -> Self {
+        let issuer = issuer_of(waypoints);
+        let goals = (0_u32..).zip(waypoints).map(|(number, at)| {
+            let id = GoalId { issuer, number };
+            Order::new(GoalPlace { id, at: *at })
+        });
+        let mut goals: Vec<Order> = goals.collect();
+        for order in goals.iter_mut().take(visited) {
+            order.verdict = OrderVerdict::Complete;
+        }
+        Self {
+            goals,
+            pursued: None,
+        }
     }
 
     /// Executes an order; an assignment beyond the maximum number is refused.

@@ -125,8 +125,23 @@ fn waypoints_of_the_scenario_come_first() {
     // On the way to the waypoint.
     robot.step(vec![assign(1, [3.0, 0.0])]);
     robot.run(4);
-    assert_eq!(verdicts(&robot.brain), [(1, OrderVerdict::Pending)]);
-    assert_eq!(robot.run(20), [1]);
+    let waypoint_and_goal = [(0, OrderVerdict::Approaching), (1, OrderVerdict::Pending)];
+    assert_eq!(verdicts(&robot.brain), waypoint_and_goal);
+    assert_eq!(robot.run(20), [0, 1]);
+}
+
+#[test]
+fn waypoints_that_were_visited_before_the_first_order_are_complete() {
+    let spec = r#"{"limit_speed_to_stopping_distance": false, "behaviours": [
+        {"kind": "cruise"}, {"kind": "correct", "waypoints_m": [[2, 0], [6, 0]]}]}"#;
+    let mut robot = Robot::new(spec, body());
+    robot.run(4);
+    assert_eq!(verdicts(&robot.brain), []);
+    // It withdraws nothing that there is.
+    robot.step(vec![withdraw(9)]);
+    let waypoints = [(0, OrderVerdict::Complete), (1, OrderVerdict::Approaching)];
+    assert_eq!(verdicts(&robot.brain), waypoints);
+    assert_eq!(robot.run(20), [0, 1]);
 }
 
 #[test]
