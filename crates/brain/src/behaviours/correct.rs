@@ -52,8 +52,8 @@ pub struct Correct {
     /// around what it can pass in this time.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub wait_s: f64,
-    /// The robot stands still while no waypoint and no assigned goal is left. Otherwise it has nothing
-    /// more to do then, and lower behaviours are active.
+    /// Whether the robot is stationary while no waypoint and no assigned goal is left. Otherwise lower
+    /// behaviours are active then.
     pub stop_when_done: bool,
 }
 
