@@ -128,6 +128,7 @@ schemas: ## Generate the JSON Schemas, the reference of scenarios, and the types
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-classic --test schema
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-protocol --test schemas
 	$(BIN)/python scripts/generate_types.py
+	$(BIN)/python scripts/fleet_schema.py
 
 web: ## Build the page of `agent-economy ui` (needs Node 20 or newer)
 	$(PYTHON) packaging/backend.py
@@ -145,6 +146,14 @@ bench-page: .venv/released web ## Measure the page: first load, latency of chang
 	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent bench
 
 # Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
+safety: .venv/installed ## Measure how soon robots stop after each fault: 20 stops per fault (takes minutes)
+	$(BIN)/python python/tests/measure_safety.py
+
+drive: .venv/installed ## Drive an emulated robot around a wall to two waypoints, and replay the recording
+	@$(BIN)/agent-economy bender-emulator & emulator=$$!; trap "kill $$emulator" EXIT; \
+		$(BIN)/agent-economy drive fleets/bender.toml --headless --arm --record bender.mcap && \
+		$(BIN)/agent-economy replay bender.mcap
+
 fuzz: ## Fuzz every reader of input, one minute each
 	set -e; for target in $$(cargo +nightly fuzz list); do \
 		mkdir -p fuzz/corpus/$$target; \

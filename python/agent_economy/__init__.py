@@ -11,7 +11,8 @@ if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
     from agent_economy.api import replicate, run
-    from agent_economy.recording import Recording, Replay, replay
+    from agent_economy.live.replay import replay
+    from agent_economy.recording import Recording, Replay
     from agent_economy.runs.batch import Batch
     from agent_economy.runs.brain import Brain
     from agent_economy.runs.classic_simulation import ClassicSimulation
@@ -52,7 +53,7 @@ _HOMES = {
     "Scenario": "agent_economy.scenario",
     "Simulation": "agent_economy.runs.simulation",
     "StudyError": "agent_economy.study.errors",
-    "replay": "agent_economy.recording",
+    "replay": "agent_economy.live.replay",
     "replicate": "agent_economy.api",
     "run": "agent_economy.api",
 }

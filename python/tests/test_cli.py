@@ -55,7 +55,7 @@ def test_each_command_is_listed_with_its_description() -> None:
 
 @pytest.mark.parametrize(
     "command",
-    [None, "study", "report", "watch", "run", "replicate", "replay", "check", "ui", "scenarios"],
+    [None, *cli.COMMANDS],
 )
 def test_help_has_an_example(command: str | None) -> None:
     given = run(*filter(None, [command]), "--help")

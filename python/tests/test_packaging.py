@@ -1,4 +1,4 @@
-"""Built distributions contain the page."""
+"""Built distributions contain the page and all bundled files."""
 
 import os
 import shutil
@@ -41,15 +41,25 @@ def check_page(index: str, names: set[str], inside: str) -> None:
     assert {f"{inside}/{name}" for name in referenced} <= names
 
 
+def check_bundled(names: set[str], inside: str) -> None:
+    """Check that all bundled scenarios, fleets and schemas are present."""
+    package = ROOT / "python/agent_economy"
+    for folder in ("scenarios", "fleets", "schemas"):
+        bundled = [file.name for file in (package / folder).iterdir()]
+        assert bundled
+        assert {f"{inside}/{folder}/{name}" for name in bundled} <= names
+
+
 @needs_npm
-def test_a_wheel_contains_the_built_page(tmp_path: Path) -> None:
+def test_a_wheel_contains_the_built_page_and_all_bundled_files(tmp_path: Path) -> None:
     with zipfile.ZipFile(built("wheel", tmp_path)) as wheel:
         index = wheel.read("agent_economy/web/index.html").decode()
         check_page(index, set(wheel.namelist()), "agent_economy/web")
+        check_bundled(set(wheel.namelist()), "agent_economy")
 
 
 @needs_npm
-def test_an_sdist_contains_the_built_page(tmp_path: Path) -> None:
+def test_an_sdist_contains_the_built_page_and_all_bundled_files(tmp_path: Path) -> None:
     with tarfile.open(built("sdist", tmp_path)) as sdist:
         names = set(sdist.getnames())
         root = min(names, key=len).split("/")[0]
@@ -57,3 +67,4 @@ def test_an_sdist_contains_the_built_page(tmp_path: Path) -> None:
         index = sdist.extractfile(f"{inside}/index.html")
         assert index is not None
         check_page(index.read().decode(), names, inside)
+        check_bundled(names, f"{root}/python/agent_economy")

@@ -21,11 +21,14 @@ COMMANDS = {
     "run": "Run a scenario once and print the outcome.",
     "replicate": "Run a scenario many times and print statistics.",
     "replay": "Replay a recording and verify it.",
-    "check": "Check scenario files.",
+    "check": "Check scenario and fleet files.",
+    "drive": "Drive real robots to their waypoints.",
+    "stop": "Stop all robots that are being driven.",
     "ui": "Open the browser interface.",
     "scenarios": "List the bundled scenarios.",
+    "bender-emulator": "Emulate Bender, the robot of 2003.",
 }
-"""The module and function of each command, and its line in the list of all commands."""
+"""Each command, and its line in the list of all commands."""
 
 
 class LazyGroup(TyperGroup):
@@ -43,9 +46,10 @@ class LazyGroup(TyperGroup):
 
 
 def load(name: str) -> Any:
-    """Import the command of a name."""
+    """Import the command of a name, from the module and the function of the same name."""
+    identifier = name.replace("-", "_")
     with error_exits():  # Ctrl-C during the import
-        function = getattr(import_module(f"agent_economy.cli.{name}"), name)
+        function = getattr(import_module(f"agent_economy.cli.{identifier}"), identifier)
     single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     single.command(name)(function)
     return typer.main.get_command(single)

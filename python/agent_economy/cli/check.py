@@ -12,6 +12,8 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.cli.errors import BAD_INPUT, error_exits, print_warnings
 from agent_economy.cli.options import Sets, overrides
+from agent_economy.live.fleet import is_fleet_file
+from agent_economy.live.fleet import load as load_fleet
 from agent_economy.scenario import Override, Scenario, ScenarioWarning
 from agent_economy.study import design
 
@@ -24,7 +26,7 @@ def check(
         list[Path],
         typer.Argument(
             metavar="FILE...",
-            help="Scenario files (TOML), or names of bundled ones.",
+            help="Scenario files and fleet files (TOML), or names of bundled scenarios.",
             show_default=False,
         ),
     ],
@@ -35,13 +37,16 @@ def check(
         typer.Option("--json", help="Print a JSON list of all errors and warnings, by severity."),
     ] = False,
 ) -> None:
-    """Check scenario files and print all errors and warnings; nothing is run.
+    """Check scenario and fleet files and print all errors and warnings; nothing is run.
+
+    A file that names a scenario or the drivers of robots is a fleet file: it is checked together
+    with its scenario, to which --set applies. No robot is connected, and no host name is resolved.
 
     Warnings are about what is allowed and probably not meant, such as teams without room to start.
 
-    Exit codes: 0 all are valid, perhaps with warnings; 2 a scenario or an argument is invalid.
+    Exit codes: 0 all are valid, perhaps with warnings; 2 a file or an argument is invalid.
 
-    Example: agent-economy check scenarios/classic.toml --set clock.time_limit_s=60
+    Example: agent-economy check scenarios/classic.toml fleets/bender.toml
     """
     with error_exits():
         changes = overrides(sets)
@@ -68,6 +73,32 @@ def check(
 
 
 def checked(file: Path, changes: tuple[Override, ...]) -> tuple[str, Iterable[ScenarioWarning]]:
+    """Return the line for a valid file, and the warnings about it.
+
+    Raises:
+        InputError: If it is not valid.
+    """
+    return checked_fleet(file, changes) if is_fleet_file(file) else checked_scenario(file, changes)
+
+
+def checked_fleet(
+    file: Path, changes: tuple[Override, ...]
+) -> tuple[str, Iterable[ScenarioWarning]]:
+    """Return the line for a valid fleet, and the warnings about it and a run of its scenario.
+
+    Raises:
+        InputError: If it or its scenario is not valid.
+    """
+    fleet = load_fleet(file, changes)
+    robots = len(fleet.plan.robots)
+    counted = f"{robots} robot{'s' if robots > 1 else ''}"
+    line = f"{file}: valid: fleet of {counted}, scenario {fleet.scenario.name}"
+    return line, fleet.scenario.warnings + fleet.warnings
+
+
+def checked_scenario(
+    file: Path, changes: tuple[Override, ...]
+) -> tuple[str, Iterable[ScenarioWarning]]:
     """Return the line for a valid scenario, and the warnings about its run and its study.
 
     Raises:

@@ -38,10 +38,10 @@ def replay(
     Example: agent-economy replay run.mcap
     """
     # Importing the reader doubles the start-up time.
-    from agent_economy import recording  # noqa: PLC0415
+    from agent_economy.live.replay import replay as live_replay  # noqa: PLC0415
 
     with error_exits():
-        result = recording.replay(file, verify=verify)
+        result = live_replay(file, verify=verify)
     typer.echo(json.dumps(as_dict(result), indent=2) if as_json else as_sentence(result))
     if verify and not result.agrees:
         raise typer.Exit(FAILED)
@@ -51,7 +51,8 @@ def as_sentence(result: "Replay") -> str:
     """Return the result of a replay in words."""
     which = f"{result.scenario.name}, seed {result.seed}, run {result.run}"
     if result.agrees:
-        verdict = f"reproduced up to step {result.tick:,} (hash {result.hash})"
+        lines = "" if result.lines is None else f", from {result.lines:,} lines of robots"
+        verdict = f"reproduced up to step {result.tick:,} (hash {result.hash}){lines}"
     else:
         verdict = f"differs from the recording from step {result.mismatch_tick:,} on"
     build = Build(result.program, result.engine)
@@ -67,7 +68,7 @@ def as_sentence(result: "Replay") -> str:
 def as_dict(result: "Replay") -> dict[str, object]:
     """Return the result of a replay for programs."""
     first = ("seed", "run", "program", "engine")
-    names = (*first, "is_complete", "tick", "hash", "agrees", "mismatch_tick")
+    names = (*first, "is_complete", "tick", "hash", "agrees", "mismatch_tick", "lines")
     return {
         "scenario": result.scenario.name,
         **{name: getattr(result, name) for name in names},

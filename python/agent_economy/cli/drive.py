@@ -1,0 +1,124 @@
+"""The command `drive`."""
+
+import json
+import sys
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from agent_economy.live.warden.endings import End
+from agent_economy.live.warden.shell import Options, drive_fleet
+
+
+def drive(  # noqa: PLR0913  (typer's options are arguments)
+    fleet: Annotated[Path, typer.Argument(help="A fleet file (TOML).", show_default=False)],
+    *,
+    headless: Annotated[
+        bool,
+        typer.Option(
+            "--headless", help="End when all waypoints are reached, or when a stop is latched."
+        ),
+    ] = False,
+    arm: Annotated[
+        bool, typer.Option("--arm", help="Arm each robot once, as soon as it can be armed.")
+    ] = False,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            help="The recording, NAME.mcap. [default: FLEET-TIME.mcap in this folder]",
+            show_default=False,
+        ),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the simulated robots and sensors.", min=0)] = 0,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print each event as a line of JSON on standard output.")
+    ] = False,
+) -> None:
+    """Drive the robots of a fleet file to their waypoints, and record everything.
+
+    No robot moves before all of its inputs are fresh and it has been armed. Ctrl-C stops all
+    robots first. From another terminal, `agent-economy stop` stops all robots. docs/safety.md lists
+    everything that stops a robot.
+
+    Exit codes: 0 all waypoints were reached; 1 some cannot be reached; 2 the fleet file or an
+    argument is not valid, or another program drives a robot; 3 a robot was stopped and has to be
+    armed again; 4 a robot could not be armed within 30 s; 130 stopped by Ctrl-C.
+
+    Example: agent-economy drive fleets/bender.toml --headless --arm
+    """
+    if headless != arm:
+        missing, given = ("--arm", "--headless") if headless else ("--headless", "--arm")
+        typer.echo(
+            f"{given} needs {missing}: without a screen, robots are armed at the start", err=True
+        )
+        raise typer.Exit(End.INVALID.exit_code)
+    path = record or Path(f"{fleet.stem}-{time.strftime('%Y%m%d-%H%M%S')}.mcap")
+    report = print_json if as_json else print_event
+    options = Options(fleet, path, seed, is_headless=headless)
+    raise typer.Exit(drive_fleet(options, report).exit_code)
+
+
+def print_json(event: Mapping[str, Any]) -> None:
+    """Print an event as a line of JSON."""
+    sys.stdout.write(json.dumps(event) + "\n")
+    sys.stdout.flush()
+
+
+def print_event(event: Mapping[str, Any]) -> None:
+    """Print an event as a sentence."""
+    text = sentence(event)
+    if text:
+        typer.echo(text, err=event["type"] in ("invalid", "message"))
+
+
+def sentence(event: Mapping[str, Any]) -> str:
+    """Return an event in words; empty for events without news for a person."""
+    match event["type"]:
+        case "plan":
+            names = ", ".join(robot["name"] for robot in event["plan"]["robots"])
+            return f"Driving {names}; recording to {event['record']}"
+        case "event":
+            return robot_sentence(event)
+        case "goal":
+            return f"{event['robot']}: waypoint {event['goal']}: {event['verdict']}"
+        case "end":
+            return f"Ended: {event['reason']}.{confirmation(event)}{lateness(event)}"
+        case _:
+            return str(event.get("message", ""))
+
+
+def confirmation(event: Mapping[str, Any]) -> str:
+    """Return which robots are known to be stationary."""
+    if not event["unconfirmed"]:
+        return " All robots are stationary."
+    return f" Not confirmed as stationary: {', '.join(event['unconfirmed'])}."
+
+
+def lateness(event: Mapping[str, Any]) -> str:
+    """Return how late the brains were in a drive; empty if they never were."""
+    if not event["late_steps"]:
+        return ""
+    return (
+        f" Late steps of the brains: {event['late_steps']}, by {event['behind_s']:.2f} s in total."
+    )
+
+
+def robot_sentence(event: Mapping[str, Any]) -> str:
+    """Return the state of a robot in words, with the reasons."""
+    name = event["robot"]
+    if event["action"] == "move":
+        return f"{name}: moves" + reasons(event, "warnings", "with a warning")
+    if event["is_armed"]:
+        return f"{name}: stopped" + reasons(event, "faults", "because of")
+    state = "stopped (standstill confirmed)" if event["is_confirmed"] else "stopped"
+    why = reasons(event, "faults", "because of") or reasons(event, "latched", "since")
+    return f"{name}: {state}, not armed{why}"
+
+
+def reasons(event: Mapping[str, Any], kind: str, word: str) -> str:
+    """Return faults of an event, the gravest first, each with its reason."""
+    texts = [f"{each.replace('_', ' ')} ({event['reasons'][each]})" for each in event[kind]]
+    return f" {word} {', '.join(texts)}" if texts else ""

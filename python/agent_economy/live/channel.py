@@ -1,0 +1,39 @@
+"""Messages between the warden and the loop: JSON, one per line, over pipes.
+
+The warden sends: `line` (a stamped line of a robot), `written` (a line that it wrote), `event` (a
+change of a robot's state, with its reasons), `beat` (it is running), `end` (close the recording).
+
+The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, then it ends),
+`setpoint` (the motion of one robot), `beat` (one per tick, with its lateness), `goal` (a verdict),
+`recording_error`, `ended`.
+"""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+Message = Mapping[str, Any]
+
+BEAT_S = 0.05
+"""Time between two beats of the warden."""
+
+SILENCE_S = 0.3
+"""Silence after which one process regards the other as dead or suspended."""
+
+
+def encode(message: Message) -> bytes:
+    """Return a message as a line. Numbers keep all their digits."""
+    return json.dumps(message, separators=(",", ":")).encode() + b"\n"
+
+
+class Decoder:
+    """Collects bytes of a pipe, and returns complete messages."""
+
+    def __init__(self) -> None:
+        """Start at the beginning of a message."""
+        self._rest = b""
+
+    def feed(self, data: bytes) -> list[dict[str, Any]]:
+        """Return the messages that are complete now, in order."""
+        *lines, self._rest = (self._rest + data).split(b"\n")
+        return [json.loads(line) for line in lines if line]

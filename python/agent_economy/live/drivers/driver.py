@@ -1,0 +1,92 @@
+"""What a kind of robot has to define. A driver is one file in this package.
+
+The functions of a driver are pure: bytes and settings in, readings and lines out. Sockets, clocks
+and rules are the warden's.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from agent_economy.live.readings import Motion, Quantity, Reading
+
+Settings = Mapping[str, Any]
+"""The settings of one robot, complete and checked: `Driver.settings` filled with its defaults."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One setting of a driver.
+
+    Attributes:
+        default: The value without the key; None if there is none.
+        description: What it is, in a sentence.
+        schema: The JSON Schema of its values.
+        is_guess: Whether the default is a guess that has to be measured on the robot.
+    """
+
+    default: Any
+    description: str
+    schema: Mapping[str, Any]
+    is_guess: bool = False
+
+
+@dataclass(frozen=True)
+class Port:
+    """One TCP port of a robot.
+
+    Attributes:
+        name: Its name in fleet files and recordings.
+        number: Its usual number.
+        quantity: What its lines measure; None if the robot sends nothing on it.
+        max_age_s: The usual age at which its newest line is stale; None without a quantity.
+        values: The number of values of a reading; 0 without a quantity.
+    """
+
+    name: str
+    number: int
+    quantity: Quantity | None
+    max_age_s: float | None
+    values: int = 0
+
+
+@dataclass(frozen=True)
+class PortLine:
+    """A line to write, with the port that it goes to; it includes its end."""
+
+    port: str
+    data: bytes
+
+
+class Driver(ABC):
+    """A kind of robot that can be driven."""
+
+    name: str
+    """Its name in fleet files."""
+    ports: tuple[Port, ...]
+    """Its ports, in the order in which they are connected."""
+    motor_port: str
+    """The port that takes motor lines."""
+    settings: Mapping[str, Setting]
+    """Its settings, by key."""
+
+    @abstractmethod
+    def parse(self, port: str, line: bytes, settings: Settings) -> Reading | None:
+        """Return the reading of a line without its end, or None if the line is malformed."""
+
+    @abstractmethod
+    def stop(self, settings: Settings) -> tuple[PortLine, ...]:
+        """Return the lines that stop the robot; the last one alone must stop it."""
+
+    @abstractmethod
+    def move(self, motion: Motion, settings: Settings) -> tuple[PortLine, ...]:
+        """Return the lines of a motion. The robot repeats it until the next line."""
+
+    @abstractmethod
+    def turn_to(self, magnetic_bearing_deg: float, settings: Settings) -> tuple[PortLine, ...]:
+        """Return the lines that let the robot turn to a heading by itself; none if it cannot."""
+
+    @abstractmethod
+    def motion(self, motion: Motion, settings: Settings) -> Motion:
+        """Return the motion that the lines of `move` cause, as far as the settings describe it."""

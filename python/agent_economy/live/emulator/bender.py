@@ -1,0 +1,109 @@
+"""The scenario that is emulated: a robot kind `bender` with the sensors of the protocol."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from agent_economy._core import InputError
+from agent_economy.live.emulator.settings import MAX_RATE_HZ, Settings
+from agent_economy.scenario import Override, Scenario
+
+KIND = "bender"
+"""The robot kind that is emulated. Other kinds of the scenario have their own brains."""
+
+SONARS = tuple(f"sonar_{index}" for index in range(6))
+
+Values = dict[str, Any]
+"""Values of the scenario, by path."""
+
+
+@dataclass(frozen=True)
+class Bender:
+    """What the emulator has to know of a scenario.
+
+    Attributes:
+        scenario: The scenario.
+        position: Name of the position sensor.
+        heading: Name of the compass.
+        rings: Index of the scan of each sonar in a percept.
+        max_range_m: Maximum range of each sonar.
+        world: Its `[world]`.
+    """
+
+    scenario: Scenario
+    position: str
+    heading: str
+    rings: tuple[int, ...]
+    max_range_m: tuple[float, ...]
+    world: Values
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> "Bender":
+        """Read a scenario.
+
+        Raises:
+            InputError: If it has no robot kind `bender` with the sensors of the protocol.
+        """
+        spec = scenario.to_dict()
+        sensors = spec.get("robots", {}).get(KIND, {}).get("sensors", {})
+        missing = [f"{name} (kind range, 1 ray)" for name in SONARS if not is_sonar(sensors, name)]
+        names = {kind: named(sensors, kind) for kind in ("position", "heading")}
+        missing += [f"one of kind {kind}" for kind, name in names.items() if name is None]
+        if missing:
+            message = (
+                f"{scenario.source.file}: robots.{KIND}.sensors: missing {', '.join(missing)}; "
+                "start from the bundled scenario bender"
+            )
+            raise InputError(message)
+        # Scans are in the order of the names of their sensors.
+        rings = [name for name in sorted(sensors) if sensors[name]["kind"] == "range"]
+        return cls(
+            scenario,
+            str(names["position"]),
+            str(names["heading"]),
+            tuple(rings.index(name) for name in SONARS),
+            tuple(sensors[name]["range_m"] for name in SONARS),
+            spec["world"],
+        )
+
+    def emulated(self, robots: int, settings: Settings) -> Scenario:
+        """Return the scenario with that number of robots, whose sensors measure in every step.
+
+        Raises:
+            InputError: If the scenario does not allow that.
+        """
+        robot = f"robots.{KIND}"
+        every = (*SONARS, self.position, self.heading)
+        values = {
+            f"{robot}.count": robots,
+            f"{robot}.brain.rate_hz": MAX_RATE_HZ,
+            "clock.step_s": 1 / MAX_RATE_HZ,
+            **{f"{robot}.sensors.{name}.rate_hz": MAX_RATE_HZ for name in every},
+            **self.noise(settings),
+        }
+        overrides = (Override.at(path, value, "emulator") for path, value in values.items())
+        return self.scenario.changed(tuple(overrides))
+
+    def noise(self, settings: Settings) -> Values:
+        """Return the noise of the receiver and the compass: of the settings, or its own."""
+        spec = self.scenario.to_dict()["robots"][KIND]["sensors"]
+        keys = (
+            (self.position, "noise_m", settings.gps_noise_m),
+            (self.heading, "noise_deg", settings.compass_noise_deg),
+        )
+        return {
+            f"robots.{KIND}.sensors.{name}.{key}": (
+                spec[name].get(key, 0.0) if value == "scenario" else value
+            )
+            for name, key, value in keys
+        }
+
+
+def is_sonar(sensors: Values, name: str) -> bool:
+    """Return whether a sensor is a sonar of one ray."""
+    sensor = sensors.get(name, {})
+    return (sensor.get("kind"), sensor.get("rays")) == ("range", 1)
+
+
+def named(sensors: Values, kind: str) -> str | None:
+    """Return the name of the first sensor of a kind."""
+    return next((name for name in sorted(sensors) if sensors[name]["kind"] == kind), None)

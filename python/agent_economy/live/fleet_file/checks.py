@@ -1,0 +1,42 @@
+"""All checks of robots whose values are valid, each by itself."""
+
+from agent_economy._core import Document
+from agent_economy.live.fleet_file.area import check_area
+from agent_economy.live.fleet_file.entry import Entry
+from agent_economy.live.fleet_file.findings import Findings
+from agent_economy.live.fleet_file.network import check_network
+from agent_economy.live.fleet_file.scenario_kind import ScenarioKind, ScenarioWorld
+from agent_economy.live.fleet_file.sensors import check_sensors
+from agent_economy.live.fleet_file.timing import check_lifetime
+
+
+def check_entries(
+    findings: Findings, fleet: Document, world: ScenarioWorld, entries: list[Entry]
+) -> None:
+    """Report everything that is wrong with several values together."""
+    kinds = {each.kind: world.kind(each.kind) for each in entries}
+    for kind in kinds.values():
+        _check_drive(findings, kind)
+    check_network(findings, fleet, entries)
+    check_lifetime(findings, fleet, entries, kinds)
+    # A kind may have robots with different drivers; each pair is reported for its first robot.
+    for entry in {(each.kind, each.driver.name): each for each in reversed(entries)}.values():
+        check_sensors(findings, fleet, entry, kinds[entry.kind])
+    for entry in entries:
+        _check_speed(findings, fleet, entry, kinds[entry.kind])
+        check_area(findings, fleet, entry, kinds[entry.kind])
+
+
+def _check_drive(findings: Findings, kind: ScenarioKind) -> None:
+    if "max_turn_rate_deg_s" not in kind.drive:
+        allowed = "a number above 0 (degrees per second): no real robot turns instantly"
+        findings.error(kind.of.document, kind.path("drive", "max_turn_rate_deg_s"), allowed)
+
+
+def _check_speed(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:
+    if entry.manual_speed_m_s(kind.max_speed_m_s) > kind.max_speed_m_s:
+        path = (*entry.path, "manual_speed_m_s")
+        allowed = (
+            f"a number from 0 to {kind.max_speed_m_s:g} (m/s), the maximum speed of {kind.name}"
+        )
+        findings.error(fleet, path, allowed)

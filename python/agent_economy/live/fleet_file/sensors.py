@@ -1,0 +1,115 @@
+"""The sensors of a scenario's kind: they have to be those that a driver has inputs for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from agent_economy._core import Document
+from agent_economy.live.drivers import Port
+from agent_economy.live.fleet_file.entry import Entry
+from agent_economy.live.fleet_file.findings import Findings, listed
+from agent_economy.live.fleet_file.scenario_kind import ScenarioKind
+from agent_economy.live.plan import InputPlan
+from agent_economy.live.readings import Quantity
+
+Sensor = Mapping[str, Any]
+
+KINDS = {
+    Quantity.RANGES: "range",
+    Quantity.POSITION: "position",
+    Quantity.HEADING: "heading",
+}
+"""The kind of sensor that measures a quantity."""
+
+FULL_TURN_DEG = 360.0
+
+MAX_ROUNDING = 0.01
+"""A range may be rounded by this fraction of the maximum range."""
+
+MAX_SIGMAS = 5
+"""A range may exceed the maximum range by this number of standard deviations."""
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What is possible for a quantity: see `InputPlan`."""
+
+    noise: float
+    bounds: tuple[float, float] | None
+
+
+def check_sensors(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:
+    """Report a driver whose inputs are not the sensors of the kind."""
+    driver = entry.driver
+    wrong = [
+        f"needs {_wanted(port)}, and {_found(kind.sensors(KINDS[port.quantity]))}"
+        for port in driver.ports
+        if port.quantity in KINDS and not _is_matched(port, kind.sensors(KINDS[port.quantity]))
+    ]
+    known = {KINDS[port.quantity] for port in driver.ports if port.quantity in KINDS}
+    sensors = sorted(kind.given.get("sensors", {}).items())
+    others = [f'{name} (kind "{has["kind"]}")' for name, has in sensors if has["kind"] not in known]
+    if others:
+        wrong.append(f"has no input for {listed(others)}")
+    if wrong:
+        allowed = (
+            f"a driver for the sensors of robots.{kind.name} in the scenario: {driver.name} "
+            f"{'; it '.join(wrong)}"
+        )
+        findings.error(fleet, (*entry.path, "driver"), allowed)
+
+
+def input_plan(port: Port, max_age_s: float, kind: ScenarioKind) -> InputPlan:
+    """Return the input of a port with a quantity, whose sensors have been checked."""
+    quantity = port.quantity or Quantity.BATTERY
+    sensors = kind.sensors(KINDS.get(quantity, ""))
+    possible = _measurement(quantity, list(sensors.values()))
+    return InputPlan(port.name, quantity, max_age_s, possible.noise, possible.bounds)
+
+
+def position_noise_m(kind: ScenarioKind) -> float:
+    """Return the standard deviation of its positions along each axis."""
+    sensors = kind.sensors("position").values()
+    return max((float(sensor.get("noise_m", 0)) for sensor in sensors), default=0.0)
+
+
+def _measurement(quantity: Quantity, sensors: list[Sensor]) -> Measurement:
+    match quantity:
+        case Quantity.RANGES:
+            max_range_m = max(float(sensor["range_m"]) for sensor in sensors)
+            noise_m = max(_range_noise_m(sensor) for sensor in sensors)
+            # Noise and rounding may take a range beyond the maximum.
+            bound_m = max_range_m * (1 + MAX_ROUNDING) + MAX_SIGMAS * noise_m
+            return Measurement(noise_m, (0.0, bound_m))
+        case Quantity.HEADING:
+            return Measurement(float(sensors[0].get("noise_deg", 0)), (0.0, FULL_TURN_DEG))
+        case Quantity.POSITION:
+            return Measurement(float(sensors[0].get("noise_m", 0)), None)
+        case Quantity.BATTERY:
+            return Measurement(0.0, (0.0, 1.0))
+
+
+def _range_noise_m(sensor: Sensor) -> float:
+    """Return the standard deviation at the maximum range."""
+    relative = float(sensor.get("relative_noise", 0)) * float(sensor["range_m"])
+    return float(sensor.get("noise_m", 0)) + relative
+
+
+def _is_matched(port: Port, found: Mapping[str, Sensor]) -> bool:
+    if port.quantity is Quantity.RANGES:
+        return len(found) == port.values and all(each["rays"] == 1 for each in found.values())
+    return len(found) == 1
+
+
+def _wanted(port: Port) -> str:
+    if port.quantity is Quantity.RANGES:
+        return f'{port.values} sensors of kind "range" with rays = 1'
+    return f'one sensor of kind "{KINDS.get(port.quantity or Quantity.POSITION)}"'
+
+
+def _found(found: Mapping[str, Sensor]) -> str:
+    """Return which sensors of a kind there are, with the numbers of their rays."""
+    each = [
+        f"{name} (rays = {has['rays']})" if "rays" in has else name for name, has in found.items()
+    ]
+    return f"the kind has {listed(each) if each else 'none'}"

@@ -1,0 +1,66 @@
+"""Warnings about fleets: what is allowed, and dangerous or probably not meant."""
+
+from collections.abc import Iterable
+
+from agent_economy._core import Document
+from agent_economy.live.fleet_file.entry import Entry
+from agent_economy.live.fleet_file.findings import Findings, listed
+from agent_economy.live.fleet_file.scenario_kind import (
+    DEFAULT_WITHIN_M,
+    ScenarioKind,
+    ScenarioWorld,
+)
+from agent_economy.live.fleet_file.sensors import position_noise_m
+from agent_economy.live.fleet_file.team import simulated
+from agent_economy.scenario import ScenarioWarning
+
+MIN_DEVIATIONS = 2
+"""A waypoint has to be reached within this number of standard deviations of positions, or more."""
+
+
+def fleet_warnings(
+    fleet: Document, world: ScenarioWorld, entries: Iterable[Entry]
+) -> tuple[ScenarioWarning, ...]:
+    """Return the warnings about a fleet without errors; not those of its scenario."""
+    findings = Findings()
+    entries = list(entries)
+    lacking = simulated((entry.name for entry in entries), world.scenario.robots)
+    if lacking:
+        effect = f"the scenario's team also has {listed(lacking)}, which the loop simulates"
+        findings.warn(fleet, ("robots",), effect)
+    for entry in entries:
+        _warn_of_robot(findings, fleet, entry)
+    for kind in sorted({entry.kind for entry in entries}):
+        _warn_of_waypoints(findings, world.kind(kind))
+    return tuple(findings.warnings)
+
+
+def _warn_of_robot(findings: Findings, fleet: Document, entry: Entry) -> None:
+    given = entry.given.get("settings", {})
+    settings = entry.driver.settings.items()
+    guesses = [
+        key if setting.default is None else f"{key} = {setting.default}"
+        for key, setting in settings
+        if setting.is_guess and key not in given
+    ]
+    if guesses:
+        effect = f"guesses are used for what is not set: {listed(guesses)}; measure and set them"
+        findings.warn(fleet, (*entry.path, "settings"), effect)
+    if entry.deadman_s is None:
+        effect = (
+            "the robot drives on if this computer or the link fails, because it has no timer that "
+            "stops it; keep a person at its own switch"
+        )
+        findings.warn(fleet, (*entry.path, "deadman_s"), effect)
+
+
+def _warn_of_waypoints(findings: Findings, kind: ScenarioKind) -> None:
+    min_m = MIN_DEVIATIONS * position_noise_m(kind)
+    for path, behaviour in kind.behaviours():
+        is_short = behaviour.get("within_m", DEFAULT_WITHIN_M) < min_m
+        if behaviour["kind"] == "correct" and is_short:
+            effect = (
+                f"less than twice the standard deviation of positions, {min_m:g} m: the robot "
+                "may circle around its waypoints"
+            )
+            findings.warn(kind.of.document, (*path, "within_m"), effect)

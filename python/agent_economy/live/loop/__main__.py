@@ -1,0 +1,45 @@
+"""The program of the loop; the warden starts it."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from agent_economy._core import InputError
+from agent_economy.live import fleet
+from agent_economy.live.loop.last_resort import stop_all
+from agent_economy.live.loop.loop import Loop
+from agent_economy.live.loop.pipe import Pipe, WardenLostError
+
+INVALID, LOST = 2, 3
+"""Exit codes: the input is not valid; the warden was lost, and the robots have been stopped."""
+
+
+def main() -> int:
+    """Run the loop; return its exit code."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("fleet", type=Path)
+    parser.add_argument("--record", type=Path, required=True)
+    parser.add_argument("--seed", type=int, default=0)
+    arguments = parser.parse_args()
+    warden = os.getppid()
+    pipe = Pipe()
+    try:
+        loaded = fleet.load(arguments.fleet)
+        loop = Loop(loaded, pipe, arguments.record, arguments.seed)
+    except InputError as error:
+        pipe.send({"type": "invalid", "message": str(error), "errors": error.errors})
+        return INVALID
+    pipe.send({"type": "plan", "plan": loaded.plan.to_dict(), "record": str(arguments.record)})
+    pipe.watch()
+    try:
+        loop.run()
+    except WardenLostError:
+        stop_all(loaded.plan, loop.peers, warden)
+        loop.close()
+        return LOST
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+"""The recording of a drive: the run, and everything that was received, written and decided."""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from agent_economy.live.fleet import Fleet
+from agent_economy.recording import Recording
+from agent_economy.recording.file import strict
+from agent_economy.recording.live_topics import EVENTS, LIVE, SETPOINTS, TICKS, WIRE, live_schema
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.simulation import Simulation
+
+FLUSH_S = 0.5
+"""Time that a kill of the process loses at most, besides that of the last tick."""
+
+
+class Log:
+    """Steps a run and records it, with the lines of robots and the reactions of the warden."""
+
+    def __init__(self, simulation: Simulation, path: Path, fleet: Fleet, start_s: float) -> None:
+        """Start a recording; see `Recording` for the errors."""
+        plan = fleet.plan
+        self._recording = Recording(
+            simulation, path, percepts=[each.name for each in plan.robots], flush_s=FLUSH_S
+        )
+        self._start_s = start_s
+        self._recording.note_values(
+            LIVE,
+            {
+                "plan": json.dumps(plan.to_dict()),
+                "waypoints_m": json.dumps(strict(fleet.waypoints_m)),
+                "start_s": repr(start_s),
+            },
+        )
+
+    def add(self, message: Mapping[str, Any]) -> None:
+        """Record a message of the warden."""
+        at_s = message["t"]
+        topic = EVENTS
+        if message["type"] in ("line", "written"):
+            topic = f"{WIRE}{message['robot']}/{message['port']}"
+        self._recording.write_json(topic, live_schema(topic), message, at_s - self._start_s)
+
+    def tick(self, tick: int, now_s: float, lateness_s: float) -> None:
+        """Record that a tick begins."""
+        values = {"tick": tick, "t": now_s, "lateness_s": lateness_s}
+        topic = TICKS
+        self._recording.write_json(topic, live_schema(topic), values, now_s - self._start_s)
+
+    def step(self, percepts: Mapping[str, Percept]) -> dict[str, Command]:
+        """Take a step of the run."""
+        return self._recording.step(percepts=percepts)
+
+    def setpoints(
+        self, tick: int, motions: Mapping[str, Sequence[float | None]], now_s: float
+    ) -> None:
+        """Record the setpoints of a tick."""
+        topic = SETPOINTS
+        values = {"tick": tick, "motions": motions}
+        self._recording.write_json(topic, live_schema(topic), values, now_s - self._start_s)
+
+    def close(self) -> None:
+        """Close the recording."""
+        self._recording.close()

@@ -1,0 +1,101 @@
+"""The loop: receive lines, step the brains, send setpoints; at the pace of the clock."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from agent_economy.live.clock import now_s
+from agent_economy.live.fleet import Fleet
+from agent_economy.live.loop.log import Log
+from agent_economy.live.loop.pacer import Pacer
+from agent_economy.live.loop.pipe import Pipe
+from agent_economy.live.loop.team import Team
+from agent_economy.recording import RecordingError
+from agent_economy.runs.simulation import Simulation
+
+
+class Loop:
+    """One drive, between the plan and the end.
+
+    Attributes:
+        peers: The numeric addresses of connected motor ports.
+    """
+
+    def __init__(self, fleet: Fleet, pipe: Pipe, record: Path, seed: int) -> None:
+        """Create the run at its first step."""
+        self.peers: dict[str, tuple[str, int]] = {}
+        self._pipe, self._fleet = pipe, fleet
+        names = tuple(robot.name for robot in fleet.plan.robots)
+        self._simulation = Simulation(fleet.scenario, seed=seed, external=names)
+        start_s = now_s()
+        self._team = Team(
+            fleet.plan, self._simulation, fleet.waypoints_m, seed=seed, start_s=start_s
+        )
+        self._log: Log | None = Log(self._simulation, record, fleet, start_s)
+        self._pacer = Pacer(self._simulation.step_s, start_s)
+
+    def run(self) -> None:
+        """Run until the warden ends the drive.
+
+        Raises:
+            WardenLostError: If the warden has ended or is silent.
+        """
+        self._pacer.due_s = now_s() + self._pacer.period_s
+        while self._receive():
+            self._tick()
+        self.close()
+
+    def _receive(self) -> bool:
+        """Take messages until the next tick is due; return whether the drive continues."""
+        for message in self._pipe.receive_until(self._pacer.due_s):
+            match message["type"]:
+                case "end":
+                    return False
+                case "peer":
+                    self.peers[message["robot"]] = tuple(message["address"])
+                case "line" | "written" | "event":
+                    self._team.add(message)
+                    self._add(message)
+        return True
+
+    def _tick(self) -> None:
+        """Take one step, unless the recording has failed: what is not recorded is not driven."""
+        now = now_s()
+        lateness_s = self._pacer.tick(now)
+        if self._log is not None:
+            try:
+                self._step(self._log, now, lateness_s)
+            except RecordingError as error:
+                self._fail(error)
+        counts = {"late_steps": self._pacer.late_ticks, "behind_s": self._pacer.behind_s}
+        self._pipe.send({"type": "beat", "lateness_s": now_s() - now + lateness_s, **counts})
+
+    def _step(self, log: Log, now: float, lateness_s: float) -> None:
+        tick = self._simulation.tick
+        log.tick(tick, now, lateness_s)
+        commands = log.step(self._team.percepts(tick, now))
+        motions = self._team.motions(commands)
+        log.setpoints(tick, motions, now)
+        for robot, motion in motions.items():
+            self._pipe.send({"type": "setpoint", "robot": robot, "tick": tick, "motion": motion})
+        for goal in self._team.new_verdicts():
+            self._pipe.send({"type": "goal", **goal})
+
+    def _add(self, message: Mapping[str, Any]) -> None:
+        if self._log is not None:
+            try:
+                self._log.add(message)
+            except RecordingError as error:
+                self._fail(error)
+
+    def _fail(self, error: RecordingError) -> None:
+        self._log = None
+        self._pipe.send({"type": "recording_error", "message": str(error)})
+
+    def close(self) -> None:
+        """Close the recording; also after the warden was lost."""
+        if self._log is not None:
+            try:
+                self._log.close()
+            except RecordingError as error:
+                self._fail(error)

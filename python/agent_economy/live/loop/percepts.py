@@ -1,0 +1,119 @@
+"""Makes percepts of the lines of one robot. It reads no clock, so that a replay is exact."""
+
+import hashlib
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from agent_economy._core import LocalFrame
+from agent_economy.live.drivers import DRIVERS
+from agent_economy.live.plan import Origin, RobotPlan
+from agent_economy.live.readings import Quantity
+from agent_economy.runs.brain import Percept
+
+
+def frame_of(origin: Origin) -> LocalFrame:
+    """Return the conversions of a geographic origin."""
+    return LocalFrame(
+        origin.latitude_deg, origin.longitude_deg, origin.rotation_deg, origin.declination_deg
+    )
+
+
+class Percepts:
+    """The newest readings of a robot, and its percepts.
+
+    Attributes:
+        is_armed: Whether the robot is armed; its brain steps only then.
+    """
+
+    def __init__(
+        self, plan: RobotPlan, frame: LocalFrame, base: Mapping[str, Any], seed: int, start_s: float
+    ) -> None:
+        """Create it without readings.
+
+        Args:
+            plan: The robot.
+            frame: The conversions of the world's origin.
+            base: The parts of a percept that never change.
+            seed: Seed of the random bits of percepts.
+            start_s: The time at which the drive started, by the clock of the time stamps.
+        """
+        self.is_armed, self._is_moving = False, False
+        self._plan, self._frame, self._base = plan, frame, base
+        self._seed, self._start_s = seed, start_s
+        self._driver = DRIVERS[plan.driver]
+        self._readings: dict[Quantity, tuple[Any, float]] = {}
+        self._ranges: dict[int, tuple[float, float]] = {}
+
+    def add_line(self, port: str, line: bytes, at_s: float) -> None:
+        """Take a line, with its time stamp."""
+        reading = self._driver.parse(port, line, self._plan.settings)
+        if reading is None:
+            return
+        if reading.quantity is Quantity.RANGES:
+            for sonar, range_m in enumerate(reading.values):
+                if range_m is not None:
+                    self._ranges[sonar] = (range_m, at_s)
+            return
+        value = self._value(reading.quantity, reading.values)
+        if value is not None:
+            self._readings[reading.quantity] = (value, at_s)
+
+    def add_event(self, event: Any) -> None:
+        """Take a change of the robot's state that the warden reports."""
+        self.is_armed, self._is_moving = event["is_armed"], event["action"] == "move"
+
+    def percept(self, tick: int, now_s: float, sonars: int) -> Percept:
+        """Return the percept of a tick at a time; `sonars` is the number of range sensors."""
+        percept: dict[str, Any] = {
+            **self._base,
+            "time_s": now_s - self._start_s,
+            "random_words": random_words(self._seed, self._plan.name, tick),
+            "scans": [self._scan(sonar, now_s) for sonar in range(sonars)],
+        }
+        for quantity, key in KEYS.items():
+            if quantity in self._readings:
+                value, at_s = self._readings[quantity]
+                percept[key] = {"value": value, "age_s": now_s - at_s}
+        if not self._is_moving:
+            # The robot has no odometry, but stop has been commanded.
+            percept["motion"] = {"value": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "age_s": 0.0}
+        return percept  # type: ignore[return-value]  # built by its keys
+
+    def _scan(self, sonar: int, now_s: float) -> dict[str, Any]:
+        range_m, at_s = self._ranges.get(sonar, (math.nan, now_s))
+        if math.isnan(range_m) or range_m < 0:
+            return {"age_s": None, "ranges_m": []}
+        return {"age_s": now_s - at_s, "ranges_m": [None if math.isinf(range_m) else range_m]}
+
+    def _value(self, quantity: Quantity, values: tuple[float | None, ...]) -> Any:
+        numbers = [value for value in values if value is not None and math.isfinite(value)]
+        if len(numbers) < len(values):
+            return None
+        match quantity:
+            case Quantity.POSITION:
+                return self._position(*numbers)
+            case Quantity.HEADING:
+                return self._frame.heading_rad(*numbers)
+            case Quantity.BATTERY:
+                return min(1.0, max(0.0, *numbers))
+        return None
+
+    def _position(self, latitude_deg: float, longitude_deg: float) -> list[float] | None:
+        if abs(latitude_deg) > MAX_LATITUDE_DEG or abs(longitude_deg) > MAX_LONGITUDE_DEG:
+            return None
+        return list(self._frame.to_local(latitude_deg, longitude_deg))
+
+
+KEYS = {
+    Quantity.POSITION: "position",
+    Quantity.HEADING: "heading_rad",
+    Quantity.BATTERY: "battery",
+}
+MAX_LATITUDE_DEG, MAX_LONGITUDE_DEG = 90.0, 360.0
+
+
+def random_words(seed: int, robot: str, tick: int) -> list[int]:
+    """Return the random bits of a tick: the same on every machine."""
+    digest = hashlib.blake2b(f"{seed} {robot} {tick}".encode(), digest_size=16).digest()
+    return [int.from_bytes(digest[at : at + 4], "little") for at in range(0, 16, 4)]

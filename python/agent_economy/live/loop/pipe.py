@@ -1,0 +1,82 @@
+"""The loop's end of the pipes to the warden."""
+
+import os
+import select
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+from agent_economy.live.channel import SILENCE_S, Decoder, Message, encode
+from agent_economy.live.clock import now_s
+
+MAX_READS = 1000
+"""Reads before a tick is taken all the same: a flood of lines must not hold the brains up."""
+
+
+class WardenLostError(Exception):
+    """The warden has ended, or has been silent for too long."""
+
+
+class Pipe:
+    """Receives from and sends to the warden, and notices when it is gone.
+
+    Setpoints expire, so that one that does not fit into the pipe can be dropped.
+    """
+
+    def __init__(self) -> None:
+        """Take over the standard streams; everything printed goes to standard error from now on."""
+        self._input, self._output = os.dup(sys.stdin.fileno()), os.dup(sys.stdout.fileno())
+        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+        self._decoder = Decoder()
+        self._heard_s = self._looked_s = now_s()
+        self._is_watching = False
+
+    def watch(self) -> None:
+        """Regard the warden as lost from now on when it is silent; nothing sent blocks any more."""
+        os.set_blocking(self._input, False)
+        os.set_blocking(self._output, False)
+        self._heard_s = self._looked_s = now_s()
+        self._is_watching = True
+
+    def send(self, message: Message) -> None:
+        """Send a message.
+
+        Raises:
+            WardenLostError: If the warden has closed the pipe.
+        """
+        try:
+            os.write(self._output, encode(message))
+        except BlockingIOError:
+            return
+        except OSError as error:
+            raise WardenLostError from error
+
+    def receive_until(self, until_s: float) -> Iterator[dict[str, Any]]:
+        """Yield all messages that arrive until a time, which may be past.
+
+        Raises:
+            WardenLostError: If the warden has ended, or has been silent for too long.
+        """
+        for _ in range(MAX_READS):
+            wait_s = max(0.0, min(until_s - now_s(), SILENCE_S / 3))
+            is_readable = bool(select.select([self._input], [], [], wait_s)[0])
+            now = now_s()
+            if now - self._looked_s > SILENCE_S:
+                self._heard_s = now  # this process was suspended or busy: judge after reading
+            self._looked_s = now
+            if is_readable:
+                yield from self._read()
+            elif self._is_watching and now - self._heard_s > SILENCE_S:
+                raise WardenLostError
+            elif now >= until_s:
+                return
+
+    def _read(self) -> Iterator[dict[str, Any]]:
+        try:
+            data = os.read(self._input, 2**16)
+        except BlockingIOError:
+            return
+        if not data:
+            raise WardenLostError
+        self._heard_s = now_s()
+        yield from self._decoder.feed(data)

@@ -1,0 +1,116 @@
+"""The real robots of a drive: their percepts, motions and goals. It reads no clock."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from agent_economy import _core
+from agent_economy.live.loop.percepts import Percepts, frame_of
+from agent_economy.live.plan import FleetPlan
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.simulation import Simulation
+
+Setpoint = tuple[float, float, float | None]
+"""Speed in m/s, turn rate in rad/s, and the heading to turn to in radians, if any."""
+
+STOP: Setpoint = (0.0, 0.0, None)
+
+OPERATOR = {"kind": 255, "index": 0}
+"""The id of the operator, which no robot has."""
+
+
+class Team:
+    """The robots of a fleet in a run. A replay uses it as the loop does."""
+
+    def __init__(
+        self,
+        plan: FleetPlan,
+        simulation: Simulation,
+        waypoints_m: Mapping[str, Any],
+        *,
+        seed: int,
+        start_s: float,
+    ) -> None:
+        """Create it without readings.
+
+        Args:
+            plan: The fleet.
+            simulation: The run, in which the robots have external bodies.
+            waypoints_m: The waypoints that the operator orders at the start, by robot.
+            seed: Seed of the random bits of percepts.
+            start_s: The time at which the drive started, by the clock of the time stamps.
+        """
+        self._simulation = simulation
+        bodies = _core.recorded_setting(simulation._run)["bodies"]  # noqa: SLF001  (ours)
+        kinds = list(bodies)
+        frame = frame_of(plan.origin)
+        self._robots: dict[str, Percepts] = {}
+        self._bodies: dict[str, Mapping[str, Any]] = {}
+        for robot in plan.robots:
+            kind, _, index = robot.name.rpartition("/")
+            count = sum(name.startswith(f"{kind}/") for name in simulation.robots)
+            base = {"id": {"kind": kinds.index(kind), "index": int(index)}, "team_size": count}
+            self._robots[robot.name] = Percepts(robot, frame, base, seed, start_s)
+            self._bodies[robot.name] = bodies[kind]
+        self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
+        self._motions = dict.fromkeys(self._robots, STOP)
+        self._verdicts: dict[tuple[str, str], str] = {}
+
+    def add(self, message: Mapping[str, Any]) -> None:
+        """Take a line or an event of the warden."""
+        robot = self._robots[message["robot"]]
+        if message["type"] == "line":
+            robot.add_line(message["port"], message["line"].encode("latin-1"), message["t"])
+        elif message["type"] == "event":
+            robot.add_event(message)
+
+    def percepts(self, tick: int, now_s: float) -> dict[str, Percept]:
+        """Return the percepts of the robots whose brains step in a tick: of those that are armed.
+
+        The brain of a robot that may not move does not step: it would find that it gets nowhere.
+        """
+        step_s = self._simulation.step_s
+        percepts = {}
+        for name, robot in self._robots.items():
+            every = max(1, round(self._bodies[name]["period_s"] / step_s))
+            if robot.is_armed and tick % every == 0:
+                sonars = len(self._bodies[name]["rings"])
+                percepts[name] = robot.percept(tick, now_s, sonars)
+                percepts[name]["inbox"] = self._orders.pop(name, [])
+        return percepts
+
+    def motions(self, commands: Mapping[str, Command]) -> dict[str, Setpoint]:
+        """Return the setpoint of each robot: its last command, or stop while it is not armed."""
+        for name, command in commands.items():
+            motion, heading_rad = command["motion"], command["heading_rad"]
+            speed, rate = motion["speed_m_s"], motion["turn_rate_rad_s"]
+            self._motions[name] = (speed, rate, heading_rad)
+        for name, robot in self._robots.items():
+            if not robot.is_armed:
+                self._motions[name] = STOP
+        return dict(self._motions)
+
+    def new_verdicts(self) -> Iterator[dict[str, str]]:
+        """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot."""
+        for name in self._robots:
+            for number, goal in enumerate(self._simulation.assigned_goals(name), 1):
+                key = (name, str(number))
+                if self._verdicts.get(key) != goal["verdict"]:
+                    self._verdicts[key] = goal["verdict"]
+                    yield {"robot": name, "goal": key[1], "verdict": goal["verdict"]}
+
+
+def orders(waypoints_m: Any) -> list[Any]:
+    """Return the messages with which an operator orders waypoints, in order.
+
+    From its first order on, a brain has verdicts of its own waypoints too. Without waypoints to
+    assign, the order withdraws a goal that does not exist.
+    """
+    assigned = [order(number, at, "assign") for number, at in enumerate(waypoints_m)]
+    return assigned or [order(0, (0.0, 0.0), "withdraw")]
+
+
+def order(number: int, at: Sequence[float], action: str) -> dict[str, Any]:
+    """Return an order of the operator."""
+    goal = {"issuer": OPERATOR, "number": number}
+    about = {"order": {"goal": goal, "at": list(at), "action": action}}
+    return {"from": OPERATOR, "age_s": 0.0, "message": {"about": about, "confidence": 1.0}}

@@ -1,0 +1,136 @@
+"""Verifies the recording of a drive: lines to percepts, percepts to commands, bit for bit."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from mcap.records import Channel, McapRecord, Message, Metadata
+
+from agent_economy import recording
+from agent_economy._core import InputError
+from agent_economy.live.loop.team import Team
+from agent_economy.live.plan import plan_of
+from agent_economy.recording import Replay
+from agent_economy.recording.fields import Entries
+from agent_economy.recording.file import strict
+from agent_economy.recording.live_topics import EVENTS, LIVE, SETPOINTS, TICKS, WIRE
+from agent_economy.recording.reading import each_record, named
+from agent_economy.runs.simulation import Simulation
+
+INPUT = "/input"
+"""The topic of the percepts that the run took."""
+
+
+@dataclass
+class Drive:
+    """What a recording has of a drive, in the order in which the loop took it.
+
+    Attributes:
+        values: Its metadata; None if the recording is not of a drive.
+        messages: The lines and events, the ticks, the percepts and the setpoints.
+    """
+
+    values: Mapping[str, str] | None = None
+    messages: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
+    _topics: dict[int, str] = field(default_factory=dict)
+
+    def add(self, record: McapRecord) -> None:
+        """Add a record of the file."""
+        match record:
+            case Metadata() if record.name == LIVE:
+                self.values = record.metadata
+            case Channel():
+                self._topics[record.id] = record.topic
+            case Message():
+                topic = self._topics.get(record.channel_id, "")
+                if topic.startswith(WIRE) or topic in (EVENTS, TICKS, SETPOINTS, INPUT):
+                    self.messages.append((topic, json.loads(record.data)))
+
+    @property
+    def lines(self) -> int:
+        """The number of lines that robots sent."""
+        return sum(message.get("type") == "line" for _, message in self.messages)
+
+    def mismatch(self, replayed: Replay) -> int | None:
+        """Return the first tick whose percepts or setpoints its lines do not give.
+
+        Raises:
+            InputError: If its metadata are damaged.
+        """
+        run = Entries(f"metadata {LIVE!r}", self.values)
+        try:
+            plan = plan_of(run.json("plan"))
+            names = [robot.name for robot in plan.robots]
+            simulation = Simulation(
+                replayed.scenario, seed=replayed.seed, run=replayed.run, external=names
+            )
+            team = Team(
+                plan,
+                simulation,
+                run.json("waypoints_m"),
+                seed=replayed.seed,
+                start_s=float(run.text("start_s")),
+            )
+            return self._compare(team, simulation)
+        except (KeyError, TypeError, ValueError) as error:
+            if isinstance(error, InputError):
+                raise
+            message = f"is damaged: the metadata or a message of its drive: {error!r}"
+            raise InputError(message) from None
+
+    def _compare(self, team: Team, simulation: Simulation) -> int | None:
+        given: dict[int, Any] = {m["tick"]: m["percepts"] for t, m in self.messages if t == INPUT}
+        motions = {m["tick"]: m["motions"] for t, m in self.messages if t == SETPOINTS}
+        for topic, message in self.messages:
+            if topic == TICKS:
+                tick = int(message["tick"])
+                if tick not in motions:  # the file is truncated
+                    return None
+                percepts = team.percepts(tick, message["t"])
+                decided = team.motions(simulation.step(percepts=percepts))
+                both = (strict(percepts), strict(decided))
+                if both != (given.get(tick, {}), motions[tick]):
+                    return tick
+            elif topic not in (INPUT, SETPOINTS):
+                team.add(message)
+        return None
+
+
+def replay(path: str | Path, *, verify: bool = True) -> Replay:
+    """Replay a recorded run or drive from its file alone. Ctrl-C stops it between two steps.
+
+    Of a drive, the percepts are made again of the recorded lines of the robots, and have to be
+    the recorded ones, as have the setpoints.
+
+    Args:
+        path: A recording. A truncated file is compared up to its end.
+        verify: Whether to refuse a recording of another build of this program, which may give
+            another run. Without it, such a recording is replayed and compared all the same.
+
+    Raises:
+        InputError: If the file cannot be read, is damaged, is not a recording of a run, contains a
+            scenario that this version does not accept, or is of another build.
+    """
+    replayed = recording.replay(path, verify=verify)
+    drive = read_drive(Path(path))
+    if drive is None:
+        return replayed
+    with named(Path(path)):
+        ticks = [
+            tick for tick in (replayed.mismatch_tick, drive.mismatch(replayed)) if tick is not None
+        ]
+    return replace(replayed, mismatch_tick=min(ticks, default=None), lines=drive.lines)
+
+
+def read_drive(path: Path) -> Drive | None:
+    """Return what a recording has of a drive; None if it is not of one.
+
+    Raises:
+        InputError: If it cannot be read, or is damaged.
+    """
+    drive = Drive()
+    for record in each_record(path):
+        drive.add(record)
+    return None if drive.values is None else drive

@@ -1,0 +1,179 @@
+"""What goes into the rules and what comes out: plain values.
+
+Times are seconds of one clock, which runs on while the machine sleeps. Robots are keyed by name,
+links and samples by port.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum, StrEnum
+
+from agent_economy.live.readings import Motion
+from agent_economy.live.rules.faults import Fault
+
+
+class Action(IntEnum):
+    """What a robot does. The graver action wins."""
+
+    MOVE = 0
+    """It follows the setpoint."""
+    STOP = 1
+    """It stands until its faults have cleared."""
+    LATCHED_STOP = 2
+    """It stands until an operator arms it."""
+
+
+class Mode(StrEnum):
+    """Where the setpoints of a robot come from."""
+
+    AUTO = "auto"
+    """From the loop."""
+    MANUAL = "manual"
+    """From an operator."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """The newest reading of an input.
+
+    Attributes:
+        time_s: When it arrived.
+        values: Positions: x and y in metres of the world. Headings: degrees, 0 to 360, clockwise
+            from magnetic north. Ranges: metres; infinite where nothing is seen, None without a
+            value. Batteries: 0 to 1. NaN is an impossible value.
+    """
+
+    time_s: float
+    values: tuple[float | None, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """The state of the connection to one port.
+
+    Attributes:
+        is_up: Whether it is connected.
+        unacknowledged_s: Time for which the peer has acknowledged nothing of what was written.
+        reason: Why it is down.
+    """
+
+    is_up: bool
+    unacknowledged_s: float = 0.0
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Setpoint:
+    """A motion requested of a robot.
+
+    Attributes:
+        motion: The motion.
+        tick: The step of the loop that it comes from.
+        received_s: When it arrived.
+        lifetime_s: Time for which it is valid; the plan of the fleet limits it.
+    """
+
+    motion: Motion
+    tick: int
+    received_s: float
+    lifetime_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class RobotInputs:
+    """What is known of one robot.
+
+    Attributes:
+        links: Its links, by port. A port that is missing here is down.
+        samples: Its newest samples, by port.
+        setpoint: The newest setpoint of the loop.
+        manual: The newest setpoint of the operator.
+    """
+
+    links: Mapping[str, Link]
+    samples: Mapping[str, Sample]
+    setpoint: Setpoint | None
+    manual: Setpoint | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LoopInputs:
+    """What is known of the loop.
+
+    Attributes:
+        is_alive: Whether its process runs.
+        last_message_s: When its newest message arrived; None if none has.
+        lateness_s: Time by which its newest step was late.
+        recording_error: Why the recording could not be written; empty if it could.
+    """
+
+    is_alive: bool
+    last_message_s: float | None
+    lateness_s: float = 0.0
+    recording_error: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """Everything that is known in one turn of the warden.
+
+    Attributes:
+        robots: Its robots, by name.
+        loop: The loop.
+        gap_s: Time between the last two turns of the warden's event loop.
+    """
+
+    robots: Mapping[str, RobotInputs]
+    loop: LoopInputs
+    gap_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Requests:
+    """What operators requested since the last turn.
+
+    Attributes:
+        stop: Emergency stop of all robots. It wins over all other requests.
+        release: Release of the emergency stop. The robots stand until they are armed.
+        arm: Names of the robots to arm. A robot that cannot be armed now is not armed later.
+        mode: The modes to switch to, by name. A switch stops the robot until it is armed.
+    """
+
+    stop: bool = False
+    release: bool = False
+    arm: frozenset[str] = frozenset()
+    mode: Mapping[str, Mode] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What one robot does, and why. Faults are listed gravest first.
+
+    Attributes:
+        action: What it does.
+        motion: The motion to command: `STOP` unless the action is `MOVE`.
+        faults: The faults that stop it now, and those that have cleared within the last second.
+        latched: Why it has to be armed; empty if it is armed.
+        is_armed: Whether it moves when it has no fault.
+        blockers: Why it cannot be armed now.
+        warnings: The faults that do not stop it in its mode.
+        is_confirmed: Whether its inputs confirm its standstill.
+        mode: Its mode.
+    """
+
+    action: Action
+    motion: Motion
+    faults: tuple[Fault, ...]
+    latched: tuple[Fault, ...]
+    is_armed: bool
+    blockers: tuple[Fault, ...]
+    warnings: tuple[Fault, ...]
+    is_confirmed: bool
+    mode: Mode = Mode.AUTO
+
+
+@dataclass(frozen=True, slots=True)
+class Outputs:
+    """The decisions for all robots, by name."""
+
+    robots: Mapping[str, Decision]

@@ -1,0 +1,346 @@
+"""Decides what each robot does: a pure function of the time, what is known and what is requested.
+
+One update collects the faults of a robot, applies the requests of operators, and lets the gravest
+action win. What the faults are and do is in `faults`; how inputs are judged is in `monitors`.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from agent_economy.live.plan import FleetPlan, RobotPlan
+from agent_economy.live.readings import STOP, Motion, Quantity
+from agent_economy.live.rules import causes
+from agent_economy.live.rules.faults import (
+    CLEAR_S,
+    EMERGENCY_STOP,
+    LONG_STOP,
+    LONG_STOP_S,
+    MAX_GAP_S,
+    MODE_CHANGED,
+    MOVES_WHILE_STOPPED,
+    NOT_ARMED,
+    OUTSIDE_FENCE,
+    TURN_GAP_S,
+    Fault,
+    InManual,
+    gravest_first,
+)
+from agent_economy.live.rules.interface import (
+    Action,
+    Decision,
+    Inputs,
+    Mode,
+    Outputs,
+    Requests,
+    RobotInputs,
+)
+from agent_economy.live.rules.monitors import NOTHING, Commanded, Conditions, InputMemory, judge
+
+_UNKNOWN = RobotInputs({}, {}, None)
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A fault that is active, and since when its cause has ended; None while it lasts."""
+
+    fault: Fault
+    ended_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RobotMemory:
+    """What is remembered of one robot.
+
+    Attributes:
+        mode: Its mode.
+        latched: Why it has to be armed.
+        held: Its active faults, by name.
+        inputs: Its inputs, by port.
+        motion: The motion commanded last.
+        commanded: The motion commanded since the start.
+        action: Its last action.
+        stopped_since_s: Since when stop has been commanded; None while it moves.
+        blocked_since_s: Since when its faults stop it; None while it may move.
+        turning_since_s: Since when it turns to a heading by itself; None if it does not.
+        turned_s: When it did so last.
+    """
+
+    mode: Mode = Mode.AUTO
+    latched: tuple[Fault, ...] = (NOT_ARMED.because("not armed since the start"),)
+    held: Mapping[str, Held] = field(default_factory=dict)
+    inputs: Mapping[str, InputMemory] = field(default_factory=dict)
+    motion: Motion = STOP
+    commanded: Commanded = NOTHING
+    action: Action = Action.LATCHED_STOP
+    stopped_since_s: float | None = None
+    blocked_since_s: float | None = None
+    turning_since_s: float | None = None
+    turned_s: float = -math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """What is remembered of a fleet: pass it to the next update."""
+
+    time_s: float | None
+    robots: Mapping[str, RobotMemory]
+
+
+@dataclass(frozen=True, slots=True)
+class _Turn:
+    """What is the same for all robots in one update."""
+
+    plan: FleetPlan
+    time_s: float
+    elapsed_s: float
+    requests: Requests
+    faults: tuple[Fault, ...]
+
+
+def initial(plan: FleetPlan) -> Memory:
+    """Return the memory before the first update: no robot is armed."""
+    return Memory(None, {robot.name: RobotMemory() for robot in plan.robots})
+
+
+def update(
+    memory: Memory, plan: FleetPlan, time_s: float, inputs: Inputs, requests: Requests
+) -> tuple[Memory, Outputs]:
+    """Return what each robot of a fleet does now, and the memory for the next update.
+
+    It raises nothing, whatever the inputs are; what makes no sense stops the robots.
+    """
+    turn = _turn(memory, plan, time_s, inputs, requests)
+    decided = {}
+    for robot in plan.robots:
+        before = memory.robots.get(robot.name, RobotMemory())
+        if memory.time_s is not None and turn.time_s < memory.time_s:
+            before = _rewound(before, turn.time_s)
+        known = inputs.robots.get(robot.name, _UNKNOWN)
+        decided[robot.name] = _decide(before, robot, known, turn)
+    after = Memory(turn.time_s, {name: each for name, (each, _) in decided.items()})
+    return after, Outputs({name: decision for name, (_, decision) in decided.items()})
+
+
+def _turn(
+    memory: Memory, plan: FleetPlan, time_s: float, inputs: Inputs, requests: Requests
+) -> _Turn:
+    before_s = memory.time_s
+    elapsed_s = 0.0 if before_s is None else time_s - before_s
+    faults = (*causes.gap(elapsed_s, inputs.gap_s), *causes.loop(plan, time_s, inputs.loop))
+    if not math.isfinite(time_s):
+        time_s = before_s or 0.0
+    elapsed_s = min(max(elapsed_s, 0.0), MAX_GAP_S) if math.isfinite(elapsed_s) else 0.0
+    return _Turn(plan, time_s, elapsed_s, requests, faults)
+
+
+def _rewound(memory: RobotMemory, time_s: float) -> RobotMemory:
+    """Return the memory without times, after the clock went backwards."""
+    held = {name: Held(each.fault, time_s) for name, each in memory.held.items()}
+    return RobotMemory(memory.mode, memory.latched, held)
+
+
+# The rules of one robot.
+
+
+def _decide(
+    memory: RobotMemory, plan: RobotPlan, inputs: RobotInputs, turn: _Turn
+) -> tuple[RobotMemory, Decision]:
+    memory, requested = _after_requests(memory, plan.name, turn.requests)
+    memory, judged = _judge_inputs(memory, plan, inputs, turn)
+    setpoint = inputs.manual if memory.mode is Mode.MANUAL else inputs.setpoint
+    now = gravest_first(
+        (
+            *requested,
+            *judged,
+            *turn.faults,
+            *causes.links(plan, inputs.links),
+            *causes.fence(plan, _values(memory, plan, Quantity.POSITION)),
+            *causes.battery(plan, _values(memory, plan, Quantity.BATTERY)),
+            *causes.setpoint(setpoint, turn.plan.setpoint_lifetime_s, turn.time_s),
+            *causes.turning(plan, memory.turning_since_s, turn.time_s),
+        )
+    )
+    is_arming = plan.name in turn.requests.arm
+    memory, faults, warnings = _after_faults(memory, now, turn, is_arming=is_arming)
+    action = _action(memory, faults)
+    motion = STOP
+    if action is Action.MOVE and setpoint is not None:
+        motion = _limited(setpoint.motion, plan, is_slow=_is_slow(warnings))
+    memory = _after_motion(memory, action, motion, turn.time_s)
+    decision = Decision(
+        action=action,
+        motion=motion,
+        faults=faults,
+        latched=memory.latched,
+        is_armed=not memory.latched,
+        blockers=faults,
+        warnings=warnings,
+        is_confirmed=_is_confirmed(memory, plan, turn.time_s),
+        mode=memory.mode,
+    )
+    return memory, decision
+
+
+def _after_requests(
+    memory: RobotMemory, name: str, requests: Requests
+) -> tuple[RobotMemory, tuple[Fault, ...]]:
+    """Return the memory after stop, release and a switch of modes, and the faults they are.
+
+    Arming comes after the faults. Because a fault stays active for `CLEAR_S`, a robot cannot be
+    armed together with a release or a switch.
+    """
+    latched, requested = memory.latched, []
+    if requests.stop:
+        latched = _with(latched, EMERGENCY_STOP.because("emergency stop"))
+    elif requests.release and EMERGENCY_STOP in latched:
+        rest = tuple(each for each in latched if each != EMERGENCY_STOP)
+        latched = _with(rest, NOT_ARMED.because("the emergency stop was released"))
+    if EMERGENCY_STOP in latched:
+        requested.append(EMERGENCY_STOP.because("emergency stop: not released"))
+    mode = requests.mode.get(name, memory.mode)
+    if mode != memory.mode and mode in tuple(Mode):
+        requested.append(MODE_CHANGED.because(f"switched to {Mode(mode)} mode"))
+        memory = replace(memory, mode=Mode(mode))
+    if latched is not memory.latched:
+        memory = replace(memory, latched=latched)
+    return memory, tuple(requested)
+
+
+def _after_faults(
+    memory: RobotMemory, now: tuple[Fault, ...], turn: _Turn, *, is_arming: bool
+) -> tuple[RobotMemory, tuple[Fault, ...], tuple[Fault, ...]]:
+    """Return the memory with what is latched, the faults that stop the robot, and the others."""
+    if memory.held or now:
+        memory = replace(memory, held=_hold(memory.held, now, turn.time_s))
+    active = gravest_first(each.fault for each in memory.held.values())
+    faults = tuple(each for each in active if _stops(each, memory.mode))
+    warnings = tuple(each for each in active if not _stops(each, memory.mode))
+    latched = memory.latched
+    for fault in now:
+        if fault.latches and _stops(fault, memory.mode):
+            latched = _with(latched, fault)
+    if is_arming and not faults:
+        latched = ()
+    since_s = memory.blocked_since_s
+    is_long = since_s is not None and turn.time_s - since_s > LONG_STOP_S
+    if is_long and faults and not latched:
+        reason = "stopped for more than 5 s: " + ", ".join(each.name for each in faults)
+        latched = (LONG_STOP.because(reason),)
+    if latched is not memory.latched:
+        memory = replace(memory, latched=latched)
+    return memory, faults, warnings
+
+
+def _action(memory: RobotMemory, faults: tuple[Fault, ...]) -> Action:
+    return max(
+        Action.LATCHED_STOP if memory.latched else Action.MOVE,
+        Action.STOP if faults else Action.MOVE,
+    )
+
+
+def _after_motion(
+    memory: RobotMemory, action: Action, motion: Motion, time_s: float
+) -> RobotMemory:
+    turned_s = memory.turned_s if motion.heading_rad is None else time_s
+    is_turning = time_s - turned_s < TURN_GAP_S
+    return replace(
+        memory,
+        action=action,
+        motion=motion,
+        stopped_since_s=_since(memory.stopped_since_s, time_s, is_true=motion.is_stop),
+        blocked_since_s=_since(memory.blocked_since_s, time_s, is_true=action is not Action.MOVE),
+        turning_since_s=_since(memory.turning_since_s, time_s, is_true=is_turning),
+        turned_s=turned_s,
+    )
+
+
+def _since(before_s: float | None, time_s: float, *, is_true: bool) -> float | None:
+    if not is_true:
+        return None
+    return time_s if before_s is None else before_s
+
+
+def _hold(before: Mapping[str, Held], now: Iterable[Fault], time_s: float) -> Mapping[str, Held]:
+    held = {}
+    for name, each in before.items():
+        ended_s = time_s if each.ended_s is None else each.ended_s
+        if time_s - ended_s < CLEAR_S:
+            held[name] = Held(each.fault, ended_s)
+    return held | {fault.name: Held(fault) for fault in now}
+
+
+def _stops(fault: Fault, mode: Mode) -> bool:
+    return mode is Mode.AUTO or fault.in_manual is InManual.STOP
+
+
+def _is_slow(warnings: Iterable[Fault]) -> bool:
+    return any(each.in_manual is InManual.SLOW for each in warnings)
+
+
+def _with(latched: tuple[Fault, ...], fault: Fault) -> tuple[Fault, ...]:
+    """Return the latched faults with one more. The first reason of a fault remains."""
+    return latched if fault in latched else gravest_first((*latched, fault))
+
+
+def _limited(motion: Motion, plan: RobotPlan, *, is_slow: bool) -> Motion:
+    max_m_s = min(plan.max_speed_m_s, plan.manual_speed_m_s) if is_slow else plan.max_speed_m_s
+    return Motion(
+        _clamped(motion.speed_m_s, max_m_s),
+        _clamped(motion.turn_rate_rad_s, plan.max_turn_rate_rad_s),
+        motion.heading_rad,
+    )
+
+
+def _clamped(value: float, limit: float) -> float:
+    return max(-limit, min(limit, value))
+
+
+# The inputs of one robot.
+
+
+def _judge_inputs(
+    memory: RobotMemory, plan: RobotPlan, inputs: RobotInputs, turn: _Turn
+) -> tuple[RobotMemory, tuple[Fault, ...]]:
+    commanded = memory.commanded
+    if not memory.motion.is_stop:
+        commanded = commanded.after(memory.motion, turn.elapsed_s)
+    now = Conditions(
+        robot=plan,
+        time_s=turn.time_s,
+        commanded=commanded,
+        is_held=memory.action is not Action.MOVE,
+        stopped_since_s=memory.stopped_since_s,
+    )
+    judged = {
+        each.port: judge(
+            memory.inputs.get(each.port, InputMemory()), inputs.samples.get(each.port), each, now
+        )
+        for each in plan.inputs
+    }
+    moved = [port for port, each in judged.items() if each.has_moved]
+    faults = [fault for each in judged.values() for fault in each.faults]
+    if moved:
+        faults.append(MOVES_WHILE_STOPPED.because(f"{', '.join(moved)}: changed after stop"))
+    memories = {port: each.memory for port, each in judged.items()}
+    return replace(memory, inputs=memories, commanded=commanded), tuple(faults)
+
+
+def _is_confirmed(memory: RobotMemory, plan: RobotPlan, time_s: float) -> bool:
+    ports = [each.port for each in plan.inputs if each.quantity is not Quantity.BATTERY]
+    is_known = not any(
+        each.fault.in_manual is InManual.SLOW and each.fault != OUTSIDE_FENCE
+        for each in memory.held.values()
+    )
+    is_still = bool(ports) and all(memory.inputs[port].is_still(time_s) for port in ports)
+    return memory.motion.is_stop and is_known and is_still
+
+
+def _values(
+    memory: RobotMemory, plan: RobotPlan, quantity: Quantity
+) -> Iterator[tuple[float, ...]]:
+    """Yield the newest possible values of the inputs of a quantity."""
+    for each in plan.inputs:
+        sample = memory.inputs[each.port].possible
+        if each.quantity is quantity and sample is not None:
+            yield tuple(value for value in sample.values if value is not None)

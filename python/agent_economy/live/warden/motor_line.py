@@ -1,0 +1,66 @@
+"""Decides which motor lines are due. Nothing here reads a clock."""
+
+from dataclasses import dataclass
+
+from agent_economy.live.drivers.driver import Driver, PortLine, Settings
+from agent_economy.live.plan import Origin
+from agent_economy.live.readings import Motion
+from agent_economy.live.warden.geometry import magnetic_bearing_deg
+
+
+@dataclass
+class MotorLines:
+    """The lines of one robot: each motion when it changes, then repeated.
+
+    A turn of the robot's own coprocessor is requested once: a repeated line would restart it, and
+    a motor line would cancel it.
+    """
+
+    driver: Driver
+    settings: Settings
+    origin: Origin
+    repeat_s: float
+    _written: tuple[PortLine, ...] = ()
+    _at_s: float = float("-inf")
+
+    def due(self, motion: Motion, now_s: float, *, is_empty: bool) -> tuple[PortLine, ...]:
+        """Return the lines to write now.
+
+        Args:
+            motion: What the robot is allowed to do.
+            now_s: The time.
+            is_empty: Whether all lines before have been acknowledged. Until then only a stop is
+                written, and once: the last line that the robot reads is then a stop.
+        """
+        lines = self._lines(motion)
+        is_same = lines == self._written
+        is_turn = motion.heading_rad is not None and len(lines) > 0 and self._is_turn(lines)
+        if is_same and (is_turn or now_s - self._at_s < self.repeat_s or not is_empty):
+            return ()
+        if not is_empty and not motion.is_stop:
+            return ()
+        self._written, self._at_s = lines, now_s
+        return lines
+
+    def connected(self) -> None:
+        """Forget what was written: the motor port has been connected again."""
+        self._written, self._at_s = (), float("-inf")
+
+    def _lines(self, motion: Motion) -> tuple[PortLine, ...]:
+        if motion.is_stop:
+            return self.driver.stop(self.settings)
+        if motion.heading_rad is not None:
+            lines = self._turn(motion.heading_rad)
+            if lines:
+                return lines
+        return self.driver.move(motion, self.settings)
+
+    def _turn(self, heading_rad: float) -> tuple[PortLine, ...]:
+        # One turn lasts until its end: the bearing of a waypoint changes a little meanwhile.
+        if self._is_turn(self._written):
+            return self._written
+        bearing_deg = magnetic_bearing_deg(self.origin, heading_rad)
+        return self.driver.turn_to(bearing_deg, self.settings)
+
+    def _is_turn(self, lines: tuple[PortLine, ...]) -> bool:
+        return any(line.port != self.driver.motor_port for line in lines)

@@ -1,0 +1,90 @@
+"""Keeps one port of a robot connected."""
+
+import asyncio
+import os
+from collections.abc import Callable
+from contextlib import suppress
+
+from agent_economy.live.clock import now_s
+from agent_economy.live.warden.connection import Connection, Received
+from agent_economy.live.warden.name_lookup import NameLookup
+
+CONNECT_TIMEOUT_S = 5.0
+FIRST_PAUSE_S, MAX_PAUSE_S = 0.05, 5.0
+"""Pauses before connecting again. A robot without its motor port drives on until it is stopped."""
+
+STABLE_S = 1.0
+"""After a connection that lasted for this time, the next pause is the first again."""
+
+Address = tuple[str, int]
+
+
+class PortLink:
+    """Connects to an address, and again with growing pauses when the connection is lost.
+
+    Attributes:
+        connection: The current connection; it may be down.
+    """
+
+    def __init__(
+        self,
+        address: Address,
+        lookup: NameLookup,
+        received: Received,
+        connected: Callable[[], None],
+    ) -> None:
+        """Wait for `run`. `received` is called with each line, `connected` after each connect."""
+        self._address, self._lookup = address, lookup
+        self._received, self._connected = received, connected
+        self.connection = Connection(received)
+
+    async def run(self) -> None:
+        """Keep the port connected, until cancelled."""
+        pause_s = FIRST_PAUSE_S
+        while True:
+            began_s = now_s()
+            is_connected = await self._connect()
+            if is_connected:
+                await self.connection.closed.wait()
+            # A robot that accepts and closes at once is not tried more often than one that refuses.
+            pause_s = FIRST_PAUSE_S if is_connected and now_s() - began_s > STABLE_S else pause_s
+            await asyncio.sleep(pause_s)
+            pause_s = min(2 * pause_s, MAX_PAUSE_S)
+
+    async def _connect(self) -> bool:
+        host, port = self._address
+        new = Connection(self._received)
+        loop = asyncio.get_running_loop()
+        numeric = None
+        try:
+            async with asyncio.timeout(CONNECT_TIMEOUT_S):
+                numeric = await self._lookup.address()
+                await loop.create_connection(lambda: new, numeric, port)
+        except TimeoutError:
+            what = "no answer from" if numeric else "no answer to the lookup of the name of"
+            self.connection.reason = f"{what} {host}:{port} within {CONNECT_TIMEOUT_S:g} s"
+            self._lookup.forget()
+            return False
+        except OSError as error:
+            self._lookup.forget()
+            self.connection.reason = f"{host}:{port}: {_words(error)}"
+            return False
+        self.connection = new
+        self._connected()
+        return True
+
+    async def end(self) -> None:
+        """Close the connection after what is queued has been sent."""
+        self.connection.close()
+        with suppress(TimeoutError):
+            async with asyncio.timeout(0.5):
+                if self.connection.is_up:
+                    await self.connection.closed.wait()
+        self.connection.abort()
+
+
+def _words(error: OSError) -> str:
+    # asyncio replaces the words of the system; those of name lookups have negative numbers.
+    if error.errno is not None and error.errno > 0:
+        return os.strerror(error.errno)
+    return error.strerror or str(error)

@@ -1,0 +1,134 @@
+"""Starts the warden: signals, locks, the endpoint, and the end of the process."""
+
+import asyncio
+import os
+import signal
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from agent_economy.live.drivers import DRIVERS
+from agent_economy.live.locks import AddressLocks, LockedError
+from agent_economy.live.plan import FleetPlan
+from agent_economy.live.running_drives import RunningDrive, registered
+from agent_economy.live.warden.endings import End
+from agent_economy.live.warden.endpoint import Endpoint
+from agent_economy.live.warden.warden import Report, Warden
+
+RESOLVE_S = 2.0
+"""Time for which the lookup of a host name may delay the start."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """What a drive is started with.
+
+    Attributes:
+        fleet: The fleet file.
+        record: The recording.
+        seed: Seed of the simulated robots and sensors.
+        is_headless: Whether it arms its robots itself, and ends by itself.
+    """
+
+    fleet: Path
+    record: Path
+    seed: int
+    is_headless: bool
+
+
+def drive_fleet(options: Options, report: Report) -> End:
+    """Drive a fleet until the drive ends, with all robots stopped."""
+    return asyncio.run(_drive(options, report))
+
+
+async def _drive(options: Options, report: Report) -> End:
+    warden = Warden(report, is_headless=options.is_headless)
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        loop.add_signal_handler(number, warden.interrupt)
+    # A suspended warden cannot stop a robot: Ctrl-Z is an emergency stop instead.
+    loop.add_signal_handler(signal.SIGTSTP, _stopper(warden, report))
+    arguments = (str(options.fleet), "--record", str(options.record), "--seed", str(options.seed))
+    plan = await warden.load(arguments)
+    if plan is None:
+        return warden.end_of_load
+    for text in plan.warnings:
+        report({"type": "message", "message": f"warning: {text}"})
+    # A slow lookup of one robot's name must not hold up those of others: a thread for each.
+    loop.set_default_executor(ThreadPoolExecutor(max_workers=2 * len(plan.robots)))
+    endpoint = Endpoint(_actions(warden, plan))
+    with ExitStack() as stack:
+        locks = AddressLocks()
+        stack.callback(locks.close)
+        try:
+            locks.take(await addresses(plan))
+        except (LockedError, OSError) as error:
+            report({"type": "message", "message": str(error)})
+            await warden.close()
+            return End.INVALID
+        await endpoint.start()
+        stack.callback(endpoint.close)
+        host, port = endpoint.address
+        drive = RunningDrive(os.getpid(), str(options.fleet), host, port, endpoint.token)
+        stack.enter_context(registered(drive))
+        end = await warden.drive(plan)
+    report(
+        {
+            "type": "end",
+            "reason": end.reason,
+            "exit_code": end.exit_code,
+            "unconfirmed": warden.unconfirmed(),
+            "late_steps": warden.late_steps,
+            "behind_s": warden.behind_s,
+        }
+    )
+    return end
+
+
+async def addresses(plan: FleetPlan) -> list[tuple[str, int]]:
+    """Return the address of each motor port, with a numeric host if it can be resolved soon."""
+    hosts = await asyncio.gather(*(numeric(robot.host) for robot in plan.robots))
+    ports = [robot.ports[DRIVERS[robot.driver].motor_port] for robot in plan.robots]
+    return list(zip(hosts, ports, strict=True))
+
+
+async def numeric(host: str) -> str:
+    """Return the address of a host name, or the name if it is not known within some seconds."""
+    try:
+        async with asyncio.timeout(RESOLVE_S):
+            found = await asyncio.get_running_loop().getaddrinfo(host, None)
+    except (OSError, TimeoutError):
+        return host
+    return str(found[0][4][0])
+
+
+def _stopper(warden: Warden, report: Report) -> Callable[[], None]:
+    def stop() -> None:
+        warden.operator.stop = True
+        report({"type": "message", "message": "Emergency stop (Ctrl-Z); Ctrl-C ends the drive."})
+
+    return stop
+
+
+def _actions(warden: Warden, plan: FleetPlan) -> dict[str, Callable[[dict[str, Any]], str]]:
+    names = [robot.name for robot in plan.robots]
+
+    def stop(_: Mapping[str, Any]) -> str:
+        warden.operator.stop = True
+        return "emergency stop of all robots"
+
+    def release(_: Mapping[str, Any]) -> str:
+        warden.operator.release = True
+        return "released: the robots stand until they are armed"
+
+    def arm(body: Mapping[str, Any]) -> str:
+        robots = body.get("robots", names)
+        if not isinstance(robots, list) or not set(robots) <= set(names):
+            message = f"robots must be a list of {', '.join(names)}"
+            raise ValueError(message)
+        return warden.arm(robots)
+
+    return {"/stop": stop, "/arm": arm, "/release": release}

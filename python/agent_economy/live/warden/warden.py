@@ -1,0 +1,271 @@
+"""The warden's event loop: drains, applies the rules, writes; 50 times per second."""
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from agent_economy.live import rules
+from agent_economy.live.channel import BEAT_S
+from agent_economy.live.clock import now_s
+from agent_economy.live.plan import FleetPlan, plan_of
+from agent_economy.live.readings import Motion
+from agent_economy.live.rules import Action, Decision, Inputs, LoopInputs, Requests, Setpoint
+from agent_economy.live.warden.endings import End
+from agent_economy.live.warden.loop_process import LoopProcess
+from agent_economy.live.warden.mission import Mission
+from agent_economy.live.warden.robot import Robot
+
+TURN_S = 0.02
+"""Time between two turns."""
+
+LATE_S = 0.2
+"""After a longer gap between two turns, lines that are read first may be as old as the gap."""
+
+CONFIRM_S = 8.0
+"""Time for which the end of a drive waits until all robots have a confirmed standstill."""
+
+Report = Callable[[Mapping[str, Any]], None]
+"""Takes an event: a change of a robot's state, a verdict, or a message."""
+
+
+@dataclass
+class Operator:
+    """What has been requested since the last turn."""
+
+    stop: bool = False
+    release: bool = False
+    arm: set[str] = field(default_factory=set)
+
+    def take(self) -> Requests:
+        """Return the requests, and forget them."""
+        taken = Requests(stop=self.stop, release=self.release, arm=frozenset(self.arm))
+        self.stop = self.release = False
+        self.arm = set()
+        return taken
+
+
+class Warden:
+    """Drives one fleet, from the start of the loop to the end of the drive.
+
+    Attributes:
+        operator: Takes requests.
+        plan: The fleet; None until the loop has read it.
+        late_steps: Number of steps of the loop that were late by more than a step.
+        behind_s: Time by which the run is behind the clock because of them.
+    """
+
+    plan: FleetPlan | None
+
+    def __init__(self, report: Report, *, is_headless: bool) -> None:
+        """Create it without starting anything."""
+        self.operator, self.plan = Operator(), None
+        self._report, self._is_headless = report, is_headless
+        self._loop = LoopProcess(self._message)
+        self._robots: dict[str, Robot] = {}
+        self._decisions: Mapping[str, Decision] = {}
+        self._peers: dict[str, tuple[str, int]] = {}
+        self._verdicts: dict[str, dict[str, str]] = {}
+        self._loop_inputs = LoopInputs(is_alive=True, last_message_s=None)
+        self.late_steps, self.behind_s = 0, 0.0
+        self._planned: asyncio.Future[FleetPlan | None] | None = None
+        self._end: End | None = None
+        self._is_impatient = False
+        self._turned_s = now_s()
+        self._beaten_s = 0.0
+
+    async def load(self, arguments: Sequence[str]) -> FleetPlan | None:
+        """Start the loop, and return the fleet that it reads; None if that is not valid."""
+        self._planned = asyncio.get_running_loop().create_future()
+        self._loop.start(arguments)
+        self.plan = await self._planned
+        if self.plan is None:
+            await self._loop.end()
+        return self.plan
+
+    async def drive(self, plan: FleetPlan) -> End:
+        """Drive the robots until the drive ends; then stop them, and close everything."""
+        for each in plan.robots:
+            self._robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line)
+        async with asyncio.TaskGroup() as tasks:
+            connecting = tasks.create_task(self._connect())
+            end = await self._turns(plan)
+            await asyncio.gather(*(robot.end() for robot in self._robots.values()))
+            connecting.cancel()
+        await self._loop.end()
+        return end
+
+    def unconfirmed(self) -> list[str]:
+        """Return the robots whose standstill the inputs do not confirm."""
+        return [name for name, each in self._decisions.items() if not each.is_confirmed]
+
+    @property
+    def end_of_load(self) -> End:
+        """How the drive ends if there is no fleet to drive."""
+        return self._end or End.INVALID
+
+    def arm(self, robots: Sequence[str]) -> str:
+        """Arm robots in the next turn; return an answer in words.
+
+        Raises:
+            ValueError: If one cannot be armed; then none is.
+        """
+        blocked = {
+            name: ", ".join(fault.reason for fault in self._decisions[name].blockers)
+            for name in robots
+            if name not in self._decisions or self._decisions[name].blockers
+        }
+        if blocked:
+            message = "; ".join(f"{name} cannot be armed: {why}" for name, why in blocked.items())
+            raise ValueError(message)
+        self.operator.arm |= set(robots)
+        return f"armed: {', '.join(robots)}"
+
+    async def close(self) -> None:
+        """End the loop of a drive that has not begun."""
+        await self._loop.end()
+
+    def interrupt(self) -> None:
+        """Stop all robots and end the drive. A second time: without waiting for confirmation."""
+        self._is_impatient = self._end is End.INTERRUPTED
+        self._end = End.INTERRUPTED
+        if self._planned is not None and not self._planned.done():
+            self._planned.set_result(None)
+
+    async def _connect(self) -> None:
+        async with asyncio.TaskGroup() as tasks:
+            for robot in self._robots.values():
+                robot.start(tasks)
+
+    async def _turns(self, plan: FleetPlan) -> End:
+        memory = rules.initial(plan)
+        mission = Mission(tuple(self._robots), now_s())
+        ending_since_s = None
+        self._turned_s = now_s()
+        while True:
+            now = now_s()
+            memory = self._turn(memory, plan, now)
+            if self._is_headless and self._end is None:
+                self.operator.arm |= mission.to_arm(self._decisions)
+                self._end = mission.end(self._decisions, self._verdicts, now)
+            if self._end is not None:
+                self.operator.stop = True
+                ending_since_s = ending_since_s or now
+                if self._is_over(now - ending_since_s):
+                    return self._end
+            await asyncio.sleep(max(0.0, now + TURN_S - now_s()))
+
+    def _turn(self, memory: rules.Memory, plan: FleetPlan, now: float) -> rules.Memory:
+        inputs = Inputs(
+            robots={name: robot.inputs(now) for name, robot in self._robots.items()},
+            loop=self._loop_state(),
+            gap_s=now - self._turned_s,
+        )
+        self._turned_s = now
+        memory, outputs = rules.update(memory, plan, now, inputs, self.operator.take())
+        for name, decision in outputs.robots.items():
+            self._robots[name].command(decision.motion, now)
+            self._report_peer(name)
+            self._report_changes(name, decision, now)
+        self._decisions = outputs.robots
+        if now - self._beaten_s >= BEAT_S:
+            self._loop.send({"type": "beat", "t": now})
+            self._beaten_s = now
+        return memory
+
+    def _is_over(self, ending_s: float) -> bool:
+        decisions = self._decisions.values()
+        if any(decision.action is Action.MOVE for decision in decisions):
+            return False
+        is_confirmed = all(decision.is_confirmed for decision in decisions)
+        is_quiet = all(robot.is_quiet() for robot in self._robots.values())
+        is_waiting = not is_confirmed and not self._is_impatient
+        return (not is_waiting and is_quiet) or ending_s > CONFIRM_S
+
+    def _loop_state(self) -> LoopInputs:
+        is_alive = not self._loop.has_ended and self._loop.returncode is None
+        return LoopInputs(
+            is_alive=is_alive,
+            last_message_s=self._loop_inputs.last_message_s,
+            lateness_s=self._loop_inputs.lateness_s,
+            recording_error=self._loop_inputs.recording_error,
+        )
+
+    def _stamp_s(self) -> float:
+        """Return the time of a line read now: after a gap, the time from which on it can be."""
+        now = now_s()
+        return self._turned_s if now - self._turned_s > LATE_S else now
+
+    def _line(self, robot: str, port: str, line: bytes, at_s: float, written: bool) -> None:  # noqa: FBT001
+        kind = "written" if written else "line"
+        text = line.decode("latin-1")
+        self._loop.send({"type": kind, "robot": robot, "port": port, "t": at_s, "line": text})
+
+    def _message(self, message: Mapping[str, Any]) -> None:
+        now = now_s()
+        lateness_s = message.get("lateness_s", self._loop_inputs.lateness_s)
+        error = self._loop_inputs.recording_error
+        match message["type"]:
+            case "plan":
+                self._set_plan(plan_of(message["plan"]))
+                self._report(message)
+            case "invalid":
+                self._report(message)
+                self._set_plan(None)
+            case "beat":
+                self.late_steps, self.behind_s = message["late_steps"], message["behind_s"]
+            case "setpoint":
+                self._setpoint(message, now)
+            case "goal":
+                self._verdicts.setdefault(message["robot"], {})[message["goal"]] = message[
+                    "verdict"
+                ]
+                self._report(message)
+            case "recording_error":
+                error = message["message"]
+                self._report(message)
+        self._loop_inputs = LoopInputs(True, now, lateness_s, error)  # noqa: FBT003
+
+    def _set_plan(self, plan: FleetPlan | None) -> None:
+        if self._planned is not None and not self._planned.done():
+            self._planned.set_result(plan)
+
+    def _setpoint(self, message: Mapping[str, Any], now: float) -> None:
+        robot = self._robots.get(message["robot"])
+        if robot is not None and self.plan is not None:
+            motion = Motion(*message["motion"])
+            lifetime_s = self.plan.setpoint_lifetime_s
+            robot.setpoint = Setpoint(motion, message["tick"], now, lifetime_s)
+
+    def _report_peer(self, name: str) -> None:
+        """Let the loop know the address of a motor port: if the warden dies, it has to stop it."""
+        peer = self._robots[name].peer()
+        if peer is not None and self._peers.get(name) != peer:
+            self._peers[name] = peer
+            self._loop.send({"type": "peer", "robot": name, "address": peer})
+
+    def _report_changes(self, name: str, decision: Decision, now: float) -> None:
+        before = self._decisions.get(name)
+        if before is not None and _shown(before) == _shown(decision):
+            return
+        event = {"type": "event", "t": now, "robot": name, **_shown(decision)}
+        event["reasons"] = {
+            fault.name: fault.reason
+            for fault in (*decision.latched, *decision.warnings, *decision.faults)
+        }
+        self._loop.send(event)
+        if self._end is None:  # afterwards all robots are stopped, whatever they did before
+            self._report(event)
+
+
+def _shown(decision: Decision) -> dict[str, Any]:
+    """Return what changes of a decision are reported."""
+    return {
+        "action": Action(decision.action).name.lower(),
+        "is_armed": decision.is_armed,
+        "is_confirmed": decision.is_confirmed,
+        **{
+            key: [fault.name for fault in getattr(decision, key)]
+            for key in ("faults", "latched", "blockers", "warnings")
+        },
+    }

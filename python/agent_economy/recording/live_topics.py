@@ -1,0 +1,72 @@
+"""The topics that a drive adds to the recording of its run."""
+
+from agent_economy.recording.schemas import INTEGER, NUMBER, STRING, of_object
+
+LIVE = "agent_economy.live"
+"""Name of the metadata of a drive: its plan, the ordered waypoints and its start time."""
+
+WIRE = "/wire/"
+"""Prefix of the topics of lines: followed by the robot and the port."""
+
+EVENTS, TICKS, SETPOINTS = "/live/events", "/live/ticks", "/live/setpoints"
+
+_TIME = NUMBER | {"description": "Time since the machine was started."}
+_ROBOT = STRING | {"description": "Name of the robot."}
+_FAULTS = {"type": "array", "items": STRING}
+
+_LINE = of_object(
+    "agent_economy.Line",
+    "A line that a robot sent (`line`), or that was written to it (`written`).",
+    {
+        "type": {"enum": ["line", "written"]},
+        "robot": _ROBOT,
+        "port": STRING | {"description": "Name of the port."},
+        "t": _TIME,
+        "line": STRING | {"description": "Its bytes, as Latin-1. A written line has its end."},
+    },
+)
+
+_SCHEMAS = {
+    EVENTS: of_object(
+        "agent_economy.RobotEvent",
+        "A change of what the safety rules decide for a robot, with the reasons.",
+        {
+            "type": {"const": "event"},
+            "t": _TIME,
+            "robot": _ROBOT,
+            "action": {"enum": ["move", "stop", "latched_stop"]},
+            "is_armed": {"type": "boolean"},
+            "is_confirmed": {"type": "boolean", "description": "Whether it is known to stand."},
+            "faults": _FAULTS | {"description": "What stops it now, with reasons."},
+            "latched": _FAULTS | {"description": "Why it has to be armed."},
+            "blockers": _FAULTS | {"description": "Why it cannot be armed."},
+            "reasons": {"type": "object", "description": "Each of them with its values."},
+            "warnings": _FAULTS | {"description": "What does not stop it."},
+        },
+    ),
+    TICKS: of_object(
+        "agent_economy.LiveTick",
+        "The start of a step of the brains. The lines before it are what they know.",
+        {
+            "tick": INTEGER | {"description": "Number of steps taken."},
+            "t": _TIME,
+            "lateness_s": NUMBER | {"description": "Time by which it was late."},
+        },
+    ),
+    SETPOINTS: of_object(
+        "agent_economy.Setpoints",
+        "The setpoint of each robot.",
+        {
+            "tick": INTEGER | {"description": "Number of steps taken before it."},
+            "motions": {
+                "type": "object",
+                "description": "Speed (m/s), turn rate (rad/s), heading to turn to (rad or null).",
+            },
+        },
+    ),
+}
+
+
+def live_schema(topic: str) -> str:
+    """Return the JSON Schema of a topic of a drive."""
+    return _LINE if topic.startswith(WIRE) else _SCHEMAS[topic]

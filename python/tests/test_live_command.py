@@ -1,0 +1,109 @@
+"""The commands drive and stop, against an emulated fleet: bad input, refused robots, and Ctrl-C."""
+
+import signal
+import socket
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from command_line import COMMAND
+from live_bench import STOP_LINE, Bench, driving, emulated, fleet_text
+from wire_faults import lanes
+
+from agent_economy.live.clock import now_s
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Bench]:
+    """Emulate two robots."""
+    folder = tmp_path_factory.mktemp("emulator")
+    scenario = lanes(ROOT / "scenarios" / "bender.toml", folder, 2)
+    with emulated(folder, robots=2, arguments=("--scenario", str(scenario))) as bench:
+        yield bench
+
+
+def fleet_of(bench: Bench, folder: Path, **options: Any) -> Path:
+    """Write a fleet file of emulated robots."""
+    path = folder / "fleet.toml"
+    scenario = str(bench.log.parent / "lanes.toml")
+    path.write_text(fleet_text(bench, scenario=scenario, **options), encoding="utf-8")
+    return path
+
+
+def refused_port() -> int:
+    """Return a port on which nothing listens."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        return int(server.getsockname()[1])
+
+
+def test_a_robot_that_refuses_connections_is_named_and_the_other_drives_until_ctrl_c(
+    bench: Bench, tmp_path: Path
+) -> None:
+    fleet = fleet_of(bench, tmp_path)
+    text, port = fleet.read_text(), bench.robots[1]["motors"]
+    fleet.write_text(text.replace(f"motors = {port}", f"motors = {refused_port()}"))
+    with driving(fleet) as drive:
+        drive.wait_until_moving("bender/0")
+        refused = drive.wait_for(
+            lambda each: "refused" in each.get("reasons", {}).get("lost_link", "")
+        )
+        assert refused["robot"] == "bender/1"
+        bench.wait_for_motion(1)
+        stopped_s = now_s()
+        drive.process.send_signal(signal.SIGINT)
+        assert drive.wait() == 130
+    assert bench.stops_after(0, stopped_s)[0] - stopped_s < 2
+    assert not bench.moves_after(0, bench.stops_after(0, stopped_s)[0])
+    assert not bench.moves_after(1, 0.0)
+
+
+def test_a_second_drive_of_a_robot_is_refused(bench: Bench, tmp_path: Path) -> None:
+    fleet = fleet_of(bench, tmp_path, robots=[0])
+    with driving(fleet) as first:
+        first.wait_until_moving("bender/0")
+        with driving(fleet) as second:
+            assert second.wait() == 2
+            text = str(second.events[-1])
+            assert f"127.0.0.1:{bench.robots[0]['motors']}" in text
+            assert "is being driven" in text
+        assert first.process.poll() is None
+        bench.wait_for_motion(1)
+        stopped_s = now_s()
+        first.process.send_signal(signal.SIGTERM)
+        assert first.wait() == 130
+    assert bench.lines(0)[-1]["line"] == STOP_LINE
+    assert bench.stops_after(0, stopped_s)
+    end = first.events[-1]
+    assert (end["type"], end["exit_code"], end["unconfirmed"]) == ("end", 130, [])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["missing.toml", "--headless", "--arm"], "missing.toml"),
+        (["fleet.toml", "--headless"], "--headless needs --arm"),
+        (["fleet.toml", "--arm"], "--arm needs --headless"),
+    ],
+)
+def test_bad_input_ends_a_drive_with_a_message_and_exit_code_2(
+    arguments: list[str], words: str, tmp_path: Path
+) -> None:
+    done = subprocess.run(
+        [*COMMAND, "drive", *arguments], capture_output=True, text=True, cwd=tmp_path, check=False
+    )
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_stop_without_a_drive_is_no_success(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    done = subprocess.run([*COMMAND, "stop"], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.strip() == "No drive runs on this machine."

@@ -1,0 +1,92 @@
+"""Links to robots that are slow to find, unreachable or half open: no robot delays another."""
+
+import asyncio
+import socket
+import time
+from contextlib import suppress
+from typing import Any
+
+import pytest
+
+from agent_economy.live.clock import now_s
+from agent_economy.live.warden import port_link
+from agent_economy.live.warden.name_lookup import NameLookup
+from agent_economy.live.warden.port_link import PortLink
+
+
+def link_to(host: str, port: int, lookup: NameLookup, lines: list[bytes]) -> PortLink:
+    return PortLink((host, port), lookup, lines.append, lambda: None)
+
+
+@pytest.fixture
+def lookups(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Make the lookup of some names slow, and return all that are looked up."""
+    found: list[str] = []
+    ordinary = socket.getaddrinfo
+
+    def slow(host: Any, *arguments: Any, **options: Any) -> Any:
+        found.append(str(host))
+        if host == "slow.invalid":
+            time.sleep(1.0)
+            raise socket.gaierror(socket.EAI_NONAME, "Name or service not known")
+        return ordinary(host, *arguments, **options)
+
+    monkeypatch.setattr(socket, "getaddrinfo", slow)
+    return found
+
+
+def test_a_slow_name_is_looked_up_once_for_all_ports_and_delays_no_other_robot(
+    lookups: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(port_link, "CONNECT_TIMEOUT_S", 0.3)
+
+    async def connect() -> tuple[float, list[PortLink]]:
+        server = await asyncio.start_server(lambda _, writer: writer.write(b"1\n"), "127.0.0.1", 0)
+        port = server.sockets[0].getsockname()[1]
+        slow, lines = NameLookup("slow.invalid"), list[bytes]()
+        links = [link_to("slow.invalid", port, slow, lines) for _ in range(4)]
+        good = link_to("localhost", port, NameLookup("localhost"), lines)
+        began_s = now_s()
+        tasks = [asyncio.create_task(each.run()) for each in (*links, good)]
+        while not lines:
+            await asyncio.sleep(0.01)
+        connected_s = now_s() - began_s
+        await asyncio.sleep(0.8)
+        reasons = [each.connection.reason for each in links]
+        assert all("lookup of the name of slow.invalid" in reason for reason in reasons)
+        await asyncio.sleep(0.6)
+        for task in tasks:
+            task.cancel()
+        server.close()
+        return connected_s, links
+
+    connected_s, links = asyncio.run(connect())
+    assert connected_s < 0.9
+    assert lookups.count("slow.invalid") <= 2
+    assert any("Name or service not known" in each.connection.reason for each in links)
+
+
+def test_a_host_that_refuses_is_tried_again_with_growing_pauses_up_to_a_limit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pauses_s: list[float] = []
+
+    async def refuse(*_: Any) -> None:
+        raise ConnectionRefusedError(111, "Connect call failed ('127.0.0.1', 9)")
+
+    async def pause(duration_s: float) -> None:
+        pauses_s.append(duration_s)
+        if len(pauses_s) == 10:
+            raise asyncio.CancelledError
+
+    async def connect() -> PortLink:
+        monkeypatch.setattr(asyncio.get_running_loop(), "create_connection", refuse)
+        monkeypatch.setattr("agent_economy.live.warden.port_link.asyncio.sleep", pause)
+        link = link_to("127.0.0.1", 9, NameLookup("127.0.0.1"), [])
+        with suppress(asyncio.CancelledError):
+            await link.run()
+        return link
+
+    link = asyncio.run(connect())
+    assert link.connection.reason == "127.0.0.1:9: Connection refused"
+    assert pauses_s == pytest.approx([0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 5.0, 5.0, 5.0])
