@@ -11,13 +11,13 @@ from agent_economy.live.emulator import Emulator
 
 
 def visits(simulation: ae.Simulation) -> int:
-    """Return the number of waypoints that the robot reaches, in order."""
+    """Return the number of waypoints that the robot reaches, in order, as far as it can measure."""
     spec = simulation.scenario.to_dict()["robots"]["bender"]["brain"]["behaviours"][1]
     waypoints, reached = spec["waypoints_m"], 0
     while not simulation.is_over and reached < len(waypoints):
         simulation.step()
         distance_m = math.dist(simulation.poses[0, :2], waypoints[reached])
-        reached += distance_m <= spec["within_m"]
+        reached += distance_m <= spec["within_m"] + 0.6  # three deviations of a fix
     return reached
 
 

@@ -3,6 +3,7 @@
 import signal
 import socket
 import subprocess
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,20 @@ def test_a_robot_that_refuses_connections_is_named_and_the_other_drives_until_ct
     assert bench.stops_after(0, stopped_s)[0] - stopped_s < 2
     assert not bench.moves_after(0, bench.stops_after(0, stopped_s)[0])
     assert not bench.moves_after(1, 0.0)
+
+
+def test_a_drive_whose_warden_is_suspended_ends_with_the_reason(
+    bench: Bench, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with driving(fleet_of(bench, tmp_path)) as drive:
+        drive.wait_until_moving("bender/0")
+        loop = Path(f"/proc/{drive.loop_pid()}/cmdline")
+        drive.process.send_signal(signal.SIGSTOP)
+        assert drive.wait() == -signal.SIGKILL
+        deadline_s = now_s() + 20
+        while loop.exists() and loop.read_bytes() and now_s() < deadline_s:
+            time.sleep(0.1)
+    assert "was silent for more than 0.3 s" in capfd.readouterr().err
 
 
 def test_a_second_drive_of_a_robot_is_refused(bench: Bench, tmp_path: Path) -> None:

@@ -96,6 +96,19 @@ def older_percept(message: dict[str, Any]) -> dict[str, Any]:
     return message
 
 
+def test_a_replay_finds_setpoints_that_are_missing_before_the_end(
+    driven: Driven, tmp_path: Path
+) -> None:
+    records = records_of(driven.drive.record)
+    channel = next(
+        each.id for each in records if isinstance(each, Channel) and each.topic == "/live/setpoints"
+    )
+    ours = [each for each in records if isinstance(each, Message) and each.channel_id == channel]
+    without = [each for each in records if each is not ours[len(ours) // 2]]
+    missing = ae.replay(written(tmp_path / "missing.mcap", without))
+    assert missing.mismatch_tick == json.loads(ours[len(ours) // 2].data)["tick"]
+
+
 @pytest.mark.parametrize(
     ("topic", "change"),
     [

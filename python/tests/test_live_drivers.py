@@ -143,6 +143,7 @@ def test_six_ranges_are_in_metres() -> None:
         (0.3048, 0.6096, 1.0668, 1.2192, 1.524, 0.0)
     )
     assert values("sonar", b"1,2,3,4,5,6", range_unit_m=1) == (1, 2, 3, 4, 5, 6)
+    assert values("sonar", b"1,2,3,4,5,6,", range_unit_m=1) == (1, 2, 3, 4, 5, 6)
 
 
 def test_a_short_line_of_ranges_has_none_for_the_others() -> None:
@@ -178,7 +179,7 @@ MALFORMED = {
         b"36,35.7,N,121,99.5,W",
         b"36;35.7;N;121;52.5;W",
     ],
-    "sonar": [b"", b"1,2,3,4,5,6,7", b"1,,3,4,5,6", b"1,2,3,4,5,six", b",", b"1,2,3,4,5,6,"],
+    "sonar": [b"", b"1,2,3,4,5,6,7", b"1,,3,4,5,6", b"1,2,3,4,5,six", b",", b"1,2,3,4,5,6,,"],
     "motors": [b"x,3,", b"1", b""],
 }
 

@@ -121,6 +121,12 @@ def test_what_is_no_fleet_is_an_error(folder: Path, text: str, start: str) -> No
 # The scenario
 
 
+def test_more_than_1000_waypoints_are_an_error(folder: Path) -> None:
+    load(folder, with_key(f"waypoints_m = {[[10, 10]] * 1000}"))
+    (error,) = errors(folder, with_key(f"waypoints_m = {[[10, 10]] * 1001}"))
+    assert error.endswith("must be a list of 0 to 1000 lists of 2 numbers (metres)"), error
+
+
 @pytest.mark.parametrize(
     ("name", "end"),
     [

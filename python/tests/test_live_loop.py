@@ -1,5 +1,6 @@
 """The loop's parts: percepts of lines, the pace of steps, and the pipe to the warden."""
 
+import json
 import math
 import subprocess
 import sys
@@ -13,7 +14,9 @@ from hypothesis import strategies as st
 from agent_economy.live import fleet
 from agent_economy.live.loop.pacer import Pacer
 from agent_economy.live.loop.percepts import Percepts, frame_of
+from agent_economy.live.loop.team import Team
 from agent_economy.live.plan import FleetPlan
+from agent_economy.runs.simulation import Simulation
 
 START_S = 1000.0
 SONARS = 6
@@ -90,6 +93,24 @@ def test_no_line_breaks_a_percept(lines: list[tuple[str, bytes]]) -> None:
 PLAN = fleet.load("bender").plan
 
 
+def test_a_verdict_that_could_not_be_sent_is_reported_again(plan: FleetPlan) -> None:
+    simulation = Simulation("bender", external=["bender/0"])
+    ordered = {"bender/0": [[30.0, 10.0]]}
+    team = Team(plan, simulation, ordered, seed=0, start_s=START_S)
+    event = {"type": "event", "robot": "bender/0", "is_armed": True, "action": "stop"}
+    team.add(event)
+    team.add({"type": "line", "robot": "bender/0", "port": "compass", "line": "95.5", "t": START_S})
+    simulation.step(percepts=team.percepts(0, START_S))
+    sent = []
+    for goal in team.new_verdicts():
+        if goal["goal"] == "2":
+            break  # the pipe is full
+        sent.append(goal["goal"])
+    assert sent == ["1"]
+    assert [goal["goal"] for goal in team.new_verdicts()] == ["2", "3"]
+    assert not list(team.new_verdicts())
+
+
 def test_late_steps_are_counted_and_never_made_up_for() -> None:
     pacer = Pacer(0.1, due_s=10.0)
     assert pacer.tick(10.0) == 0.0
@@ -107,6 +128,19 @@ def pipe_program(body: str) -> subprocess.Popen[bytes]:
     return subprocess.Popen(
         [sys.executable, "-c", head + body], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     )
+
+
+FLOOD = """
+sent = 0
+while pipe.send({"type": "goal"}):
+    sent += 1
+sys.exit(0 if sent > 100 else 1)
+"""
+
+
+def test_a_message_that_does_not_fit_into_the_pipe_is_reported_as_not_sent() -> None:
+    process = pipe_program(FLOOD)
+    assert process.wait(20) == 0  # without a reader
 
 
 LISTEN = """
@@ -140,6 +174,19 @@ def test_a_silent_warden_is_lost_after_its_time_and_a_late_reader_reads_first() 
     assert process.wait(10) == 0
     value = float(silent.split(b":")[1].strip(b" }\n"))
     assert 0.3 <= value < 2.0
+
+
+def test_a_warden_may_take_its_time_until_its_first_message() -> None:
+    process = pipe_program(LISTEN)
+    assert process.stdin is not None
+    assert process.stdout is not None
+    process.stdout.readline()
+    time.sleep(1.0)  # it looks up names
+    process.stdin.write(b'{"type": "beat"}\n')
+    process.stdin.flush()
+    silent_s = json.loads(process.stdout.readline())["silent_s"]
+    assert 0.3 <= silent_s < 2.0
+    assert process.wait(10) == 0
 
 
 def test_a_warden_that_ends_is_lost_at_once() -> None:

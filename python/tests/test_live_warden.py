@@ -3,6 +3,7 @@
 import asyncio
 import itertools
 import json
+import math
 import subprocess
 import sys
 from http.client import HTTPConnection
@@ -10,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from agent_economy.live import fleet
 from agent_economy.live.channel import Decoder, encode
 from agent_economy.live.drivers import DRIVERS
 from agent_economy.live.locks import AddressLocks, LockedError
@@ -21,6 +23,8 @@ from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.endpoint import Endpoint
 from agent_economy.live.warden.mission import READY_S, Mission
 from agent_economy.live.warden.motor_line import MotorLines
+from agent_economy.live.warden.shell import actions
+from agent_economy.live.warden.warden import Warden
 
 BENDER = DRIVERS["bender"]
 SETTINGS = {key: setting.default for key, setting in BENDER.settings.items()}
@@ -64,10 +68,18 @@ def test_a_turn_of_the_coprocessor_is_requested_once_and_cancelled_by_a_stop() -
     first = lines.due(turn, 0.0, is_empty=True)
     assert [line.port for line in first] == ["motors", "compass"]
     assert data(first) == b"x,3,\n90.00\n"
-    later = [lines.due(Motion(0.0, 0.5, 0.01 * n), 0.1 * n, is_empty=True) for n in range(30)]
+    later = [lines.due(turn, 0.1 * n, is_empty=True) for n in range(30)]
     assert not any(later)
     assert data(lines.due(STOP, 3.1, is_empty=True)) == b"x,3,\n"
     assert data(lines.due(turn, 3.2, is_empty=True)) == b"x,3,\n90.00\n"
+
+
+def test_a_turn_of_the_coprocessor_that_follows_another_one_at_once_is_requested_too() -> None:
+    lines = motors(turn="coprocessor")
+    assert lines.due(Motion(0.0, 0.5, heading_rad=0.0), 0.0, is_empty=True)
+    back = Motion(0.0, -0.5, heading_rad=math.pi)
+    assert data(lines.due(back, 0.1, is_empty=True)) == b"x,3,\n270.00\n"
+    assert not lines.due(back, 0.4, is_empty=True)
 
 
 def test_a_robot_without_the_coprocessor_turns_by_its_tracks() -> None:
@@ -169,6 +181,7 @@ def test_the_endpoint_takes_requests_with_its_token_only() -> None:
             ("POST", "/stop", b""),
             ("POST", "/stop", b"[1]"),
             ("POST", "/stop", b"not json"),
+            ("POST", "/stop", b"[" * 60_000),
             ("GET", "/stop", good),
             ("POST", "/else", good),
             ("POST", "/stop", refused),
@@ -178,9 +191,17 @@ def test_the_endpoint_takes_requests_with_its_token_only() -> None:
         return answers
 
     answers = asyncio.run(serve())
-    assert [status for status, _ in answers] == [200, 403, 403, 400, 400, 400, 405, 404, 409]
+    assert [status for status, _ in answers] == [200, 403, 403, 400, 400, 400, 400, 405, 404, 409]
     assert answers[-1][1] == "x cannot be armed: stale"
     assert len(taken) == 1
+
+
+@pytest.mark.parametrize("robots", [["other/0"], [["bender/0"]], "bender/0", [{}], None])
+def test_what_is_no_list_of_robots_is_refused(robots: Any) -> None:
+    warden = Warden(lambda _: None, is_headless=False)
+    arm = actions(warden, fleet.load("bender").plan)["/arm"]
+    with pytest.raises(ValueError, match="robots must be a list of bender/0"):
+        arm({"robots": robots})
 
 
 def test_two_programs_cannot_hold_the_lock_of_one_robot(

@@ -1,11 +1,12 @@
 """The command `drive`."""
 
 import json
+import os
 import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -45,7 +46,8 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
 
     Exit codes: 0 all waypoints were reached; 1 some cannot be reached; 2 the fleet file or an
     argument is not valid, or another program drives a robot; 3 a robot was stopped and has to be
-    armed again; 4 a robot could not be armed within 30 s; 130 stopped by Ctrl-C.
+    armed again; 4 a robot could not be armed within 30 s; 130 stopped by Ctrl-C or a signal;
+    137 the warden was suspended or silent, and the loop ended it and stopped the robots.
 
     Example: agent-economy drive fleets/bender.toml --headless --arm
     """
@@ -63,15 +65,25 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
 
 def print_json(event: Mapping[str, Any]) -> None:
     """Print an event as a line of JSON."""
-    sys.stdout.write(json.dumps(event) + "\n")
-    sys.stdout.flush()
+    write(sys.stdout, json.dumps(event))
 
 
 def print_event(event: Mapping[str, Any]) -> None:
     """Print an event as a sentence."""
     text = sentence(event)
     if text:
-        typer.echo(text, err=event["type"] in ("invalid", "message"))
+        write(sys.stderr if event["type"] in ("invalid", "message") else sys.stdout, text)
+
+
+def write(stream: TextIO | None, line: str) -> None:
+    """Write a line at once; Python has no stream if the file descriptor was closed at the start.
+
+    The buffer of the stream is left alone: a thread that is blocked holds its lock, and Python ends
+    only after it has flushed all buffers.
+    """
+    data = f"{line}\n".encode(errors="replace")
+    while stream is not None and data:
+        data = data[os.write(stream.fileno(), data) :]
 
 
 def sentence(event: Mapping[str, Any]) -> str:

@@ -1,6 +1,7 @@
 """The command `stop`."""
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from typing import Annotated
 
 import typer
@@ -24,7 +25,11 @@ def stop(
 
     Example: agent-economy stop
     """
-    answers = [(drive, *drive.request("/stop")) for drive in running()]
+    drives = running()
+    # At the same time: one that does not answer must not delay the stop of the others.
+    with ThreadPoolExecutor(max(1, len(drives))) as pool:
+        requests = [pool.submit(drive.request, "/stop") for drive in drives]
+        answers = [(drive, *each.result()) for drive, each in zip(drives, requests, strict=True)]
     if as_json:
         rows = [
             {"pid": drive.pid, "fleet": drive.fleet, "is_stopped": accepted, "message": text}

@@ -5,7 +5,7 @@ change of a robot's state, with its reasons), `beat` (it is running), `end` (clo
 
 The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, then it ends),
 `setpoint` (the motion of one robot), `beat` (one per tick, with its lateness), `goal` (a verdict),
-`recording_error`, `ended`.
+`recording_error`. `ended` stands for the end of its pipe.
 """
 
 import json

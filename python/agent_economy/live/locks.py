@@ -14,8 +14,13 @@ class LockedError(Exception):
 
 
 def runtime_folder() -> Path:
-    """Return the folder of locks and running drives, which only this user can read."""
-    base = os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir()
+    """Return the folder of locks and running drives, which only this user can read.
+
+    Programs without the variable, such as those that cron starts, find the usual folder too.
+    """
+    usual = Path(f"/run/user/{os.getuid()}")
+    default = str(usual) if usual.is_dir() else tempfile.gettempdir()
+    base = os.environ.get("XDG_RUNTIME_DIR") or default
     folder = Path(base) / f"agent-economy-{os.getuid()}"
     folder.mkdir(mode=0o700, exist_ok=True)
     if folder.stat().st_uid != os.getuid():
@@ -40,12 +45,13 @@ class AddressLocks:
         for host, port in addresses:
             name = re.sub(r"[^0-9A-Za-z.:-]", "_", f"{host}:{port}")
             file = (runtime_folder() / f"{name}.lock").open("ab")
-            self._files.append(file)
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
+                file.close()
                 message = f"{host}:{port} is being driven by another program: end that one first"
                 raise LockedError(message) from None
+            self._files.append(file)
 
     def close(self) -> None:
         """Give up all locks."""

@@ -83,15 +83,16 @@ class Drive:
     def _compare(self, team: Team, simulation: Simulation) -> int | None:
         given: dict[int, Any] = {m["tick"]: m["percepts"] for t, m in self.messages if t == INPUT}
         motions = {m["tick"]: m["motions"] for t, m in self.messages if t == SETPOINTS}
+        last = max(motions, default=-1)
         for topic, message in self.messages:
             if topic == TICKS:
                 tick = int(message["tick"])
-                if tick not in motions:  # the file is truncated
+                if tick > last:  # the file is truncated
                     return None
                 percepts = team.percepts(tick, message["t"])
                 decided = team.motions(simulation.step(percepts=percepts))
                 both = (strict(percepts), strict(decided))
-                if both != (given.get(tick, {}), motions[tick]):
+                if both != (given.get(tick, {}), motions.get(tick)):
                     return tick
             elif topic not in (INPUT, SETPOINTS):
                 team.add(message)

@@ -200,7 +200,8 @@ class Bender(Driver):
         return Reading(Quantity.POSITION, (latitude, longitude))
 
     def _ranges(self, line: bytes, settings: Settings) -> Reading | None:
-        fields = line.split(b",")
+        # The program of 2002 ignored a comma at the end.
+        fields = line.strip().removesuffix(b",").split(b",")
         if len(fields) > SONARS:
             return None
         ranges = [self._range(number(field), settings) for field in fields]

@@ -13,7 +13,8 @@ MIN_BATTERY = 0.1
 MANUAL_SPEED_M_S = 0.2
 
 MAX_CORNERS = 1000
-MAX_WAYPOINTS = 10_000
+MAX_WAYPOINTS = 1_000
+"""More orders at once take a brain longer than `MAX_LATENESS_S`: the robot would be stopped."""
 
 _SECONDS = "s"
 """The unit in messages, as the Rust core names it."""

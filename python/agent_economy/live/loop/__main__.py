@@ -3,10 +3,12 @@
 import argparse
 import os
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from agent_economy._core import InputError
 from agent_economy.live import fleet
+from agent_economy.live.channel import SILENCE_S
 from agent_economy.live.loop.last_resort import stop_all
 from agent_economy.live.loop.loop import Loop
 from agent_economy.live.loop.pipe import Pipe, WardenLostError
@@ -37,8 +39,21 @@ def main() -> int:
     except WardenLostError:
         stop_all(loaded.plan, loop.peers, warden)
         loop.close()
+        explain()
         return LOST
     return 0
+
+
+def explain() -> None:
+    """Report why the drive has ended; after the stop, since a terminal may hold the text up."""
+    text = (
+        f"The warden had ended, or was silent for more than {SILENCE_S:g} s, as on a busy or "
+        "suspended machine. The loop has ended it and sent stop to the robots; whether they "
+        "stand is not confirmed.\n"
+    )
+    with suppress(OSError):
+        sys.stderr.write(text)
+        sys.stderr.flush()
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from time import sleep
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.drivers import DRIVERS
+from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.plan import FleetPlan, RobotPlan
 
 Address = tuple[str, int]
@@ -38,7 +39,10 @@ def stop_all(plan: FleetPlan, peers: Mapping[str, Address], warden_pid: int) -> 
 
 
 class _MotorPort:
-    """A motor port that is connected without waiting, so that no robot delays another."""
+    """A motor port that is connected without waiting, so that no robot delays another.
+
+    Its lock, which the warden held, keeps another drive from starting meanwhile.
+    """
 
     def __init__(self, robot: RobotPlan, address: Address) -> None:
         driver = DRIVERS[robot.driver]
@@ -46,10 +50,12 @@ class _MotorPort:
         lines = driver.stop(robot.settings)
         self._stop = b"".join(line.data for line in lines if line.port == driver.motor_port)
         self._socket: socket.socket | None = None
+        self._locks, self._is_locked = AddressLocks(), False
         self._sent_s = self._tried_s = float("-inf")
 
     def turn(self) -> None:
         """Connect if necessary, and write a stop when it is due."""
+        self._lock()
         if self._socket is None:
             self._connect()
         if self._socket is not None and now_s() - self._sent_s >= REPEAT_S:
@@ -63,6 +69,14 @@ class _MotorPort:
         """Close after what is queued has been sent."""
         if self._socket is not None:
             self._socket.close()
+        self._locks.close()
+
+    def _lock(self) -> None:
+        if not self._is_locked:
+            # Without it, a stop is written all the same.
+            with suppress(LockedError, OSError):
+                self._locks.take([self._address])
+                self._is_locked = True
 
     def _connect(self) -> None:
         if now_s() - self._tried_s < REPEAT_S:

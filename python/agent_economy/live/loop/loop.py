@@ -79,7 +79,8 @@ class Loop:
         for robot, motion in motions.items():
             self._pipe.send({"type": "setpoint", "robot": robot, "tick": tick, "motion": motion})
         for goal in self._team.new_verdicts():
-            self._pipe.send({"type": "goal", **goal})
+            if not self._pipe.send({"type": "goal", **goal}):
+                break  # The others are new in the next step, too.
 
     def _add(self, message: Mapping[str, Any]) -> None:
         if self._log is not None:

@@ -32,14 +32,17 @@ class Pipe:
         self._is_watching = False
 
     def watch(self) -> None:
-        """Regard the warden as lost from now on when it is silent; nothing sent blocks any more."""
+        """Regard the warden as lost when it is silent; nothing sent blocks any more.
+
+        Its silence counts from its first message on: before, it looks up the names of robots, and
+        none of them is connected.
+        """
         os.set_blocking(self._input, False)
         os.set_blocking(self._output, False)
         self._heard_s = self._looked_s = now_s()
-        self._is_watching = True
 
-    def send(self, message: Message) -> None:
-        """Send a message.
+    def send(self, message: Message) -> bool:
+        """Send a message; return whether it was sent, and not dropped because the pipe is full.
 
         Raises:
             WardenLostError: If the warden has closed the pipe.
@@ -47,9 +50,10 @@ class Pipe:
         try:
             os.write(self._output, encode(message))
         except BlockingIOError:
-            return
+            return False
         except OSError as error:
             raise WardenLostError from error
+        return True
 
     def receive_until(self, until_s: float) -> Iterator[dict[str, Any]]:
         """Yield all messages that arrive until a time, which may be past.
@@ -78,5 +82,5 @@ class Pipe:
             return
         if not data:
             raise WardenLostError
-        self._heard_s = now_s()
+        self._heard_s, self._is_watching = now_s(), True
         yield from self._decoder.feed(data)

@@ -90,13 +90,17 @@ class Team:
         return dict(self._motions)
 
     def new_verdicts(self) -> Iterator[dict[str, str]]:
-        """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot."""
+        """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot.
+
+        A verdict counts as reported when the next one is taken, so that one that could not be
+        sent is yielded again the next time.
+        """
         for name in self._robots:
             for number, goal in enumerate(self._simulation.assigned_goals(name), 1):
                 key = (name, str(number))
                 if self._verdicts.get(key) != goal["verdict"]:
-                    self._verdicts[key] = goal["verdict"]
                     yield {"robot": name, "goal": key[1], "verdict": goal["verdict"]}
+                    self._verdicts[key] = goal["verdict"]
 
 
 def orders(waypoints_m: Any) -> list[Any]:

@@ -11,6 +11,10 @@ from agent_economy.live.drivers.lines import LineSplitter
 
 _SIOCOUTQ = 0x5411 if sys.platform == "linux" else None
 
+MAX_LINES = 20
+"""Lines that are taken of one port at once, and in one turn: a robot that sends more, or has piled
+up more, must not hold up the others."""
+
 Received = Callable[[bytes], None]
 
 
@@ -40,8 +44,8 @@ class Connection(asyncio.Protocol):
         self.is_up, self.reason = True, ""
 
     def data_received(self, data: bytes) -> None:
-        """Pass on the lines that are complete."""
-        for line in self._splitter.feed(data):
+        """Pass on the lines that are complete: of many that came together, only the newest."""
+        for line in self._splitter.feed(data)[-MAX_LINES:]:
             self._received(line)
 
     def connection_lost(self, error: Exception | None) -> None:

@@ -16,6 +16,15 @@ from typing import Any
 MAX_BYTES = 65_536
 READ_TIMEOUT_S = 2.0
 
+NO_REQUEST = (
+    OSError,  # Also a time-out.
+    ValueError,
+    RecursionError,
+    asyncio.IncompleteReadError,
+    asyncio.LimitOverrunError,
+)
+"""What reading a request raises that is none."""
+
 Action = Callable[[dict[str, Any]], str]
 """Takes the body of a request and returns an answer in words; ValueError refuses it."""
 
@@ -49,7 +58,7 @@ class Endpoint:
         try:
             async with asyncio.timeout(READ_TIMEOUT_S):
                 status, text = await self._answer(reader)
-        except (TimeoutError, asyncio.IncompleteReadError, asyncio.LimitOverrunError, ValueError):
+        except NO_REQUEST:
             status, text = HTTPStatus.BAD_REQUEST, "not a request that this endpoint takes"
         body = (json.dumps({"message": text}) + "\n").encode()
         head = (

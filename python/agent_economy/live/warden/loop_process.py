@@ -40,7 +40,11 @@ class LoopProcess:
         """Start it; must be called in the event loop."""
         command = [sys.executable, "-m", "agent_economy.live.loop", *arguments]
         self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL if sys.stderr is None else None,  # closed by its parent
+            start_new_session=True,
         )
         for stream in (self._process.stdin, self._process.stdout):
             assert stream is not None  # noqa: S101  (both are pipes)
@@ -98,6 +102,7 @@ class LoopProcess:
             return
         if not data:
             self._close()
+            self._received({"type": "ended"})
             return
         for message in self._decoder.feed(data):
             self._received(message)

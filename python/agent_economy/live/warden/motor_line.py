@@ -12,8 +12,9 @@ from agent_economy.live.warden.geometry import magnetic_bearing_deg
 class MotorLines:
     """The lines of one robot: each motion when it changes, then repeated.
 
-    A turn of the robot's own coprocessor is requested once: a repeated line would restart it, and
-    a motor line would cancel it.
+    A turn of the robot's own coprocessor is requested once for each heading: a repeated line would
+    restart it, and a motor line would cancel it. Brains keep the heading during a turn; another
+    heading is another turn, which may follow at once.
     """
 
     driver: Driver
@@ -50,17 +51,11 @@ class MotorLines:
         if motion.is_stop:
             return self.driver.stop(self.settings)
         if motion.heading_rad is not None:
-            lines = self._turn(motion.heading_rad)
+            bearing_deg = magnetic_bearing_deg(self.origin, motion.heading_rad)
+            lines = self.driver.turn_to(bearing_deg, self.settings)
             if lines:
                 return lines
         return self.driver.move(motion, self.settings)
-
-    def _turn(self, heading_rad: float) -> tuple[PortLine, ...]:
-        # One turn lasts until its end: the bearing of a waypoint changes a little meanwhile.
-        if self._is_turn(self._written):
-            return self._written
-        bearing_deg = magnetic_bearing_deg(self.origin, heading_rad)
-        return self.driver.turn_to(bearing_deg, self.settings)
 
     def _is_turn(self, lines: tuple[PortLine, ...]) -> bool:
         return any(line.port != self.driver.motor_port for line in lines)

@@ -9,9 +9,10 @@ from agent_economy.live.clock import now_s
 from agent_economy.live.warden.connection import Connection, Received
 from agent_economy.live.warden.name_lookup import NameLookup
 
-CONNECT_TIMEOUT_S = 5.0
-FIRST_PAUSE_S, MAX_PAUSE_S = 0.05, 5.0
-"""Pauses before connecting again. A robot without its motor port drives on until it is stopped."""
+CONNECT_TIMEOUT_S = 2.0
+FIRST_PAUSE_S, MAX_PAUSE_S = 0.05, 0.4
+"""Pauses before connecting again: short, because a robot without its motor port drives on until it
+can be connected and stopped."""
 
 STABLE_S = 1.0
 """After a connection that lasted for this time, the next pause is the first again."""
@@ -65,7 +66,7 @@ class PortLink:
             self.connection.reason = f"{what} {host}:{port} within {CONNECT_TIMEOUT_S:g} s"
             self._lookup.forget()
             return False
-        except OSError as error:
+        except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
             self._lookup.forget()
             self.connection.reason = f"{host}:{port}: {_words(error)}"
             return False
@@ -83,7 +84,9 @@ class PortLink:
         self.connection.abort()
 
 
-def _words(error: OSError) -> str:
+def _words(error: OSError | UnicodeError) -> str:
+    if isinstance(error, UnicodeError):
+        return str(error)
     # asyncio replaces the words of the system; those of name lookups have negative numbers.
     if error.errno is not None and error.errno > 0:
         return os.strerror(error.errno)

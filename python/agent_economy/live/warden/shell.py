@@ -16,6 +16,7 @@ from agent_economy.live.plan import FleetPlan
 from agent_economy.live.running_drives import RunningDrive, registered
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.endpoint import Endpoint
+from agent_economy.live.warden.reporter import Reporter
 from agent_economy.live.warden.warden import Report, Warden
 
 RESOLVE_S = 2.0
@@ -44,12 +45,24 @@ def drive_fleet(options: Options, report: Report) -> End:
     return asyncio.run(_drive(options, report))
 
 
-async def _drive(options: Options, report: Report) -> End:
+async def _drive(options: Options, print_event: Report) -> End:
+    loop = asyncio.get_running_loop()
+    # A drive whose output is closed has no reader: it ends as after Ctrl-C.
+    report = Reporter(print_event, lambda: loop.call_soon_threadsafe(warden.interrupt))
     warden = Warden(report, is_headless=options.is_headless)
+    try:
+        return await _supervised(options, warden, report)
+    finally:
+        report.close()
+
+
+async def _supervised(options: Options, warden: Warden, report: Report) -> End:
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, warden.interrupt)
-    # A suspended warden cannot stop a robot: Ctrl-Z is an emergency stop instead.
+    # A suspended warden cannot stop a robot: Ctrl-Z is an emergency stop instead, and a terminal
+    # that background processes must not write to (`stty tostop`) does not suspend it.
+    signal.signal(signal.SIGTTOU, signal.SIG_IGN)
     loop.add_signal_handler(signal.SIGTSTP, _stopper(warden, report))
     arguments = (str(options.fleet), "--record", str(options.record), "--seed", str(options.seed))
     plan = await warden.load(arguments)
@@ -59,21 +72,13 @@ async def _drive(options: Options, report: Report) -> End:
         report({"type": "message", "message": f"warning: {text}"})
     # A slow lookup of one robot's name must not hold up those of others: a thread for each.
     loop.set_default_executor(ThreadPoolExecutor(max_workers=2 * len(plan.robots)))
-    endpoint = Endpoint(_actions(warden, plan))
     with ExitStack() as stack:
-        locks = AddressLocks()
-        stack.callback(locks.close)
         try:
-            locks.take(await addresses(plan))
+            await _publish(stack, options, warden, plan)
         except (LockedError, OSError) as error:
             report({"type": "message", "message": str(error)})
             await warden.close()
             return End.INVALID
-        await endpoint.start()
-        stack.callback(endpoint.close)
-        host, port = endpoint.address
-        drive = RunningDrive(os.getpid(), str(options.fleet), host, port, endpoint.token)
-        stack.enter_context(registered(drive))
         end = await warden.drive(plan)
     report(
         {
@@ -88,6 +93,19 @@ async def _drive(options: Options, report: Report) -> End:
     return end
 
 
+async def _publish(stack: ExitStack, options: Options, warden: Warden, plan: FleetPlan) -> None:
+    """Lock the robots for this drive, and let other programs stop it, until the stack is closed."""
+    locks = AddressLocks()
+    stack.callback(locks.close)
+    locks.take(await addresses(plan))
+    endpoint = Endpoint(actions(warden, plan))
+    await endpoint.start()
+    stack.callback(endpoint.close)
+    host, port = endpoint.address
+    drive = RunningDrive(os.getpid(), str(options.fleet), host, port, endpoint.token)
+    stack.enter_context(registered(drive))
+
+
 async def addresses(plan: FleetPlan) -> list[tuple[str, int]]:
     """Return the address of each motor port, with a numeric host if it can be resolved soon."""
     hosts = await asyncio.gather(*(numeric(robot.host) for robot in plan.robots))
@@ -100,7 +118,7 @@ async def numeric(host: str) -> str:
     try:
         async with asyncio.timeout(RESOLVE_S):
             found = await asyncio.get_running_loop().getaddrinfo(host, None)
-    except (OSError, TimeoutError):
+    except (OSError, TimeoutError, UnicodeError):  # no name of a host, such as "a..b"
         return host
     return str(found[0][4][0])
 
@@ -113,7 +131,8 @@ def _stopper(warden: Warden, report: Report) -> Callable[[], None]:
     return stop
 
 
-def _actions(warden: Warden, plan: FleetPlan) -> dict[str, Callable[[dict[str, Any]], str]]:
+def actions(warden: Warden, plan: FleetPlan) -> dict[str, Callable[[dict[str, Any]], str]]:
+    """Return what the endpoint does for each path."""
     names = [robot.name for robot in plan.robots]
 
     def stop(_: Mapping[str, Any]) -> str:
@@ -126,7 +145,7 @@ def _actions(warden: Warden, plan: FleetPlan) -> dict[str, Callable[[dict[str, A
 
     def arm(body: Mapping[str, Any]) -> str:
         robots = body.get("robots", names)
-        if not isinstance(robots, list) or not set(robots) <= set(names):
+        if not isinstance(robots, list) or not all(each in names for each in robots):
             message = f"robots must be a list of {', '.join(names)}"
             raise ValueError(message)
         return warden.arm(robots)

@@ -89,9 +89,11 @@ class Warden:
             self._robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line)
         async with asyncio.TaskGroup() as tasks:
             connecting = tasks.create_task(self._connect())
-            end = await self._turns(plan)
-            await asyncio.gather(*(robot.end() for robot in self._robots.values()))
-            connecting.cancel()
+            try:
+                end = await self._turns(plan)
+            finally:  # also after an error in this program
+                connecting.cancel()
+                await asyncio.gather(*(robot.end() for robot in self._robots.values()))
         await self._loop.end()
         return end
 
@@ -110,6 +112,9 @@ class Warden:
         Raises:
             ValueError: If one cannot be armed; then none is.
         """
+        if self.operator.stop or self._end is not None:
+            message = "no robot can be armed: an emergency stop has been requested"
+            raise ValueError(message)
         blocked = {
             name: ", ".join(fault.reason for fault in self._decisions[name].blockers)
             for name in robots
@@ -128,7 +133,7 @@ class Warden:
     def interrupt(self) -> None:
         """Stop all robots and end the drive. A second time: without waiting for confirmation."""
         self._is_impatient = self._end is End.INTERRUPTED
-        self._end = End.INTERRUPTED
+        self._end, self.operator.stop = End.INTERRUPTED, True
         if self._planned is not None and not self._planned.done():
             self._planned.set_result(None)
 
@@ -177,8 +182,11 @@ class Warden:
         decisions = self._decisions.values()
         if any(decision.action is Action.MOVE for decision in decisions):
             return False
+        robots = self._robots.values()
         is_confirmed = all(decision.is_confirmed for decision in decisions)
-        is_quiet = all(robot.is_quiet() for robot in self._robots.values())
+        # A robot that has not received stop may stand in front of something, and then drive on.
+        is_confirmed = is_confirmed and all(robot.has_stop() for robot in robots)
+        is_quiet = all(robot.is_quiet() for robot in robots)
         is_waiting = not is_confirmed and not self._is_impatient
         return (not is_waiting and is_quiet) or ending_s > CONFIRM_S
 
@@ -211,6 +219,10 @@ class Warden:
                 self._report(message)
             case "invalid":
                 self._report(message)
+                self._set_plan(None)
+            case "ended" if self._planned is not None and not self._planned.done():
+                text = "the process of the loop has ended before it had read the fleet"
+                self._report({"type": "message", "message": text})
                 self._set_plan(None)
             case "beat":
                 self.late_steps, self.behind_s = message["late_steps"], message["behind_s"]
