@@ -238,3 +238,9 @@ def test_the_warden_loads_neither_numpy_nor_the_engine() -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_before_its_first_turn_the_warden_arms_no_robot() -> None:
+    warden = Warden(lambda _: None, is_headless=False)
+    with pytest.raises(ValueError, match="x cannot be armed: nothing is known of it yet"):
+        warden.arm(["x"])

@@ -115,16 +115,17 @@ class Warden:
         if self.operator.stop or self._end is not None:
             message = "no robot can be armed: an emergency stop has been requested"
             raise ValueError(message)
-        blocked = {
-            name: ", ".join(fault.reason for fault in self._decisions[name].blockers)
-            for name in robots
-            if name not in self._decisions or self._decisions[name].blockers
-        }
+        blocked = {name: why for name in robots if (why := self._why_not_armed(name))}
         if blocked:
             message = "; ".join(f"{name} cannot be armed: {why}" for name, why in blocked.items())
             raise ValueError(message)
         self.operator.arm |= set(robots)
         return f"armed: {', '.join(robots)}"
+
+    def _why_not_armed(self, name: str) -> str:
+        if name not in self._decisions:  # before the first turn
+            return "nothing is known of it yet"
+        return ", ".join(fault.reason for fault in self._decisions[name].blockers)
 
     async def close(self) -> None:
         """End the loop of a drive that has not begun."""
