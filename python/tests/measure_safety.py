@@ -9,8 +9,6 @@ import argparse
 import statistics
 import sys
 import tempfile
-import threading
-import time
 from collections import defaultdict
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -18,35 +16,13 @@ from pathlib import Path
 
 import process_faults
 import wire_faults
+from bare_timer import BareTimer
 from live_bench import driving, emulated, fleet_text
 
-from agent_economy.live.clock import now_s
-
 SCENARIO = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
-TIMER_S = 0.01
 MAX_LATE_S = 0.05
 MAX_REPEATS = 3
 """At most this many times the number of trials are run."""
-
-
-class BareTimer:
-    """A thread that only sleeps, and notes how late it wakes."""
-
-    def __init__(self) -> None:
-        """Start it."""
-        self._late: list[tuple[float, float]] = []
-        threading.Thread(target=self._run, daemon=True).start()
-
-    def _run(self) -> None:
-        while True:
-            due_s = now_s() + TIMER_S
-            time.sleep(TIMER_S)
-            self._late.append((due_s, now_s() - due_s))
-
-    def late_s(self, begin_s: float, end_s: float) -> float:
-        """Return the maximum lateness in a time."""
-        times = [late_s for due_s, late_s in self._late if begin_s - TIMER_S <= due_s <= end_s]
-        return max(times, default=0.0)
 
 
 @dataclass

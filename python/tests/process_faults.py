@@ -101,7 +101,7 @@ class Drives:
         self.drives: list[Drive] = []
         for robot in range(len(FAULTS)):
             own = folder / str(robot)
-            own.mkdir()
+            own.mkdir(exist_ok=True)
             fleet = own / "fleet.toml"
             text = fleet_text(bench, scenario=str(scenario), robots=[robot])
             fleet.write_text(text, encoding="utf-8")

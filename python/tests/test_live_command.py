@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bare_timer import repeated_if_late
 from command_line import COMMAND
 from live_bench import STOP_LINE, Bench, driving, emulated, fleet_text
 from wire_faults import lanes
@@ -41,6 +42,7 @@ def refused_port() -> int:
         return int(server.getsockname()[1])
 
 
+@repeated_if_late
 def test_a_robot_that_refuses_connections_is_named_and_the_other_drives_until_ctrl_c(
     bench: Bench, tmp_path: Path
 ) -> None:
@@ -62,6 +64,7 @@ def test_a_robot_that_refuses_connections_is_named_and_the_other_drives_until_ct
     assert not bench.moves_after(1, 0.0)
 
 
+@repeated_if_late
 def test_a_drive_whose_warden_is_suspended_ends_with_the_reason(
     bench: Bench, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -76,6 +79,7 @@ def test_a_drive_whose_warden_is_suspended_ends_with_the_reason(
     assert "was silent for more than 0.3 s" in capfd.readouterr().err
 
 
+@repeated_if_late
 def test_a_second_drive_of_a_robot_is_refused(bench: Bench, tmp_path: Path) -> None:
     fleet = fleet_of(bench, tmp_path, robots=[0])
     with driving(fleet) as first:

