@@ -39,7 +39,7 @@ test("a missing server is reported on the list, which recovers by itself", async
   context,
 }) => {
   await page.goto(`${server.url}/#/studies`);
-  const listed = page.getByRole("link", { name: new RegExp(`^Running search ${race}`) });
+  const listed = page.getByRole("link", { name: new RegExp(`^Running search ${race} `) });
   await expect(listed).toBeVisible();
   await context.setOffline(true);
   await expect(page.getByText("The server is not responding.")).toBeVisible();

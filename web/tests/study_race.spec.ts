@@ -28,7 +28,7 @@ test("the race is displayed as text and as a table, and is stopped and resumed",
   await page.getByRole("button", { name: "Chart" }).click();
   await expectAccessible(page);
   await page.getByRole("link", { name: "Studies", exact: true }).click();
-  await page.getByRole("link", { name: new RegExp(`^Stopped search ${race}`) }).click();
+  await page.getByRole("link", { name: new RegExp(`^Stopped search ${race} `) }).click();
   await page.getByRole("button", { name: "Resume" }).click();
   await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
   await expect(page.getByText("runs per second")).toBeVisible();
