@@ -23,6 +23,19 @@ SETTINGS = {"range_unit_m": 1.0, "no_echo": 99.0}
 """Settings of the emulator; fleet files get the same."""
 
 
+BENDER = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
+
+
+def changed_scenario(path: Path, changes: Mapping[str, str]) -> Path:
+    """Write the scenario bender with other lines, by what the lines begin with."""
+    lines = [
+        next((text for key, text in changes.items() if line.strip().startswith(key)), line)
+        for line in BENDER.read_text(encoding="utf-8").splitlines()
+    ]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
 @dataclass
 class Bench:
     """Emulated robots, by their ports and their log.

@@ -19,7 +19,6 @@ import wire_faults
 from bare_timer import BareTimer
 from live_bench import driving, emulated, fleet_text
 
-SCENARIO = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
 MAX_LATE_S = 0.05
 MAX_REPEATS = 3
 """At most this many times the number of trials are run."""
@@ -57,7 +56,7 @@ class Stops:
 def break_robots(folder: Path, timer: BareTimer, stops: dict[str, Stops]) -> None:
     """Break each robot of a fleet in its way."""
     faults = wire_faults.FAULTS
-    scenario = wire_faults.lanes(SCENARIO, folder, len(faults))
+    scenario = wire_faults.lanes(folder, len(faults))
     fleet = folder / "fleet.toml"
     with emulated(folder, len(faults), arguments=("--scenario", str(scenario))) as bench:
         fleet.write_text(fleet_text(bench, scenario=str(scenario)), encoding="utf-8")
@@ -77,7 +76,7 @@ def break_robots(folder: Path, timer: BareTimer, stops: dict[str, Stops]) -> Non
 def break_processes(folder: Path, timer: BareTimer, stops: dict[str, Stops]) -> None:
     """Break each drive of some in its way."""
     faults = process_faults.FAULTS
-    scenario = wire_faults.lanes(SCENARIO, folder, len(faults))
+    scenario = wire_faults.lanes(folder, len(faults))
     with ExitStack() as stack:
         arguments = ("--scenario", str(scenario))
         bench = stack.enter_context(emulated(folder, len(faults), arguments=arguments))

@@ -16,14 +16,12 @@ from wire_faults import lanes
 
 from agent_economy.live.clock import now_s
 
-ROOT = Path(__file__).resolve().parents[2]
-
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Bench]:
     """Emulate two robots."""
     folder = tmp_path_factory.mktemp("emulator")
-    scenario = lanes(ROOT / "scenarios" / "bender.toml", folder, 2)
+    scenario = lanes(folder, 2)
     with emulated(folder, robots=2, arguments=("--scenario", str(scenario))) as bench:
         yield bench
 

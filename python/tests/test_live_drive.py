@@ -9,13 +9,12 @@ from typing import Any
 
 import pytest
 from bare_timer import repeated_if_late
-from live_bench import Drive, driving, emulated, fleet_text
+from live_bench import Drive, changed_scenario, driving, emulated, fleet_text
 from mcap.records import Channel, Message
 from test_recording_damaged import records_of, written
 
 import agent_economy as ae
 
-ROOT = Path(__file__).resolve().parents[2]
 WAYPOINTS_M = [[13.0, 15.0], [13.0, 19.0]]
 FAST: dict[str, Any] = {"forward_m_s_per_unit": 0.03, "reverse_m_s_per_unit": 0.03}
 COURSE = {
@@ -39,18 +38,6 @@ class Driven:
     pose: dict[str, float]
 
 
-def course(folder: Path) -> Path:
-    """Write the scenario."""
-    text = (ROOT / "scenarios" / "bender.toml").read_text(encoding="utf-8")
-    lines = [
-        next((value for key, value in COURSE.items() if line.strip().startswith(key)), line)
-        for line in text.splitlines()
-    ]
-    path = folder / "course.toml"
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
-
-
 @pytest.fixture(scope="module")
 def driven(tmp_path_factory: pytest.TempPathFactory) -> Driven:
     """Drive a robot to two waypoints behind a wall."""
@@ -59,7 +46,8 @@ def driven(tmp_path_factory: pytest.TempPathFactory) -> Driven:
 
 @repeated_if_late
 def drive_course(folder: Path) -> Driven:
-    scenario, fleet = course(folder), folder / "fleet.toml"
+    scenario = changed_scenario(folder / "course.toml", COURSE)
+    fleet = folder / "fleet.toml"
     arguments = ("--scenario", str(scenario))
     with emulated(folder, arguments=arguments, gps_hz=5, sonar_hz=10, **FAST) as bench:
         keys = {"bender/0": f"waypoints_m = {WAYPOINTS_M}"}

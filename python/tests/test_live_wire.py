@@ -10,7 +10,6 @@ from wire_faults import FAULTS, Evidence, inject, lanes
 
 from agent_economy.live.clock import now_s
 
-ROOT = Path(__file__).resolve().parents[2]
 LOOSE_S = 5.0
 """A bound for a machine that is busy with other tests; `make safety` measures."""
 
@@ -19,7 +18,7 @@ LOOSE_S = 5.0
 def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
     healthy, fenced = len(FAULTS), len(FAULTS) + 1
     robots = len(FAULTS) + 2
-    scenario = lanes(ROOT / "scenarios" / "bender.toml", tmp_path, robots)
+    scenario = lanes(tmp_path, robots)
     fleet = tmp_path / "fleet.toml"
     with emulated(tmp_path, robots, arguments=("--scenario", str(scenario))) as bench:
         fence = f"fence_m = [[0, 0], [9, 0], [9, {8 * robots + 10}], [0, {8 * robots + 10}]]"
@@ -49,7 +48,7 @@ def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
 
 @repeated_if_late
 def test_a_robot_stops_when_a_process_of_its_drive_fails(tmp_path: Path) -> None:
-    scenario = lanes(ROOT / "scenarios" / "bender.toml", tmp_path, len(process_faults.FAULTS))
+    scenario = lanes(tmp_path, len(process_faults.FAULTS))
     with ExitStack() as stack:
         arguments = ("--scenario", str(scenario))
         bench = stack.enter_context(

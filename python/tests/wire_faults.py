@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from live_bench import STOP_LINE, Bench
+from live_bench import STOP_LINE, Bench, changed_scenario
 
 from agent_economy.live.replay import read_drive
 
@@ -73,10 +73,10 @@ FAULTS = (
 """One per robot."""
 
 
-def lanes(scenario: Path, folder: Path, robots: int) -> Path:
+def lanes(folder: Path, robots: int) -> Path:
     """Write a scenario in which robots drive straight on, each in a lane of its own."""
     starts = [[5, 5 + LANE_M * robot] for robot in range(robots)]
-    new = {
+    changes = {
         "size_m": f"size_m = [1000, {10 + LANE_M * robots:g}]",
         "obstacles": "",
         "count": f"count = {robots}",
@@ -84,13 +84,7 @@ def lanes(scenario: Path, folder: Path, robots: int) -> Path:
         '{ kind = "correct"': "",
         '{ kind = "avoid"': "",
     }
-    lines = [
-        next((text for key, text in new.items() if line.strip().startswith(key)), line)
-        for line in scenario.read_text(encoding="utf-8").splitlines()
-    ]
-    path = folder / "lanes.toml"
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
+    return changed_scenario(folder / "lanes.toml", changes)
 
 
 def inject(bench: Bench, faults: Sequence[WireFault]) -> None:

@@ -11,7 +11,9 @@ from typing import Annotated
 import typer
 import uvicorn
 
+from agent_economy._core import InputError
 from agent_economy.cli.errors import BAD_INPUT, error_exits
+from agent_economy.listening import listening_socket
 from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
 from agent_economy.server.request_body import MAX_BYTES
@@ -64,22 +66,10 @@ def ui(
 def bound(host: str, port: int) -> socket.socket:
     """Return a listening socket; exit with a code if the address cannot be used."""
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(
-            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-        )[0]
-        listening = socket.socket(family, kind, protocol)
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listening.bind(address)
-        # Clients wait from now on: the address is printed before the server has started.
-        listening.listen()
-    # Python encodes names for the DNS: an empty or long label is a UnicodeError.
-    except (OSError, UnicodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not the name of a host"
-        typer.echo(
-            f"--host {host} --port {port}: cannot listen there: {why}; choose another", err=True
-        )
+        return listening_socket(host, port)
+    except InputError as error:
+        typer.echo(f"--host {host} --port {port}: {error}", err=True)
         raise typer.Exit(BAD_INPUT) from None
-    return listening
 
 
 def reachable(host: str, listening: socket.socket) -> str:

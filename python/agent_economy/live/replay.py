@@ -115,7 +115,8 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
             scenario that this version does not accept, or is of another build.
     """
     replayed = recording.replay(path, verify=verify)
-    drive = read_drive(Path(path))
+    # The robots of a drive are external: other files are read once.
+    drive = read_drive(Path(path)) if replayed.external else None
     if drive is None:
         return replayed
     with named(Path(path)):

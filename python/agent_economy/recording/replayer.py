@@ -32,6 +32,7 @@ class Replay:
         mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
             it reproduces all.
         outcome: The outcome of the replay.
+        external: Names of the robots that had external bodies from the start.
         lines: Number of lines of robots from which the percepts were made again; None if the
             recording is not of a drive.
     """
@@ -46,6 +47,7 @@ class Replay:
     hash: str
     mismatch_tick: int | None
     outcome: Outcome
+    external: tuple[str, ...] = ()
     lines: int | None = None
 
     @property
@@ -111,6 +113,7 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rep
         hash=f"{simulation.hash:016x}",
         mismatch_tick=mismatch_tick,
         outcome=simulation.outcome(),
+        external=identity.external,
     )
 
 

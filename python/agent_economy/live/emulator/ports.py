@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from agent_economy._core import InputError
+from agent_economy.listening import listening_socket
 from agent_economy.live.emulator.lines import LineReader
 from agent_economy.live.emulator.packet_loss import lose_packets
 from agent_economy.live.emulator.transport import Piece
@@ -178,16 +179,7 @@ def bound(host: str, number: int) -> socket.socket:
         InputError: If the address cannot be used.
     """
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(
-            host, number, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
-        )[0]
-        listening = socket.socket(family, kind, protocol)
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listening.bind(address)
-        listening.listen()
-    # Python encodes names for the DNS: an empty or long label is a UnicodeError.
-    except (OSError, UnicodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not the name of a host"
-        message = f"host {host}, port {number}: cannot listen there: {why}; choose another"
+        return listening_socket(host, number)
+    except InputError as error:
+        message = f"host {host}, port {number}: {error}"
         raise InputError(message) from None
-    return listening

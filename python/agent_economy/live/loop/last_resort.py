@@ -96,7 +96,7 @@ class _MotorPort:
             pass
         except OSError as error:
             # Not connected yet, which takes some time, or refused.
-            if not isinstance(error, ConnectionError | BrokenPipeError) and self._is_young():
+            if not isinstance(error, ConnectionError) and self._is_young():
                 return
             link.close()
             self._socket = None

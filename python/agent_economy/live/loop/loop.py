@@ -21,10 +21,12 @@ class Loop:
         peers: The numeric addresses of connected motor ports.
     """
 
+    _pacer: Pacer
+
     def __init__(self, fleet: Fleet, pipe: Pipe, record: Path, seed: int) -> None:
         """Create the run at its first step."""
         self.peers: dict[str, tuple[str, int]] = {}
-        self._pipe, self._fleet = pipe, fleet
+        self._pipe = pipe
         names = tuple(robot.name for robot in fleet.plan.robots)
         self._simulation = Simulation(fleet.scenario, seed=seed, external=names)
         start_s = now_s()
@@ -32,7 +34,6 @@ class Loop:
             fleet.plan, self._simulation, fleet.waypoints_m, seed=seed, start_s=start_s
         )
         self._log: Log | None = Log(self._simulation, record, fleet, start_s)
-        self._pacer = Pacer(self._simulation.step_s, start_s)
 
     def run(self) -> None:
         """Run until the warden ends the drive.
@@ -40,7 +41,8 @@ class Loop:
         Raises:
             WardenLostError: If the warden has ended or is silent.
         """
-        self._pacer.due_s = now_s() + self._pacer.period_s
+        step_s = self._simulation.step_s
+        self._pacer = Pacer(step_s, now_s() + step_s)
         while self._receive():
             self._tick()
         self.close()

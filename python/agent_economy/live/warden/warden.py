@@ -2,7 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from agent_economy.live import rules
@@ -193,12 +193,7 @@ class Warden:
 
     def _loop_state(self) -> LoopInputs:
         is_alive = not self._loop.has_ended and self._loop.returncode is None
-        return LoopInputs(
-            is_alive=is_alive,
-            last_message_s=self._loop_inputs.last_message_s,
-            lateness_s=self._loop_inputs.lateness_s,
-            recording_error=self._loop_inputs.recording_error,
-        )
+        return replace(self._loop_inputs, is_alive=is_alive)
 
     def _stamp_s(self) -> float:
         """Return the time of a line read now: after a gap, the time from which on it can be."""
