@@ -1,6 +1,7 @@
 //! The brain of one robot.
 
 use crate::arbitration::arbiter::{Arbiter, ArbitrationMemory};
+use crate::arbitration::decided::Decided;
 use crate::arbitration::goal_selection::BeliefBrain;
 use crate::arbitration::motor_schemas::Noise;
 use crate::arbitration::subsumption::{Layer, heading_rad, layers};
@@ -13,9 +14,11 @@ use crate::inspect::Decision;
 use crate::io::body::{Body, RobotId};
 use crate::io::command::{Command, Motion};
 use crate::io::percept::Percept;
+use crate::messaging::peers::Peers;
 use crate::navigation::speed_governor::SpeedGovernor;
+use crate::perception::beliefs::Beliefs;
 use crate::perception::dead_reckoning::{DeadReckoning, Odometry};
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use crate::spec::BrainSpec;
 use alloc::boxed::Box;
 use alloc::sync::Arc;
@@ -143,7 +146,7 @@ impl Brain {
     /// Changes the ids of the other robots; those without a new id are forgotten.
     pub fn renumber(&mut self, new_id: impl Fn(RobotId) -> Option<RobotId>) {
         if let Some(brain) = &mut self.beliefs {
-            brain.beliefs.renumber(&new_id);
+            brain.renumber(&new_id);
         }
     }
 
@@ -234,88 +237,115 @@ impl Brain {
             .and_then(|active| heading_rad(&self.kind.behaviours, &self.layers, active.into()));
     }
 
+    /// The motion that the percept leads to, and the index of the active behaviour.
     #[inline]
-    fn motion(&mut self, percept: &Percept, elapsed_s: f64) -> (Option<usize>, Motion) {
-        let Kind {
-            spec,
-            body,
-            governor,
-            behaviours,
-            order_taker,
-            arbiter,
-        } = &*self.kind;
-        let mut turned_rad = self.odometry.update(percept, body, elapsed_s);
-        let current_speed_m_s = self.odometry.current_speed_m_s(percept, body);
-        if let Some(brain) = &mut self.beliefs {
-            let odometry = &self.odometry;
-            let turned = (turned_rad, elapsed_s);
-            turned_rad = odometry.turned_without_compass_rad(turned, percept, body);
-            let odometry = Odometry {
-                elapsed_s,
-                speed_m_s: odometry.likely_speed_m_s(percept, body),
-                turned_rad,
-            };
-            brain
-                .beliefs
-                .update(percept, body, &governor.rings, &odometry);
+    fn motion(&mut self, percept: &Percept, elapsed_s: f64) -> Decided {
+        let kind = &*self.kind;
+        let mut moved = kind.reckon(&mut self.odometry, percept, elapsed_s);
+        if let Some(brain) = self.beliefs.as_deref_mut() {
+            kind.believe(brain, &self.odometry, percept, &mut moved);
         }
-        let (beliefs, mut selection) = match self.beliefs.as_deref_mut() {
-            Some(BeliefBrain { beliefs, selection }) => (Some(&*beliefs), Some(selection)),
-            None => (None, None),
-        };
-        let last_goal = Cell::new(
-            selection
-                .as_ref()
-                .map_or(0, |selection| selection.last_goal),
-        );
-        let situation = Situation {
-            percept,
-            body,
-            beliefs,
-            rings: &governor.rings,
-            last_goal: &last_goal,
-            ahead: governor.ahead(percept, body, current_speed_m_s),
-            elapsed_s,
-            turned_rad,
-            current_speed_m_s,
-        };
-        let layers = &mut self.layers;
-        let taker = order_taker.and_then(|place| behaviours.get(place).zip(layers.get_mut(place)));
-        if let Some((behaviour, layer)) = taker {
-            behaviour.serve_orders(layer.memory(), &situation);
-        }
+        let (known, mut selection) = BeliefBrain::parts(self.beliefs.as_deref_mut());
+        let last_goal = Cell::new(selection.as_ref().map_or(0, |each| each.last_goal));
+        let situation = kind.situation(percept, known, &moved, &last_goal);
+        kind.serve_orders(&mut self.layers, &situation);
         let memory = ArbitrationMemory {
             layers: &mut self.layers,
             noise: self.noise.as_deref_mut(),
             selection: selection.as_deref_mut(),
         };
-        let (leading, wanted) = arbiter.decide(behaviours, memory, &situation);
-        let mut motion = clamped(wanted, body);
-        if spec.limit_speed_to_stopping_distance {
-            motion = governor.limit(motion, &situation, &self.odometry);
+        let (leading, wanted) = kind.arbiter.decide(&kind.behaviours, memory, &situation);
+        let mut motion = clamped(wanted, &kind.body);
+        if kind.spec.limit_speed_to_stopping_distance {
+            motion = kind.governor.limit(motion, &situation, &self.odometry);
         }
-        if let (Some(beliefs), Some(selection)) = (beliefs, selection) {
+        if let Some(selection) = selection {
             selection.last_goal = last_goal.get();
-            let traffic = &mut selection.navigator.traffic;
-            let odometry = Odometry {
-                elapsed_s,
-                speed_m_s: current_speed_m_s,
-                turned_rad,
-            };
-            traffic.update(&beliefs.others.movers, body, &odometry);
-            motion = traffic.limit(motion, body, current_speed_m_s);
+            motion = selection.keep_clear(motion, &situation);
         }
-        (leading, clamped(motion, body))
+        (leading, clamped(motion, &kind.body))
     }
 }
 
-/// The beliefs and goals, if the specification has beliefs or a behaviour needs them.
+impl Kind {
+    /// The motion since the previous step, by commands, wheels and compass.
+    #[inline]
+    fn reckon(&self, odometry: &mut DeadReckoning, percept: &Percept, elapsed_s: f64) -> Odometry {
+        let turned_rad = odometry.update(percept, &self.body, elapsed_s);
+        Odometry {
+            elapsed_s,
+            speed_m_s: odometry.current_speed_m_s(percept, &self.body),
+            turned_rad,
+        }
+    }
+
+    /// Updates the beliefs with a percept and its messages. A noisy compass corrects the believed
+    /// heading, so its readings are taken out of the turn.
+    fn believe(
+        &self,
+        brain: &mut BeliefBrain,
+        odometry: &DeadReckoning,
+        percept: &Percept,
+        moved: &mut Odometry,
+    ) {
+        let (body, elapsed_s) = (&*self.body, moved.elapsed_s);
+        let turned = (moved.turned_rad, elapsed_s);
+        moved.turned_rad = odometry.turned_without_compass_rad(turned, percept, body);
+        let likely = Odometry {
+            speed_m_s: odometry.likely_speed_m_s(percept, body),
+            ..*moved
+        };
+        let BeliefBrain {
+            beliefs, messaging, ..
+        } = brain;
+        beliefs.update(percept, body, &self.governor.rings, &likely);
+        messaging.receive(percept, body, elapsed_s, beliefs);
+    }
+
+    #[inline]
+    fn situation<'s>(
+        &'s self,
+        percept: &'s Percept,
+        known: Option<(&'s Beliefs, &'s Peers)>,
+        moved: &Odometry,
+        last_goal: &'s Cell<u32>,
+    ) -> Situation<'s> {
+        let (body, governor) = (&*self.body, &self.governor);
+        let (beliefs, peers) = known.unzip();
+        Situation {
+            percept,
+            body,
+            beliefs,
+            peers,
+            rings: &governor.rings,
+            last_goal,
+            ahead: governor.ahead(percept, body, moved.speed_m_s),
+            elapsed_s: moved.elapsed_s,
+            turned_rad: moved.turned_rad,
+            current_speed_m_s: moved.speed_m_s,
+        }
+    }
+
+    /// Passes a person's orders to the behaviour that takes them.
+    #[inline]
+    fn serve_orders(&self, layers: &mut [Layer<Memory>], situation: &Situation) {
+        let behaviours = &self.behaviours;
+        let taker = self
+            .order_taker
+            .and_then(|place| behaviours.get(place).zip(layers.get_mut(place)));
+        if let Some((behaviour, layer)) = taker {
+            behaviour.serve_orders(layer.memory(), situation);
+        }
+    }
+}
+
 /// Index of the highest behaviour that takes a person's orders.
 fn order_taker(spec: &BrainSpec) -> Option<usize> {
     let mut behaviours = spec.behaviours.iter();
     behaviours.rposition(BehaviourSpec::takes_orders)
 }
 
+/// The beliefs and goals, if the specification has beliefs or a behaviour needs them.
 fn belief_brain(spec: &BrainSpec, body: &Body) -> Option<Box<BeliefBrain>> {
     let mut behaviours = spec.behaviours.iter();
     let is_needed = spec.beliefs.is_some() || behaviours.any(BehaviourSpec::needs_beliefs);

@@ -36,8 +36,10 @@ mod brain;
 mod goals;
 mod inspect;
 mod io;
+mod messaging;
 mod navigation;
 mod perception;
+mod situation;
 mod spec;
 #[cfg(test)]
 mod world_of_walls;

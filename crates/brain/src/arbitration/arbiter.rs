@@ -8,7 +8,7 @@ use super::subsumption::{Layer, arbitrate, proposals};
 use crate::behaviours::{BehaviourSpec, Memory, Ready};
 use crate::goals::proposal::Proposal;
 use crate::io::command::Motion;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use crate::spec::BrainSpec;
 
 /// An [`Arbitration`], prepared for the behaviours of a brain.

@@ -12,18 +12,22 @@ use crate::behaviours::{Memory, Ready};
 use crate::goals::fitness::Step;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::goals::{Goal, Goals, Verdict};
-use crate::io::body::Body;
+use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
 use crate::io::message::Message;
+use crate::messaging::Messaging;
+use crate::messaging::peers::Peers;
 use crate::navigation::navigator::Navigator;
 use crate::perception::beliefs::{Beliefs, BeliefsSpec};
-use crate::perception::situation::Situation;
+use crate::perception::dead_reckoning::Odometry;
+use crate::situation::Situation;
 use alloc::vec::Vec;
 
 /// The part of a brain that only robots with beliefs have.
 #[derive(Debug, Clone)]
 pub(crate) struct BeliefBrain {
     pub(crate) beliefs: Beliefs,
+    pub(crate) messaging: Messaging,
     pub(crate) selection: GoalSelection,
 }
 
@@ -43,14 +47,34 @@ impl BeliefBrain {
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {
         Self {
             beliefs: Beliefs::new(spec, body),
+            messaging: Messaging::new(spec, body),
             selection: GoalSelection::default(),
         }
     }
 
+    /// Splits off what behaviours read from what arbitration changes.
+    #[inline]
+    pub(crate) fn parts(
+        brain: Option<&mut Self>,
+    ) -> (Option<(&Beliefs, &Peers)>, Option<&mut GoalSelection>) {
+        let parts = brain.map(|brain| {
+            let known = (&brain.beliefs, &brain.messaging.peers);
+            (known, &mut brain.selection)
+        });
+        parts.unzip()
+    }
+
     /// Adds the messages of this step to the outbox.
     pub(crate) fn publish(&mut self, elapsed_s: f64, outbox: &mut Vec<Message>) {
-        self.beliefs
-            .broadcast(self.selection.pursued, elapsed_s, outbox);
+        let goal = self.selection.pursued;
+        self.messaging
+            .broadcast(&mut self.beliefs, goal, elapsed_s, outbox);
+    }
+
+    /// Changes the ids of the other robots; those without a new id are forgotten.
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
+        self.beliefs.renumber(new_id);
+        self.messaging.renumber(new_id);
     }
 }
 
@@ -103,6 +127,21 @@ impl GoalSelection {
         let is_kept =
             |pursued: &Destination| goals.iter().any(|goal| goal.destination.id == pursued.id);
         self.pursued = self.pursued.filter(is_kept);
+    }
+
+    /// The motion, changed so that the robot keeps clear of other robots.
+    pub(crate) fn keep_clear(&mut self, motion: Motion, situation: &Situation) -> Motion {
+        let Some(beliefs) = situation.beliefs else {
+            return motion;
+        };
+        let traffic = &mut self.navigator.traffic;
+        let odometry = Odometry {
+            elapsed_s: situation.elapsed_s,
+            speed_m_s: situation.current_speed_m_s,
+            turned_rad: situation.turned_rad,
+        };
+        traffic.update(&beliefs.others.movers, situation.body, &odometry);
+        traffic.limit(motion, situation.body, situation.current_speed_m_s)
     }
 
     /// The motion towards the goal that is pursued, given the proposals of behaviours by their

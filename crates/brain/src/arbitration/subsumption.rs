@@ -6,8 +6,8 @@
 
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::Proposal;
-use crate::perception::situation::Situation;
-use crate::perception::timer::Countdown;
+use crate::situation::Situation;
+use crate::situation::timer::Countdown;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -210,6 +210,7 @@ mod tests {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
+                peers: None,
                 rings: &governor.rings,
                 last_goal: &Cell::new(0),
                 ahead: governor.ahead(&percept, &body, current_speed_m_s),
@@ -291,6 +292,7 @@ mod tests {
                 percept: &crate::Percept::default(),
                 body: &body,
                 beliefs: None,
+                peers: None,
                 rings: &[],
                 last_goal: &Cell::new(0),
                 ahead: None,

@@ -8,9 +8,10 @@ use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::goal_id::GoalPlace;
+use crate::messaging::peers::Peers;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::beliefs::{Beliefs, Map};
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -87,9 +88,14 @@ impl Ready {
 
     /// The place with the most expected detections per second.
     fn best(&self, search: &mut Search, situation: &Situation, known: &Known) -> Option<Point> {
-        let Known { map, pose, beliefs } = known;
+        let Known {
+            beliefs,
+            peers,
+            map,
+            pose,
+        } = known;
         let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
-        part.renew(beliefs, map);
+        part.renew(pose.at, peers, map);
         let overhead_s =
             OVERHEAD_S + outlook.measurements(MEASURED_NATS) * beliefs.observation_period_s();
         let time_s = |way_m: f64| overhead_s + way_m / self.destination.max_speed_m_s.max(1e-6);
@@ -134,6 +140,7 @@ fn apart(body: &Body, map: &Map) -> i32 {
 /// The inputs of a selection.
 struct Known<'k> {
     beliefs: &'k Beliefs,
+    peers: &'k Peers,
     map: &'k Map,
     pose: Pose,
 }
@@ -143,6 +150,7 @@ impl<'k> Known<'k> {
         let beliefs = situation.beliefs?;
         Some(Self {
             beliefs,
+            peers: situation.peers?,
             map: beliefs.map.as_ref()?,
             pose: beliefs.pose()?,
         })

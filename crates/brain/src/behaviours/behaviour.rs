@@ -4,7 +4,7 @@ use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
 use crate::io::command::Motion;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::vec::Vec;
 
 /// A behaviour in a body.

@@ -5,7 +5,7 @@ use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::Proposal;
 use crate::io::body::Body;
 use crate::io::command::Motion;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -9,7 +9,7 @@
 
 use crate::io::body::RobotId;
 use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
-use crate::perception::beliefs::peers::Peers;
+use crate::messaging::peers::Peers;
 use alloc::vec::Vec;
 use base::geometry::Point;
 

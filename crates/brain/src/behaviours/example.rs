@@ -49,6 +49,7 @@ mod tests {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
+                peers: None,
                 rings: &sight.rings,
                 last_goal: &Cell::new(0),
                 ahead: sight.ahead(&percept, &body, current_speed_m_s),

@@ -8,7 +8,7 @@ use crate::io::command::Motion;
 use crate::io::percept::Neighbour;
 use crate::io::random_words::RandomWords;
 use crate::perception::sector::direction;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use base::geometry::Point;
 use base::trig::wrapped;
 use schemars::JsonSchema;

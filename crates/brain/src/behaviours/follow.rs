@@ -5,7 +5,7 @@ use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
 use crate::io::goal_id::{GoalId, GoalPlace};
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -86,7 +86,7 @@ impl GoalBehaviour for Ready {
         let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let leader = self.leader(situation.percept.id)?;
-        let at: Point = beliefs.position_of(leader)?;
+        let at: Point = situation.position_of(leader)?;
         let way = at.to(pose.at);
         let away_m = way.length();
         if away_m <= self.apart_m {

@@ -5,8 +5,8 @@ use super::survey::{Survey, destination, share};
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
-use crate::perception::beliefs::{Beliefs, Map};
-use crate::perception::situation::Situation;
+use crate::perception::beliefs::Map;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -54,17 +54,13 @@ impl Ready {
 }
 
 /// The nearest unobserved place; places of other robots count as ten times as far away.
-fn nearest(
-    survey: &mut Survey,
-    situation: &Situation,
-    beliefs: &Beliefs,
-    map: &Map,
-) -> Option<Point> {
-    let (at, near_m) = (beliefs.pose()?.at, 4.0 * map.field.cell_m);
+fn nearest(survey: &mut Survey, situation: &Situation, map: &Map) -> Option<Point> {
+    let (at, near_m) = (situation.beliefs?.pose()?.at, 4.0 * map.field.cell_m);
+    let peers = situation.peers?;
     let nearness = |way_m: f64| 1.0 / way_m.max(map.field.cell_m);
     let value = |cell, way_m, _| {
         if map.coverage.of(cell) > UNSEEN {
-            nearness(way_m) * share(beliefs, at, map.field.centre(cell), near_m)
+            nearness(way_m) * share(peers, at, map.field.centre(cell), near_m)
         } else {
             0.0
         }
@@ -86,15 +82,14 @@ impl GoalBehaviour for Ready {
     }
 
     fn goal(&self, survey: &mut Option<Box<Survey>>, situation: &Situation) -> Option<Proposal> {
-        let beliefs = situation.beliefs?;
-        let map = beliefs.map.as_ref()?;
+        let map = situation.beliefs?.map.as_ref()?;
         let survey = survey.get_or_insert_default();
         let current = survey.current(situation.elapsed_s);
         let current = current.filter(|to| is_unseen(map, to.at));
         let to = if let Some(to) = current {
             to
         } else {
-            let at = nearest(survey, situation, beliefs, map)?;
+            let at = nearest(survey, situation, map)?;
             survey.select(at, situation)
         };
         Some(self.drive_to(to))

@@ -5,7 +5,7 @@ use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::command::Motion;
 use crate::io::goal_id::GoalPlace;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 
 /// A behaviour that selects places by the robot's beliefs, and stays where nothing is left to do.

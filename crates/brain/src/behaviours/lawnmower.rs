@@ -6,7 +6,7 @@ use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::beliefs::field::Field;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use core::f64::consts::FRAC_PI_2;

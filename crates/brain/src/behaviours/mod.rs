@@ -43,7 +43,7 @@ use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
 use crate::io::body::Body;
 use crate::io::command::Motion;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

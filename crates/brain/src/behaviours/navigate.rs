@@ -6,7 +6,7 @@ use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::goal_id::{GoalId, GoalPlace};
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -110,7 +110,7 @@ impl Ready {
         match self.assignment {
             Assignment::All | Assignment::OneEach => errands.next(waypoints),
             Assignment::Shared => {
-                let mates = &situation.beliefs?.peers;
+                let mates = situation.peers?;
                 errands.next_of_team(waypoints, (situation.percept.id, at), mates)
             }
         }

@@ -5,9 +5,9 @@
 //! quantization in PCM*, 1982; for robots Cortes, Martinez, Karatas and Bullo, *Coverage control for
 //! mobile sensing networks*, 2004).
 
+use crate::messaging::peers::{Peer, Peers};
+use crate::perception::beliefs::Map;
 use crate::perception::beliefs::field::Field;
-use crate::perception::beliefs::peers::Peer;
-use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -33,13 +33,10 @@ pub(crate) struct Part {
 
 impl Part {
     /// Computes the partition again.
-    pub(crate) fn renew(&mut self, beliefs: &Beliefs, map: &Map) {
-        let Some(pose) = beliefs.pose() else {
-            return;
-        };
+    pub(crate) fn renew(&mut self, own: Point, peers: &Peers, map: &Map) {
         self.centres.clear();
-        self.centres.push(pose.at);
-        let mates = beliefs.peers.mates.iter();
+        self.centres.push(own);
+        let mates = peers.mates.iter();
         self.centres.extend(mates.filter_map(Peer::at));
         if self.centres.len() == 1 {
             self.own = u64::MAX;
@@ -114,7 +111,7 @@ impl Part {
 }
 
 /// A robot and its maximum number of peers.
-const MAX_ROBOTS: usize = 1 + crate::perception::beliefs::peers::MAX_PEERS;
+const MAX_ROBOTS: usize = 1 + crate::messaging::peers::MAX_PEERS;
 
 #[inline]
 fn block_of(field: &Field, cell: usize) -> usize {

@@ -6,7 +6,7 @@ use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::beliefs::Beliefs;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;

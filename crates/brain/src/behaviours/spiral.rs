@@ -7,7 +7,7 @@ use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::sector::direction;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use core::f64::consts::TAU;

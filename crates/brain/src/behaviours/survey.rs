@@ -3,10 +3,10 @@
 use crate::goals::proposal::Destination;
 use crate::io::body::Body;
 use crate::io::goal_id::{GoalId, GoalPlace};
+use crate::messaging::peers::{Peer, Peers};
 use crate::navigation::path::Wavefront;
-use crate::perception::beliefs::peers::Peer;
-use crate::perception::beliefs::{Beliefs, Map};
-use crate::perception::situation::Situation;
+use crate::perception::beliefs::Map;
+use crate::situation::Situation;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -129,7 +129,7 @@ impl Best {
 }
 
 /// The weight of a place for this robot: low if another robot is driving there or is nearer.
-pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> f64 {
+pub(crate) fn share(peers: &Peers, at: Point, place: Point, near_m: f64) -> f64 {
     let away = at.to(place).length_squared();
     let takes = |peer: &Peer| {
         let goes = peer
@@ -140,7 +140,7 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
             .is_some_and(|there| there.to(place).length_squared() < away);
         goes || is_nearer
     };
-    if beliefs.peers.mates.iter().any(takes) {
+    if peers.mates.iter().any(takes) {
         CLAIMED
     } else {
         1.0

@@ -2,7 +2,7 @@
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 
 /// Tolerance at which a turn is complete, in radians.
 const DONE_RAD: f32 = 0.02;

@@ -60,7 +60,11 @@ pub struct GoalState {
 
 impl BeliefState {
     pub(crate) fn of(brain: &BeliefBrain) -> Self {
-        let BeliefBrain { beliefs, selection } = brain;
+        let BeliefBrain {
+            beliefs,
+            messaging,
+            selection,
+        } = brain;
         let robots = beliefs.others.movers.iter().map(|mover| BelievedRobot {
             id: mover.id,
             at: mover.at,
@@ -71,7 +75,7 @@ impl BeliefState {
         let goals = goals.map(|goal| GoalState::of(goal, beliefs, selection));
         Self {
             pose: beliefs.pose(),
-            items: beliefs.believed_items().collect(),
+            items: messaging.believed_items(beliefs).collect(),
             robots: robots.collect(),
             goals: goals.collect(),
             heading_options: HeadingOptions::of(&selection.navigator),

@@ -15,7 +15,7 @@ use crate::io::goal_id::GoalPlace;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::beliefs::{Beliefs, Map, static_hits};
 use crate::perception::rays::Ray;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::FRAC_PI_3;

@@ -17,7 +17,7 @@ use crate::io::percept::Percept;
 use crate::perception::dead_reckoning::DeadReckoning;
 use crate::perception::rays::Ring;
 use crate::perception::sector::Sector;
-use crate::perception::situation::{ClearAhead, Situation};
+use crate::situation::{ClearAhead, Situation};
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -371,6 +371,7 @@ mod tests {
                 let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
                 let situation = super::Situation {
                     beliefs: None,
+                    peers: None,
                     percept: &percept,
                     body: &body,
                     rings: &governor.rings,

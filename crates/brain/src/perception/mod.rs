@@ -1,5 +1,4 @@
-//! Perception: turns percepts into beliefs, and into the situation that behaviours read in one
-//! step.
+//! Perception: turns percepts into the robot's motion, its free space and its beliefs.
 
 pub(crate) mod beliefs;
 pub(crate) mod believed;
@@ -7,5 +6,3 @@ mod chords;
 pub(crate) mod dead_reckoning;
 pub(crate) mod rays;
 pub(crate) mod sector;
-pub(crate) mod situation;
-pub(crate) mod timer;

@@ -27,7 +27,7 @@ mod spec;
 use crate::arbitration::subsumption::{Layer, step};
 use crate::behaviours::{Memory, Ready};
 use crate::io::command::Motion;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use alloc::vec::Vec;
 pub(crate) use noise::Noise;
 pub use spec::Schemas;

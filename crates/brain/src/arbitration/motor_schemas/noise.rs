@@ -6,7 +6,7 @@
 use super::spec::Schemas;
 use crate::perception::beliefs::pose::turned;
 use crate::perception::sector::direction;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use base::geometry::Point;
 use base::trig::wrapped;
 use core::f64::consts::PI;
@@ -102,6 +102,7 @@ mod tests {
             percept: &Percept::default(),
             body: &body,
             beliefs: None,
+            peers: None,
             rings: &[],
             last_goal: &Cell::new(0),
             ahead: None,
@@ -145,6 +146,7 @@ mod tests {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
+                peers: None,
                 rings: &[],
                 last_goal: &Cell::new(0),
                 ahead: None,
@@ -178,6 +180,7 @@ mod tests {
             percept: &percept,
             body: &body,
             beliefs: None,
+            peers: None,
             rings: &[],
             last_goal: &Cell::new(0),
             ahead: None,

@@ -5,7 +5,7 @@ use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::navigation::navigator::stopping_speed_m_s;
 use crate::perception::beliefs::Beliefs;
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use base::geometry::Point;
 use core::f64::consts::FRAC_PI_3;
 

@@ -1,6 +1,6 @@
 //! The repulsion of obstacles.
 
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 use base::geometry::Point;
 
 /// The vector away from all obstacles within `influence_m` of the robot's footprint: length 0 at

@@ -1,9 +1,9 @@
 //! Item tracks: estimated positions and the probability that each item exists.
 //!
 //! Each track has sources: for each robot that observed the item, the combined log likelihood ratio
-//! of its observations and their number. Reports contain the same values and may therefore arrive
-//! any number of times, by any route: of each source, only the report with the most observations
-//! counts.
+//! of its observations and their number. [Reports](crate::messaging::reports) contain the same
+//! values and may therefore arrive any number of times, by any route: of each source, only the
+//! report with the most observations counts.
 //!
 //! ```text
 //! log odds = prior log odds + sum over sources of their log likelihood ratios
@@ -18,13 +18,11 @@
 //! anything at that position.
 
 mod observations;
-mod reports;
-mod track;
-mod tracks;
+pub(crate) mod track;
+pub(crate) mod tracks;
 
 pub(crate) use observations::OwnObservation;
-pub(crate) use reports::{Reception, Report};
 pub(crate) use tracks::Items;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -6,30 +6,25 @@
 //! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray. A test measures this.
 
 mod battery;
-mod broadcast;
 pub(crate) mod coverage_map;
 pub(crate) mod displacement;
 pub(crate) mod field;
 pub(crate) mod items;
 mod localisation;
 mod map;
-mod messaging;
 pub(crate) mod mover;
 pub(crate) mod occupancy;
 pub(crate) mod others;
-pub(crate) mod peers;
 pub(crate) mod pose;
 mod readings;
 mod scan_objects;
 mod scans;
 mod spec;
-pub(crate) mod trust;
 mod validation_gate;
 pub(crate) mod view;
 mod world_model;
 
 pub(crate) use map::Map;
 pub(crate) use scans::static_hits;
-pub use spec::BeliefsSpec;
-pub use trust::TrustSpec;
+pub use spec::{BeliefsSpec, TrustSpec};
 pub(crate) use world_model::Beliefs;

@@ -1,6 +1,5 @@
 //! The settings of beliefs.
 
-use super::trust::TrustSpec;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use base::geometry::Rectangle;
@@ -33,6 +32,26 @@ impl Default for BeliefsSpec {
             cells: 4096,
             prior_count: BTreeMap::new(),
             trust: TrustSpec::default(),
+        }
+    }
+}
+
+/// How far a brain trusts the reports of other robots.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct TrustSpec {
+    /// Initial trust in a robot, 0 to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub initial: f64,
+    /// Whether trust changes when the robot's own observations confirm or refute reports.
+    pub adaptive: bool,
+}
+
+impl Default for TrustSpec {
+    fn default() -> Self {
+        Self {
+            initial: 0.9,
+            adaptive: true,
         }
     }
 }

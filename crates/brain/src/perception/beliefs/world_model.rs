@@ -1,58 +1,43 @@
 //! The world model of a robot: all its beliefs, and their update with each percept.
 
 use super::battery::Battery;
-use super::broadcast::BroadcastState;
 use super::coverage_map::DetectorScan;
 use super::displacement::Displacement;
-use super::items::{Items, OwnObservation, Reception};
+use super::items::{Items, OwnObservation};
 use super::localisation::Localisation;
 use super::map::Map;
 use super::others::Others;
-use super::peers::Peers;
 use super::pose::Pose;
 use super::scans::new_scans;
 use super::spec::BeliefsSpec;
-use super::trust::{Trust, TrustSpec};
 use crate::io::body::{Body, Detector, RobotId};
 use crate::io::percept::{Contact, Observation, Percept};
-use crate::perception::believed::BelievedItem;
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::rays::Ring;
 use crate::perception::sector::direction;
 use alloc::sync::Arc;
-use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
 
 /// Rounding tolerance between the ages of an observation and of its contacts.
 const AGE_TOLERANCE_S: f64 = 1e-6;
 
-/// The priors, shared by all robots of a kind.
-#[derive(Debug)]
-pub(super) struct Prior {
-    pub(super) trust: TrustSpec,
-    /// Prior density of items of each kind.
-    pub(super) per_m2: Vec<f64>,
-}
-
 /// The beliefs of one robot.
 #[derive(Debug, Clone)]
 pub(crate) struct Beliefs {
-    pub(super) prior: Arc<Prior>,
-    pub(super) id: RobotId,
+    /// Prior density of items of each kind; all robots of a kind share it.
+    pub(crate) per_m2: Arc<[f64]>,
+    pub(crate) id: RobotId,
     pub(super) localisation: Localisation,
     pub(crate) others: Others,
-    pub(crate) peers: Peers,
     pub(crate) items: Items,
-    pub(super) trust: Trust,
     battery: Battery,
     /// `None` if the mission area is unknown.
     pub(crate) map: Option<Map>,
     speed_m_s: f64,
     /// Number of item observations so far, and time since the brain was started.
-    pub(super) observations: u32,
+    pub(crate) observations: u32,
     uptime_s: f64,
-    pub(super) broadcast: BroadcastState,
 }
 
 impl Beliefs {
@@ -62,24 +47,17 @@ impl Beliefs {
         let area_m2 = area.map_or(1.0, |area| area.area_m2().max(1.0));
         let kinds = body.item_kinds.iter();
         let expected = kinds.map(|kind| spec.prior_count.get(kind).copied().unwrap_or(1.0));
-        let prior = Prior {
-            trust: spec.trust.clone(),
-            per_m2: expected.map(|expected| expected / area_m2).collect(),
-        };
         Self {
-            prior: Arc::new(prior),
+            per_m2: expected.map(|expected| expected / area_m2).collect(),
             id: RobotId::default(),
             localisation: Localisation::default(),
             others: Others::default(),
-            peers: Peers::default(),
             items: Items::default(),
-            trust: Trust::default(),
             battery: Battery::default(),
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,
             observations: 0,
             uptime_s: 0.0,
-            broadcast: BroadcastState::new(body.period_s),
         }
     }
 
@@ -109,38 +87,15 @@ impl Beliefs {
         self.others
             .movers
             .retain_mut(|mover| mover.id.as_mut().is_none_or(keep));
-        self.peers.mates.retain_mut(|peer| keep(&mut peer.id));
-        self.trust.renumber(keep);
         self.items.renumber(keep);
     }
 
-    /// The items with their probabilities.
-    pub(crate) fn believed_items(&self) -> impl Iterator<Item = BelievedItem> {
-        let reception = Reception {
-            own: self.id,
-            trust: &self.trust,
-            spec: &self.prior.trust,
-        };
-        self.items.tracks.iter().map(move |track| BelievedItem {
-            kind: track.kind,
-            at: track.at,
-            deviation_m: libm::sqrt(track.variance_m2),
-            confidence: track.confidence(&reception),
-        })
-    }
-
-    /// The position of another robot in the world, if it is tracked or has reported it recently.
+    /// The position of another robot in the world, if it is tracked.
     pub(crate) fn position_of(&self, id: RobotId) -> Option<Point> {
         let pose = self.pose()?;
         let mut movers = self.others.movers.iter();
-        let tracked = movers.find(|mover| mover.id == Some(id));
-        let reported = || {
-            let mut mates = self.peers.mates.iter();
-            mates.find(|peer| peer.id == id)?.at()
-        };
-        tracked
-            .map(|mover| pose.in_world(mover.at))
-            .or_else(reported)
+        let tracked = movers.find(|mover| mover.id == Some(id))?;
+        Some(pose.in_world(tracked.at))
     }
 
     /// Updates the beliefs after a step.
@@ -161,7 +116,6 @@ impl Beliefs {
         for (ring, ranges_m) in new_scans(percept, rings, elapsed_s) {
             self.others.scan(ring, ranges_m);
         }
-        self.peers.advance(elapsed_s);
         self.battery.update(percept, elapsed_s);
         let Some(pose) = self.localisation.pose() else {
             return;
@@ -172,11 +126,6 @@ impl Beliefs {
             let then = earlier(&pose, rates, observation.age_s);
             self.update_items(observation, percept, body, then);
         }
-        for received in &percept.inbox {
-            self.receive(received, body, &pose);
-        }
-        self.items
-            .learn(self.id, &mut self.trust, &self.prior.trust);
     }
 
     fn update_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], elapsed_s: f64) {
@@ -208,7 +157,7 @@ impl Beliefs {
             observer: self.id,
             detector,
             pose,
-            per_m2: &self.prior.per_m2,
+            per_m2: &self.per_m2,
         };
         let belongs = |contact: &&Contact| {
             contact.sensor == observation.sensor
@@ -220,7 +169,7 @@ impl Beliefs {
     }
 
     /// Updates the coverage map with a number of observations from a pose, weighted by trust.
-    pub(super) fn update_coverage(
+    pub(crate) fn update_coverage(
         &mut self,
         detector: &Detector,
         (at, heading_rad): (Point, f64),

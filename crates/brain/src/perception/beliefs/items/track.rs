@@ -9,10 +9,10 @@ use core::f64::consts::PI;
 const SOURCES: usize = 6;
 
 /// Minimum standard deviation of a position.
-pub(super) const MIN_DEVIATION_M: f64 = 0.05;
+pub(crate) const MIN_DEVIATION_M: f64 = 0.05;
 
 /// Limit of the log odds that an item exists, in nats.
-pub(super) const MAX_LOG_ODDS: f64 = 15.0;
+pub(crate) const MAX_LOG_ODDS: f64 = 15.0;
 
 /// A track of an item, or of false alarms.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,33 +24,33 @@ pub(crate) struct Track {
     /// Variance of the position, along each axis.
     pub(crate) variance_m2: f64,
     /// Log odds before any observation.
-    pub(super) prior: f64,
-    pub(super) sources: [Source; SOURCES],
-    pub(super) count: usize,
+    pub(crate) prior: f64,
+    pub(crate) sources: [Source; SOURCES],
+    pub(crate) count: usize,
     /// Log likelihood of all misses at the edge of the field of view.
-    pub(super) edge: f64,
+    pub(crate) edge: f64,
 }
 
 /// The observations of one robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Source {
-    pub(super) provenance: Provenance,
+pub(crate) struct Source {
+    pub(crate) provenance: Provenance,
     /// The sender of the report; the robot itself for own observations.
-    pub(super) from: RobotId,
+    pub(crate) from: RobotId,
     /// Log odds before its observations, given the other sources of the track.
-    pub(super) prior: f64,
+    pub(crate) prior: f64,
     /// Log likelihood ratio of all its observations.
-    pub(super) log_ratio: f64,
+    pub(crate) log_ratio: f64,
     /// Confidence of the last report that was sent; 0 if none. Single precision, because there are
     /// hundreds.
-    pub(super) sent_confidence: f32,
+    pub(crate) sent_confidence: f32,
     /// Whether own observations have confirmed or refuted it; each source is judged once.
-    pub(super) is_judged: bool,
+    pub(crate) is_judged: bool,
 }
 
 impl Track {
     /// A track without sources.
-    pub(super) fn new(kind: u16, at: Point, variance_m2: f64, per_m2: f64) -> Self {
+    pub(crate) fn new(kind: u16, at: Point, variance_m2: f64, per_m2: f64) -> Self {
         Self {
             kind,
             at,
@@ -63,7 +63,7 @@ impl Track {
     }
 
     /// Log odds with full trust in all sources.
-    pub(super) fn log_odds(&self) -> f64 {
+    pub(crate) fn log_odds(&self) -> f64 {
         let sources = self.sources[..self.count].iter();
         self.prior + sources.map(|source| source.log_ratio).sum::<f64>()
     }
@@ -77,7 +77,7 @@ impl Track {
     ///
     /// Two robots that each observed an item may have observed two different ones; a distance of d
     /// with a total variance of S is evidence for a single one.
-    pub(super) fn prior_with_another(&self, at: Point, variance_m2: f64, per_m2: f64) -> f64 {
+    pub(crate) fn prior_with_another(&self, at: Point, variance_m2: f64, per_m2: f64) -> f64 {
         if self.count == 0 {
             return self.prior;
         }
@@ -88,7 +88,7 @@ impl Track {
 
     /// A slot for a new source, replacing the weakest one if all are in use; `None` if all others
     /// are stronger. Own observations are never replaced.
-    pub(super) fn free_slot(&mut self, own: RobotId, log_ratio: f64) -> Option<usize> {
+    pub(crate) fn free_slot(&mut self, own: RobotId, log_ratio: f64) -> Option<usize> {
         let slot = if self.count < SOURCES {
             self.count += 1;
             self.count - 1
@@ -105,7 +105,7 @@ impl Track {
         Some(slot)
     }
 
-    pub(super) fn slot_of(&self, provenance: Provenance) -> Option<usize> {
+    pub(crate) fn slot_of(&self, provenance: Provenance) -> Option<usize> {
         let sources = self.sources[..self.count].iter();
         let is_same = |source: &Source| {
             source.provenance.observer == provenance.observer
@@ -114,13 +114,13 @@ impl Track {
         sources.into_iter().position(is_same)
     }
 
-    pub(super) fn is_observed_by(&self, own: RobotId) -> bool {
+    pub(crate) fn is_observed_by(&self, own: RobotId) -> bool {
         let mut sources = self.sources[..self.count].iter();
         sources.any(|source| source.provenance.observer == own)
     }
 
     /// Corrects the position.
-    pub(super) fn correct_position(&mut self, at: Point, variance_m2: f64) {
+    pub(crate) fn correct_position(&mut self, at: Point, variance_m2: f64) {
         if self.count == 1 && self.sources[0].provenance.observations <= 1 {
             (self.at, self.variance_m2) = (at, variance_m2);
             return;
@@ -134,7 +134,7 @@ impl Track {
 
 impl Source {
     /// Log odds by its observations alone.
-    pub(super) fn log_odds(&self) -> f64 {
+    pub(crate) fn log_odds(&self) -> f64 {
         self.prior + self.log_ratio
     }
 }
@@ -144,10 +144,10 @@ fn prior_log_odds(variance_m2: f64, per_m2: f64) -> f64 {
     log_odds((2.0 * PI * variance_m2 * per_m2).clamp(1e-9, 0.1))
 }
 
-pub(super) fn log_odds(probability: f64) -> f64 {
+pub(crate) fn log_odds(probability: f64) -> f64 {
     libm::log(probability / (1.0 - probability))
 }
 
-pub(super) fn probability(log_odds: f64) -> f64 {
+pub(crate) fn probability(log_odds: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-log_odds))
 }

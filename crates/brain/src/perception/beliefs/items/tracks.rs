@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 
 /// Maximum number of tracks; the least likely one is replaced first.
-pub(super) const MAX_TRACKS: usize = 64;
+pub(crate) const MAX_TRACKS: usize = 64;
 
 /// Association gate, in standard deviations.
 const GATE: f64 = 3.0;
@@ -15,23 +15,23 @@ const GATE: f64 = 3.0;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Items {
     pub(crate) tracks: Vec<Track>,
-    pub(super) last_track_id: u32,
+    pub(crate) last_track_id: u32,
     /// Index of the track that was repeated last.
     repeated: usize,
     /// One bit per track: those with reports to be sent, and those with reports to be judged.
-    pub(super) unsent: u64,
-    pub(super) unjudged: u64,
+    pub(crate) unsent: u64,
+    pub(crate) unjudged: u64,
 }
 
 impl Items {
     /// Marks tracks for sending and judging.
-    pub(super) fn mark_changed(&mut self, tracks: u64) {
+    pub(crate) fn mark_changed(&mut self, tracks: u64) {
         self.unsent |= tracks;
         self.unjudged |= tracks;
     }
 
     /// The nearest track of a kind within the gate that is not in `taken`.
-    pub(super) fn nearest(
+    pub(crate) fn nearest(
         &self,
         kind: u16,
         at: Point,
@@ -51,7 +51,7 @@ impl Items {
     }
 
     /// Adds a track; returns its index.
-    pub(super) fn add_track(&mut self, track: Track) -> usize {
+    pub(crate) fn add_track(&mut self, track: Track) -> usize {
         if self.tracks.len() < MAX_TRACKS {
             self.tracks.push(track);
             return self.tracks.len() - 1;
@@ -97,11 +97,11 @@ impl Items {
 }
 
 /// The indices of the set bits, in increasing order.
-pub(super) fn bits(set: u64) -> impl Iterator<Item = usize> {
+pub(crate) fn bits(set: u64) -> impl Iterator<Item = usize> {
     (0..MAX_TRACKS).filter(move |bit| set >> bit & 1 == 1)
 }
 
 /// The density of items of a kind.
-pub(super) fn density(per_m2: &[f64], kind: u16) -> f64 {
+pub(crate) fn density(per_m2: &[f64], kind: u16) -> f64 {
     per_m2.get(usize::from(kind)).copied().unwrap_or_default()
 }

@@ -77,7 +77,7 @@ fn confidences(worlds: u64) -> Vec<(f64, bool)> {
         }
         all.extend(items.tracks.iter().map(|track| {
             let is_there = world.iter().any(|at| at.to(track.at).length() < 0.35);
-            (confidence_of(track, ME), is_there)
+            (probability(track.log_odds()), is_there)
         }));
     }
     all

@@ -7,14 +7,14 @@ fn a_contact_is_weighted_by_bayes_rule() {
     // Of all contacts at a position, 0.7 x 0.01 per square metre are items, and 0.02 are false
     // alarms.
     let odds = 0.7 * PER_M2 / FALSE_PER_M2 / (1.0 - TAU * 0.01 * PER_M2);
-    assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
+    assert!((confidence(&items) - odds / (1.0 + odds)).abs() < 1e-9);
     hit(&mut items, ME);
     // A second one at the same position; the standard deviation of both is 0.1 along each axis.
     let odds = odds * 0.7 / (TAU * 0.02 * FALSE_PER_M2);
-    assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
+    assert!((confidence(&items) - odds / (1.0 + odds)).abs() < 1e-9);
     miss(&mut items, ME);
     let odds = odds * 0.3;
-    assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
+    assert!((confidence(&items) - odds / (1.0 + odds)).abs() < 1e-9);
     assert_eq!(items.tracks.len(), 1);
 }
 
@@ -32,7 +32,7 @@ fn repeated_contacts_without_false_alarms_prove_even_rare_items() {
     };
     let mut items = Items::default();
     (0..5).for_each(|_| items.observe(&look, [contact(Point::default(), POSITION)].iter(), None));
-    assert!(confidence(&items, ME) > 0.99, "{}", confidence(&items, ME));
+    assert!(confidence(&items) > 0.99, "{}", confidence(&items));
 }
 
 #[test]
@@ -41,13 +41,13 @@ fn a_contact_raises_confidence_and_a_miss_lowers_it() {
     let mut before = 0.0;
     for _ in 0..4 {
         hit(&mut items, ME);
-        assert!(confidence(&items, ME) > before);
-        before = confidence(&items, ME);
+        assert!(confidence(&items) > before);
+        before = confidence(&items);
     }
     for _ in 0..15 {
         miss(&mut items, ME);
-        assert!(confidence(&items, ME) < before);
-        before = confidence(&items, ME);
+        assert!(confidence(&items) < before);
+        before = confidence(&items);
     }
     assert!(before < 0.1);
 }
@@ -56,7 +56,7 @@ fn a_contact_raises_confidence_and_a_miss_lowers_it() {
 fn items_out_of_view_are_not_missed() {
     let mut items = Items::default();
     hit(&mut items, ME);
-    let before = confidence(&items, ME);
+    let before = confidence(&items);
     observe(&mut items, ME, Point { x: -3.0, y: 0.0 }, &[]);
-    assert!((confidence(&items, ME) - before).abs() < 1e-12);
+    assert!((confidence(&items) - before).abs() < 1e-12);
 }

@@ -1,6 +1,73 @@
 use super::*;
-use crate::perception::beliefs::items::track::{log_odds, probability};
+use crate::perception::beliefs::TrustSpec;
+use crate::perception::beliefs::items::tests::{
+    ME, PER_M2, POSITION, contact, hit, miss, observe, random,
+};
+use crate::perception::beliefs::items::tracks::MAX_TRACKS;
+use base::random::unit;
+use core::f64::consts::TAU;
 use proptest::prelude::*;
+
+fn sent(items: &mut Items) -> Vec<Report> {
+    let mut outbox = Vec::new();
+    with_initial_trust(ME, |reception| items.report(reception, &mut outbox, 100));
+    let report = |message: Message| match message.about {
+        About::Item {
+            kind,
+            at,
+            provenance,
+        } => Some(Report {
+            kind,
+            at,
+            provenance,
+            confidence: message.confidence,
+            from: provenance.observer,
+        }),
+        _ => None,
+    };
+    outbox.into_iter().filter_map(report).collect()
+}
+
+/// The trust after nine refuted reports of a robot.
+fn distrust_of(sender: RobotId) -> Trust {
+    let mut trust = Trust::new(&TrustSpec::default());
+    (0..9).for_each(|_| trust.learn(sender, false));
+    trust
+}
+
+/// Calls a function with the initial trust in all robots.
+fn with_initial_trust<T>(own: RobotId, then: impl FnOnce(&Reception) -> T) -> T {
+    let trust = &Trust::new(&TrustSpec::default());
+    then(&Reception { own, trust })
+}
+
+fn receive(items: &mut Items, own: RobotId, report: &Report) {
+    with_initial_trust(own, |reception| {
+        items.receive(reception, report, 0.01, &[PER_M2]);
+    });
+}
+
+fn robot(index: u32) -> RobotId {
+    RobotId { kind: 0, index }
+}
+
+fn report(observer: u32, confidence: f64) -> Report {
+    Report {
+        kind: 0,
+        at: POSITION,
+        provenance: Provenance {
+            observer: robot(observer),
+            track_id: 1,
+            observations: 1,
+        },
+        confidence,
+        from: robot(observer),
+    }
+}
+
+fn confidence(items: &Items, own: RobotId) -> f64 {
+    with_initial_trust(own, |reception| items.tracks[0].confidence(reception))
+}
 
 #[test]
 fn a_report_is_weighted_by_the_trust_in_its_sender() {
@@ -52,11 +119,10 @@ fn a_report_of_the_observer_itself_precedes_relayed_ones() {
         },
         ..report(1, 1e-3)
     };
-    let (trust, spec) = distrust_of(robot(7));
+    let trust = distrust_of(robot(7));
     let reception = Reception {
         own: ME,
         trust: &trust,
-        spec: &spec,
     };
     let mut confidence_after = |report: &Report| {
         items.receive(&reception, report, 0.01, &[PER_M2]);
@@ -80,11 +146,10 @@ fn a_report_of_the_observer_itself_precedes_relayed_ones() {
 #[test]
 fn reports_of_distrusted_robots_are_not_relayed() {
     let mut items = Items::default();
-    let (trust, spec) = distrust_of(robot(7));
+    let trust = distrust_of(robot(7));
     let reception = Reception {
         own: ME,
         trust: &trust,
-        spec: &spec,
     };
     for (track_id, from, observer) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
         let provenance = Provenance {

@@ -1,13 +1,20 @@
-use super::*;
+use super::Messaging;
+use super::receive::MAX_OBSERVATION_RATE_HZ;
+use crate::goals::proposal::Destination;
+use crate::io::body::Body;
 use crate::io::body::{Detector, RobotId};
 use crate::io::goal_id::GoalId;
 use crate::io::message::CommitmentStatus;
+use crate::io::message::{About, Message, Provenance};
+use crate::io::percept::ReceivedMessage;
 use crate::io::percept::{Observation, Percept};
+use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::coverage_map::MAX_DETECTION;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::perception::beliefs::{BeliefsSpec, TrustSpec};
 use crate::perception::dead_reckoning::Odometry;
 use crate::world_of_walls::{now, rover};
+use base::geometry::Point;
 use base::geometry::Rectangle;
 
 const ME: RobotId = RobotId { kind: 0, index: 0 };
@@ -29,6 +36,7 @@ fn body(probability: f64) -> Body {
 
 struct Robot {
     beliefs: Beliefs,
+    messaging: Messaging,
     body: Body,
 }
 
@@ -44,6 +52,7 @@ impl Robot {
         };
         Self {
             beliefs: Beliefs::new(&spec, &body),
+            messaging: Messaging::new(&spec, &body),
             body,
         }
     }
@@ -66,8 +75,24 @@ impl Robot {
             inbox,
             ..Percept::default()
         };
-        self.beliefs
-            .update(&percept, &self.body, &[], &still(&self.body));
+        self.perceive(&percept);
+    }
+
+    fn perceive(&mut self, percept: &Percept) {
+        let (body, still) = (&self.body, still(&self.body));
+        self.beliefs.update(percept, body, &[], &still);
+        self.messaging
+            .receive(percept, body, still.elapsed_s, &mut self.beliefs);
+    }
+
+    fn broadcast(&mut self, goal: Option<Destination>, elapsed_s: f64, outbox: &mut Vec<Message>) {
+        self.messaging
+            .broadcast(&mut self.beliefs, goal, elapsed_s, outbox);
+    }
+
+    fn last_confidence(&self) -> f64 {
+        let items = self.messaging.believed_items(&self.beliefs);
+        items.last().unwrap().confidence
     }
 
     /// Steps without messages for a duration in seconds.
@@ -195,7 +220,6 @@ fn observations_on_the_path_of_a_team_mate_extend_the_map() {
 #[test]
 fn trust_in_a_sender_of_false_reports_falls() {
     let mut robot = Robot::new(0.8, 0.9);
-    let spec = robot.beliefs.prior.trust.clone();
     let mut before = 0.9;
     for track_id in 1..5 {
         // In view, at a different position each time.
@@ -203,12 +227,12 @@ fn trust_in_a_sender_of_false_reports_falls() {
             false,
             vec![item(7.0 + 0.5 * f64::from(track_id), 9.5, track_id)],
         );
-        let sent = robot.beliefs.believed_items().last().unwrap().confidence;
+        let sent = robot.last_confidence();
         (0..8).for_each(|_| robot.step(true, Vec::new()));
-        let trust = robot.beliefs.trust.of(MATE, &spec);
+        let trust = robot.messaging.trust.of(MATE);
         assert!(trust < before, "{trust}");
         before = trust;
-        let refuted = robot.beliefs.believed_items().last().unwrap().confidence;
+        let refuted = robot.last_confidence();
         assert!(refuted < 0.1 * sent, "{sent} {refuted}");
     }
     assert!((before - 4.0 * 0.9 / 8.0).abs() < 1e-6, "{before}");
@@ -218,11 +242,11 @@ fn trust_in_a_sender_of_false_reports_falls() {
 fn a_robot_broadcasts_once_per_second_if_its_pose_is_known() {
     let mut robot = Robot::new(1.0, 1.0);
     let mut outbox = Vec::new();
-    robot.beliefs.broadcast(None, 0.1, &mut outbox);
+    robot.broadcast(None, 0.1, &mut outbox);
     assert!(outbox.is_empty());
     robot.step(true, Vec::new());
     for _ in 0..30 {
-        robot.beliefs.broadcast(None, 0.1, &mut outbox);
+        robot.broadcast(None, 0.1, &mut outbox);
     }
     let senders = outbox.iter().filter(|m| {
         matches!(
@@ -250,10 +274,9 @@ fn a_turning_robot_broadcasts_its_heading_at_once() {
             }],
             ..Percept::default()
         };
-        let body = robot.body.clone();
-        robot.beliefs.update(&percept, &body, &[], &still(&body));
+        robot.perceive(&percept);
         let mut outbox = Vec::new();
-        robot.beliefs.broadcast(None, 0.1, &mut outbox);
+        robot.broadcast(None, 0.1, &mut outbox);
         let is_sender = |message: &Message| matches!(message.about, About::Sender { .. });
         outbox.iter().any(is_sender)
     };
@@ -278,7 +301,7 @@ fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
             max_speed_m_s: 1.0,
             value: 1.0,
         });
-        robot.beliefs.broadcast(aim, 0.01, &mut outbox);
+        robot.broadcast(aim, 0.01, &mut outbox);
         outbox.iter().filter_map(status).collect::<Vec<_>>()
     };
     assert_eq!(
@@ -311,7 +334,7 @@ fn a_goal_that_moves_is_broadcast_at_its_new_place_and_is_neither_done_nor_relea
             value: 1.0,
         };
         let mut outbox = Vec::new();
-        robot.beliefs.broadcast(Some(moving), 0.01, &mut outbox);
+        robot.broadcast(Some(moving), 0.01, &mut outbox);
         outbox.iter().filter_map(status).collect::<Vec<_>>()
     };
     for x in [8.1, 8.4, 9.0] {
@@ -363,7 +386,6 @@ fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedM
 #[test]
 fn a_false_relayed_report_lowers_the_trust_in_its_sender() {
     let (mut robot, innocent) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
-    let spec = robot.beliefs.prior.trust.clone();
     for track_id in 1..5 {
         robot.step(
             false,
@@ -376,21 +398,20 @@ fn a_false_relayed_report_lowers_the_trust_in_its_sender() {
         );
         (0..8).for_each(|_| robot.step(true, Vec::new()));
     }
-    assert!((robot.beliefs.trust.of(innocent, &spec) - 0.9).abs() < 1e-6);
-    assert!((robot.beliefs.trust.of(MATE, &spec) - 4.0 * 0.9 / 8.0).abs() < 1e-6);
+    assert!((robot.messaging.trust.of(innocent) - 0.9).abs() < 1e-6);
+    assert!((robot.messaging.trust.of(MATE) - 4.0 * 0.9 / 8.0).abs() < 1e-6);
 }
 
 #[test]
 fn a_report_that_is_relayed_later_counts_for_its_first_sender() {
     let (mut robot, other) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
-    let spec = robot.beliefs.prior.trust.clone();
     robot.step(
         false,
         vec![relayed(MATE, MATE, 8.0, 1), relayed(other, MATE, 8.0, 1)],
     );
     (0..8).for_each(|_| robot.step(true, Vec::new()));
-    assert!((robot.beliefs.trust.of(other, &spec) - 0.9).abs() < 1e-6);
-    assert!(robot.beliefs.trust.of(MATE, &spec) < 0.8);
+    assert!((robot.messaging.trust.of(other) - 0.9).abs() < 1e-6);
+    assert!(robot.messaging.trust.of(MATE) < 0.8);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Timers of behaviours. They follow the times of percepts, so that they take the same time at any
 //! rate of percepts.
 
-use crate::perception::situation::Situation;
+use crate::situation::Situation;
 
 /// The time since an event, counted from the step after it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,14 @@
 //! Reports of items: received, fused by trust, and sent.
 //!
-//! The sender of a report is accountable for it: see [`Trust`](super::super::trust::Trust).
+//! The sender of a report is accountable for it: see [`Trust`].
 
-use super::track::{MAX_LOG_ODDS, Source, Track, log_odds, probability};
-use super::tracks::{Items, bits, density};
+use super::trust::{MIN_TRUST, Trust};
 use crate::io::body::RobotId;
 use crate::io::message::{About, Message, Provenance};
-use crate::perception::beliefs::trust::{MIN_TRUST, Trust, TrustSpec};
+use crate::perception::beliefs::items::track::{
+    MAX_LOG_ODDS, Source, Track, log_odds, probability,
+};
+use crate::perception::beliefs::items::tracks::{Items, bits, density};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::LN_10;
@@ -34,13 +36,12 @@ pub(crate) struct Report {
 pub(crate) struct Reception<'t> {
     pub(crate) own: RobotId,
     pub(crate) trust: &'t Trust,
-    pub(crate) spec: &'t TrustSpec,
 }
 
 impl Reception<'_> {
     /// Trust in another robot, 0 to 1.
     pub(crate) fn trust_in(&self, other: RobotId) -> f64 {
-        self.trust.of(other, self.spec)
+        self.trust.of(other)
     }
 
     /// Whether a robot is trusted enough for its reports to be relayed, or to replace those of
@@ -81,7 +82,7 @@ impl Items {
     }
 
     /// Updates the trust in the senders of reports that own observations confirm or refute.
-    pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust, spec: &TrustSpec) {
+    pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust) {
         for number in bits(mem::take(&mut self.unjudged)) {
             let Some(track) = self.tracks.get_mut(number) else {
                 break;
@@ -93,7 +94,7 @@ impl Items {
                 let is_report = source.provenance.observer != own && source.log_odds() > 0.0;
                 if is_report && !source.is_judged {
                     source.is_judged = true;
-                    trust.learn(source.from, verdict, spec);
+                    trust.learn(source.from, verdict);
                 }
             }
         }
@@ -266,3 +267,6 @@ fn discounted(prior: f64, log_ratio: f64, trust: f64) -> f64 {
     let reported = probability(prior + log_ratio);
     log_odds(trust * reported + (1.0 - trust) * probability(prior)) - prior
 }
+
+#[cfg(test)]
+mod tests;

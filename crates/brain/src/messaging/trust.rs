@@ -1,9 +1,8 @@
 //! Trust in other robots.
 
 use crate::io::body::RobotId;
+use crate::perception::beliefs::TrustSpec;
 use alloc::vec::Vec;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Maximum number of robots with a record; the oldest record is dropped first.
 const MAX_RECORDS: usize = 64;
@@ -13,26 +12,6 @@ const PRIOR_WEIGHT: f32 = 4.0;
 
 /// Information with less trust is neither acted on nor relayed: it is more likely wrong than right.
 pub(crate) const MIN_TRUST: f64 = 0.5;
-
-/// How far a brain trusts the reports of other robots.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct TrustSpec {
-    /// Initial trust in a robot, 0 to 1.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub initial: f64,
-    /// Whether trust changes when the robot's own observations confirm or refute reports.
-    pub adaptive: bool,
-}
-
-impl Default for TrustSpec {
-    fn default() -> Self {
-        Self {
-            initial: 0.9,
-            adaptive: true,
-        }
-    }
-}
 
 /// Trust in each other robot: the mean of a beta distribution,
 ///
@@ -54,8 +33,9 @@ impl Default for TrustSpec {
 /// against each robot that relayed it; a correct one counts for them in the same way. For each
 /// robot, trust is the share of its reports that were correct. Positions and destinations with less
 /// weight than [`MIN_TRUST`] are ignored.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Trust {
+    spec: TrustSpec,
     records: Vec<Record>,
 }
 
@@ -67,12 +47,19 @@ struct Record {
 }
 
 impl Trust {
+    pub(crate) fn new(spec: &TrustSpec) -> Self {
+        Self {
+            spec: spec.clone(),
+            records: Vec::new(),
+        }
+    }
+
     /// Returns the trust in a robot, 0 to 1.
     #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
-    pub(crate) fn of(&self, robot: RobotId, spec: &TrustSpec) -> f64 {
-        let initial = spec.initial as f32;
+    pub(crate) fn of(&self, robot: RobotId) -> f64 {
+        let initial = self.spec.initial as f32;
         let record = self.records.iter().find(|record| record.id == robot);
-        record.map_or(spec.initial, |record| {
+        record.map_or(self.spec.initial, |record| {
             let weight = PRIOR_WEIGHT + record.confirmed + record.refuted;
             f64::from((PRIOR_WEIGHT * initial + record.confirmed) / weight)
         })
@@ -84,8 +71,8 @@ impl Trust {
     }
 
     /// Records that a report of a robot was confirmed or refuted.
-    pub(crate) fn learn(&mut self, robot: RobotId, is_confirmed: bool, spec: &TrustSpec) {
-        if !spec.adaptive {
+    pub(crate) fn learn(&mut self, robot: RobotId, is_confirmed: bool) {
+        if !self.spec.adaptive {
             return;
         }
         let known = self.records.iter().position(|record| record.id == robot);
@@ -117,13 +104,13 @@ mod tests {
 
     #[test]
     fn trust_falls_with_refuted_reports_and_rises_with_confirmed_ones() {
-        let (mut trust, spec) = (Trust::default(), TrustSpec::default());
-        assert!((trust.of(SENDER, &spec) - 0.9).abs() < 1e-6);
-        (0..4).for_each(|_| trust.learn(SENDER, false, &spec));
-        assert!((trust.of(SENDER, &spec) - 0.45).abs() < 1e-6);
-        (0..8).for_each(|_| trust.learn(SENDER, true, &spec));
-        assert!(trust.of(SENDER, &spec) > 0.7);
-        assert!((trust.of(RobotId::default(), &spec) - 0.9).abs() < 1e-6);
+        let mut trust = Trust::new(&TrustSpec::default());
+        assert!((trust.of(SENDER) - 0.9).abs() < 1e-6);
+        (0..4).for_each(|_| trust.learn(SENDER, false));
+        assert!((trust.of(SENDER) - 0.45).abs() < 1e-6);
+        (0..8).for_each(|_| trust.learn(SENDER, true));
+        assert!(trust.of(SENDER) > 0.7);
+        assert!((trust.of(RobotId::default()) - 0.9).abs() < 1e-6);
     }
 
     #[test]
@@ -132,16 +119,16 @@ mod tests {
             initial: 0.3,
             adaptive: false,
         };
-        let mut trust = Trust::default();
-        (0..9).for_each(|_| trust.learn(SENDER, true, &spec));
-        assert!((trust.of(SENDER, &spec) - 0.3).abs() < 1e-6);
+        let mut trust = Trust::new(&spec);
+        (0..9).for_each(|_| trust.learn(SENDER, true));
+        assert!((trust.of(SENDER) - 0.3).abs() < 1e-6);
     }
 
     #[test]
     fn memory_is_bounded_for_any_number_of_robots() {
-        let (mut trust, spec) = (Trust::default(), TrustSpec::default());
+        let mut trust = Trust::new(&TrustSpec::default());
         for index in 0..1000 {
-            trust.learn(RobotId { kind: 0, index }, false, &spec);
+            trust.learn(RobotId { kind: 0, index }, false);
         }
         assert_eq!(trust.records.len(), MAX_RECORDS);
     }

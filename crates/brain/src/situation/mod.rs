@@ -1,9 +1,12 @@
-//! The situation of one step, as behaviours read it.
+//! The situation of one step, as navigation and behaviours read it.
 
-use crate::io::body::Body;
+pub(crate) mod timer;
+
+use crate::io::body::{Body, RobotId};
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::io::percept::Percept;
 use crate::io::random_words::RandomWords;
+use crate::messaging::peers::Peers;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::rays::Ring;
 use base::geometry::Point;
@@ -30,6 +33,8 @@ pub(crate) struct Situation<'s> {
     pub(crate) body: &'s Body,
     /// Beliefs from all percepts so far; `None` in a brain without beliefs.
     pub(crate) beliefs: Option<&'s Beliefs>,
+    /// Its team mates; `None` in a brain without beliefs.
+    pub(crate) peers: Option<&'s Peers>,
     pub(crate) rings: &'s [Ring],
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: &'s Cell<u32>,
@@ -59,6 +64,14 @@ impl Situation<'_> {
     pub(crate) fn goal_at(&self, at: Point, previous: Option<GoalPlace>) -> GoalPlace {
         let same = previous.filter(|previous| previous.at == at);
         same.unwrap_or_else(|| self.new_goal(at))
+    }
+
+    /// The position of another robot in the world, if it is tracked or has reported it recently.
+    pub(crate) fn position_of(&self, id: RobotId) -> Option<Point> {
+        let tracked = self.beliefs?.position_of(id);
+        let mut mates = self.peers?.mates.iter();
+        let reported = || mates.find(|peer| peer.id == id)?.at();
+        tracked.or_else(reported)
     }
 
     /// Time since the previous step, in single precision, as behaviours store times.

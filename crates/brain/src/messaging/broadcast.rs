@@ -1,10 +1,12 @@
-//! The schedule of a robot's broadcasts, and what it sent last.
+//! Broadcasts: their schedule, their messages, and what the robot sent last.
 
 use crate::goals::proposal::Destination;
 use crate::io::body::RobotId;
 use crate::io::message::{About, CommitmentStatus, Message};
+use crate::perception::beliefs::pose::Pose;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::trig::wrapped;
 
 /// Time between two broadcasts of the robot's own position. Each robot has its own phase within the
 /// period, because a radio receives only a limited number of messages at once.
@@ -18,18 +20,23 @@ const BROADCASTS_PER_REPEAT: u8 = 3;
 /// multiples of the golden ratio are spread evenly.
 const KIND_PHASE: f64 = 0.618_033_988_749_894_9;
 
+/// A robot that has turned by this angle broadcasts its pose at once: receivers assume that it
+/// observed in the last heading that it sent, and a narrow field of view leaves that heading within
+/// this angle.
+const MAX_TURN_RAD: f64 = 0.3;
+
 /// What the robot broadcast last, and when.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct BroadcastState {
     /// Time that a step is expected to take.
     period_s: f64,
     goal: Option<Destination>,
-    pub(super) heading_rad: f64,
-    pub(super) observations: u32,
+    heading_rad: f64,
+    observations: u32,
     /// Time since the last broadcast; `None` before the first step.
     age_s: Option<f64>,
     /// Broadcasts since the last repeat.
-    pub(super) count: u8,
+    count: u8,
 }
 
 impl BroadcastState {
@@ -91,6 +98,32 @@ impl BroadcastState {
         outbox.extend(goal.map(|destination| message(destination, CommitmentStatus::Active)));
         self.goal = goal;
     }
+
+    /// Broadcasts the pose and the number of observations so far, if that is due or the robot has
+    /// turned since.
+    pub(super) fn broadcast_pose(
+        &mut self,
+        pose: &Pose,
+        observations: u32,
+        is_due: bool,
+        outbox: &mut Vec<Message>,
+    ) {
+        let turned_rad = wrapped(pose.heading_rad - self.heading_rad).abs();
+        let has_turned = turned_rad >= MAX_TURN_RAD && observations != self.observations;
+        if is_due || has_turned {
+            (self.heading_rad, self.observations) = (pose.heading_rad, observations);
+            outbox.push(certain(About::Sender {
+                at: pose.at,
+                heading_rad: pose.heading_rad,
+                observations,
+            }));
+        }
+    }
+
+    /// Whether the last broadcast that was due repeats destination and items.
+    pub(super) fn is_repeat(&self) -> bool {
+        self.count == 0
+    }
 }
 
 /// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed
@@ -102,7 +135,7 @@ fn phase(own: RobotId, period_s: f64) -> f64 {
 }
 
 /// A message with full confidence.
-pub(super) fn certain(about: About) -> Message {
+fn certain(about: About) -> Message {
     Message {
         about,
         confidence: 1.0,
