@@ -52,7 +52,7 @@ impl Messaging {
                 kind,
                 at,
                 provenance,
-            } if is_valid_position(at) => {
+            } if is_valid_position(at) && usize::from(kind) < body.item_kinds.len() => {
                 let report = Report {
                     kind,
                     at,

@@ -1,12 +1,37 @@
-//! Reports of items: received, fused by trust, and sent.
+//! Reports of items: received, combined by trust, and sent.
 //!
-//! The sender of a report is accountable for it: see [`Trust`].
+//! The sender of a report is accountable for it: see [`Trust`]. The belief in an item is limited by
+//! the trust in the robots behind its reports:
+//!
+//! 1. A robot sends its own observations, and relays only reports that it received from their
+//!    observer. So each report names all robots that could have forged it: its sender and its
+//!    observer.
+//! 2. Of the reports of an item that share a robot, as sender or observer, only the strongest
+//!    counts.
+//! 3. With the trust `t` of each counted report, which is the trust in its sender times that in its
+//!    observer (once if they are one robot), the belief before own observations stays within
+//!
+//! ```text
+//! prior x product of (1 - t)  <=  belief  <=  1 - (1 - prior) x product of (1 - t)
+//! ```
+//!
+//! Bound: *whatever c robots send, they make the belief in an item that no honest robot observed at
+//! most `1 - (1 - prior) (1 - t1) ... (1 - tc)`, where `ti` is the trust in each of them, at any
+//! number of honest robots that relay.* Proof: a radio names the true sender. A report of an honest
+//! sender is of its own observations or was received from the observer that it names (1), so a
+//! report that no honest robot's observations are behind has one of the c robots as sender or as
+//! observer. Counted reports share no robot (2), so at most c of them are such reports, each with
+//! another one of the c robots, and its `t` is at most the trust in that robot. The product in (3)
+//! is then at least that of the bound.
+//!
+//! At a trust of .5 and a prior of .01 that is .505 for one robot, .75 for two and .88 for three.
+//! The bound is on belief by reports: own observations apply after it.
 
 use super::trust::{MIN_TRUST, Trust};
 use crate::io::body::RobotId;
 use crate::io::message::{About, Message, Provenance};
 use crate::perception::beliefs::items::track::{
-    MAX_LOG_ODDS, Source, Track, log_odds, probability,
+    MAX_LOG_ODDS, SOURCES, Source, Track, log_odds, probability,
 };
 use crate::perception::beliefs::items::tracks::{Items, bits, density};
 use alloc::vec::Vec;
@@ -67,12 +92,16 @@ impl Items {
         let per_m2 = density(per_m2, report.kind);
         let known = self.tracks.iter().position(has_source);
         let near = || self.nearest(report.kind, report.at, variance_m2, 0);
-        let index = known.or_else(near).unwrap_or_else(|| {
-            self.add_track(Track::new(report.kind, report.at, variance_m2, per_m2))
-        });
+        let new = || Track::new(report.kind, report.at, variance_m2, per_m2);
+        let Some(index) = known
+            .or_else(near)
+            .or_else(|| self.add_reported_track(new(), reception.own))
+        else {
+            return;
+        };
         let track = &mut self.tracks[index];
         let prior = track.prior_with_another(report.at, variance_m2, per_m2);
-        let is_new = track.slot_of(report.provenance).is_none();
+        let is_new = !track.has_report_from(report.from);
         if track.replace(reception, report, prior) {
             if !track.is_observed_by(reception.own) {
                 track.correct_by_report(report.at, variance_m2, is_new);
@@ -111,7 +140,7 @@ impl Items {
             let (kind, at) = (track.kind, track.at);
             for source in &mut track.sources[..track.count] {
                 let confidence = probability(source.log_odds());
-                if left == 0 || source.is_sent(confidence) || !source.is_trusted(reception) {
+                if left == 0 || source.is_sent(confidence) || !source.is_sendable(reception) {
                     continue;
                 }
                 source.mark_sent(confidence);
@@ -134,60 +163,24 @@ impl Items {
 }
 
 impl Track {
-    /// Probability that the item exists, 0 to 1. All reports of one sender are combined before they
-    /// are weighted by trust, so that none is believed more than it is trusted, however often it
-    /// reports and whichever observers it names.
+    /// Probability that the item exists, 0 to 1.
     pub(crate) fn confidence(&self, reception: &Reception) -> f64 {
-        let sources = &self.sources[..self.count];
-        let is_first = |number: usize, from: RobotId| {
-            let mut earlier = sources[..number].iter();
-            earlier.all(|other| other.from != from)
-        };
-        let numbered = sources.iter().enumerate();
-        let firsts = numbered.filter(|(number, source)| is_first(*number, source.from));
-        let all = firsts.map(|(_, first)| {
-            let log_ratio = self.log_ratio_from(reception, first.from);
-            if first.from == reception.own {
-                log_ratio
-            } else {
-                discounted(first.prior, log_ratio, reception.trust_in(first.from))
-            }
-        });
-        probability(self.prior + all.sum::<f64>())
+        let sources = self.sources[..self.count].iter();
+        let own = sources.filter(|source| source.provenance.observer == reception.own);
+        let own: f64 = own.map(|source| source.log_ratio).sum();
+        probability(self.reported(reception) + own)
     }
 
-    /// Log likelihood ratio of all reports of one sender, assuming that they are true.
-    fn log_ratio_from(&self, reception: &Reception, from: RobotId) -> f64 {
-        let numbers = (0..self.count).filter(|number| self.sources[*number].from == from);
-        let counted = numbers.filter(|number| self.is_counted(*number));
-        let log_ratios = counted.map(|number| {
-            let Source {
-                provenance,
-                log_ratio,
-                prior,
-                ..
-            } = self.sources[number];
-            if provenance.observer == from {
-                log_ratio
-            } else {
-                discounted(prior, log_ratio, reception.trust_in(provenance.observer))
-            }
-        });
-        log_ratios.sum()
-    }
-
-    /// Whether a source is counted: observations count once, as reported by the observer itself, or
-    /// else by the first other sender.
-    fn is_counted(&self, number: usize) -> bool {
-        let Source {
-            provenance, from, ..
-        } = self.sources[number];
-        let others = self.sources[..self.count].iter().enumerate();
-        let mut same = others.filter(|(_, other)| {
-            other.provenance.observer == provenance.observer && other.from != from
-        });
-        provenance.observer == from
-            || same.all(|(index, other)| index > number && other.from != provenance.observer)
+    /// Log odds by the reports of others, within the bounds of the [module](self).
+    fn reported(&self, reception: &Reception) -> f64 {
+        let (mut sum, mut distrust) = (self.prior, 1.0);
+        for report in Ranked::new(self, reception).counted() {
+            sum += report.log_ratio;
+            distrust *= 1.0 - report.trust;
+        }
+        let prior = probability(self.prior);
+        let (min, max) = (prior * distrust, 1.0 - (1.0 - prior) * distrust);
+        sum.max(log_odds(min)).min(log_odds(max))
     }
 
     /// Adds or replaces the source of a report; `prior` is that of a new source. Returns whether it
@@ -200,13 +193,32 @@ impl Track {
         }
         let prior = known.map_or(prior, |slot| self.sources[slot].prior);
         let log_ratio = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - prior;
-        let Some(slot) = known.or_else(|| self.free_slot(reception.own, log_ratio)) else {
+        let spare = known
+            .is_none()
+            .then(|| self.spare_slot(reception, report))
+            .flatten();
+        let free = || self.free_slot(reception.own, log_ratio);
+        let Some(slot) = known.or(spare).or_else(free) else {
             return false;
         };
         let source = &mut self.sources[slot];
         (source.provenance, source.from, source.prior) = (provenance, report.from, prior);
         source.log_ratio = log_ratio.max(-MAX_LOG_ODDS).min(MAX_LOG_ODDS - prior);
         true
+    }
+
+    /// The slot of a report that does not count, if all slots are in use and a new report would
+    /// count: otherwise a liar could occupy all of them.
+    fn spare_slot(&mut self, reception: &Reception, report: &Report) -> Option<usize> {
+        if self.count < self.sources.len() {
+            return None;
+        }
+        let ranked = Ranked::new(self, reception);
+        let robots = [report.from, report.provenance.observer];
+        let is_new = !ranked.counted().any(|counted| counted.shares(robots));
+        let slot = ranked.last_not_counted().filter(|_| is_new)?;
+        self.sources[slot] = Source::default();
+        Some(slot)
     }
 
     /// Whether own observations confirm the item; `None` if they are not decisive.
@@ -222,7 +234,13 @@ impl Track {
         }
     }
 
-    /// Corrects the position with a report; a repeated report is not a new measurement.
+    fn has_report_from(&self, sender: RobotId) -> bool {
+        let mut sources = self.sources[..self.count].iter();
+        sources.any(|source| source.from == sender)
+    }
+
+    /// Corrects the position with a report if it is the first of its sender: with any number of
+    /// them, a liar could move the item to any place.
     fn correct_by_report(&mut self, at: Point, variance_m2: f64, is_new: bool) {
         if self.count == 1 {
             (self.at, self.variance_m2) = (at, variance_m2);
@@ -255,9 +273,94 @@ impl Source {
         self.sent_confidence = confidence as f32;
     }
 
-    /// Whether it is relayed.
-    fn is_trusted(&self, reception: &Reception) -> bool {
-        reception.trusts(self.from) && reception.trusts(self.provenance.observer)
+    /// Whether it is sent: own observations are, and those that a trusted observer has reported
+    /// itself. The receivers then know all robots that have passed a report on.
+    fn is_sendable(&self, reception: &Reception) -> bool {
+        self.from == self.provenance.observer && reception.trusts(self.from)
+    }
+}
+
+/// A report of another robot in a track, weighted by trust.
+#[derive(Debug, Clone, Copy, Default)]
+struct WeightedReport {
+    slot: usize,
+    /// The sender and the observer.
+    robots: [RobotId; 2],
+    /// Trust in the sender x trust in the observer, once if they are one robot.
+    trust: f64,
+    /// Log likelihood ratio, discounted by trust.
+    log_ratio: f64,
+    is_counted: bool,
+}
+
+impl WeightedReport {
+    fn new(slot: usize, source: &Source, reception: &Reception) -> Self {
+        let (from, observer) = (source.from, source.provenance.observer);
+        let in_observer = if observer == from {
+            1.0
+        } else {
+            reception.trust_in(observer)
+        };
+        let trust = reception.trust_in(from) * in_observer;
+        Self {
+            slot,
+            robots: [from, observer],
+            trust,
+            log_ratio: discounted(source.prior, source.log_ratio, trust),
+            is_counted: false,
+        }
+    }
+
+    /// Whether it comes from one of two robots, or from observations of one of them.
+    fn shares(&self, robots: [RobotId; 2]) -> bool {
+        robots.iter().any(|robot| self.robots.contains(robot))
+    }
+}
+
+/// The reports of other robots in a track, the strongest first.
+struct Ranked {
+    reports: [WeightedReport; SOURCES],
+    count: usize,
+}
+
+impl Ranked {
+    fn new(track: &Track, reception: &Reception) -> Self {
+        let mut ranked = Self {
+            reports: [WeightedReport::default(); SOURCES],
+            count: 0,
+        };
+        for (slot, source) in track.sources[..track.count].iter().enumerate() {
+            if source.provenance.observer != reception.own {
+                ranked.reports[ranked.count] = WeightedReport::new(slot, source, reception);
+                ranked.count += 1;
+            }
+        }
+        ranked.rank();
+        ranked
+    }
+
+    /// Sorts by strength, and counts each report that shares no robot with a stronger counted one.
+    fn rank(&mut self) {
+        let reports = &mut self.reports[..self.count];
+        // Stable: of equally strong reports, the first counts.
+        reports.sort_by(|one, other| other.log_ratio.abs().total_cmp(&one.log_ratio.abs()));
+        for place in 0..reports.len() {
+            let robots = reports[place].robots;
+            let mut stronger = reports[..place].iter();
+            let is_shared = stronger.any(|other| other.is_counted && other.shares(robots));
+            reports[place].is_counted = !is_shared;
+        }
+    }
+
+    fn counted(&self) -> impl Iterator<Item = &WeightedReport> {
+        let reports = self.reports[..self.count].iter();
+        reports.filter(|report| report.is_counted)
+    }
+
+    /// The slot of the weakest report that does not count.
+    fn last_not_counted(&self) -> Option<usize> {
+        let mut reports = self.reports[..self.count].iter().rev();
+        Some(reports.find(|report| !report.is_counted)?.slot)
     }
 }
 

@@ -151,7 +151,7 @@ fn reports_of_distrusted_robots_are_not_relayed() {
         own: ME,
         trust: &trust,
     };
-    for (track_id, from, observer) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
+    for (track_id, from, observer) in [(1, 7, 1), (2, 7, 7), (3, 2, 2)] {
         let provenance = Provenance {
             track_id,
             ..report(observer, 0.9).provenance
@@ -326,10 +326,246 @@ proptest! {
                 let prior = track.sources[track.slot_by(report.provenance.observer)].prior;
                 log_odds(0.9 * report.confidence + 0.1 * probability(prior)) - prior
             });
-            let expected = probability(track.prior + observations.log_ratio + reported.sum::<f64>());
+            let others = i32::try_from(reported.clone().count()).unwrap();
+            let [sure, prior] = [0.1_f64.powi(others), probability(track.prior)];
+            let reported = (track.prior + reported.sum::<f64>())
+                .clamp(log_odds(prior * sure), log_odds(1.0 - (1.0 - prior) * sure));
+            let expected = probability(reported + observations.log_ratio);
             prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);
         }
     }
+}
+
+/// What an adversary does in one step.
+#[derive(Debug, Clone, Copy)]
+struct Act {
+    liar: usize,
+    /// The honest robot that it sends to, and one whose messages arrive afterwards.
+    to: usize,
+    from: usize,
+    report: Report,
+}
+
+/// Any report at the place of the lie, of any robot's observations.
+fn act() -> impl Strategy<Value = Act> {
+    let robots = (0_usize..3, 0_usize..HEARERS, 0_usize..HEARERS);
+    let provenance = (0_u32..30, 0_u32..6, 0_u32..9, any::<bool>());
+    let content = (0.0_f64..=1.0, -0.4_f64..0.4, -0.4_f64..0.4);
+    (robots, provenance, content).prop_map(
+        |((liar, to, from), (observer, track_id, more, is_sure), (confidence, x, y))| Act {
+            liar,
+            to,
+            from,
+            report: Report {
+                kind: 0,
+                at: POSITION.plus(Point { x, y }),
+                provenance: Provenance {
+                    observer: robot(observer),
+                    track_id,
+                    observations: if more == 8 { u32::MAX } else { more },
+                },
+                confidence: if is_sure { 1.0 } else { confidence },
+                from: ME,
+            },
+        },
+    )
+}
+
+/// Number of honest robots; the first is the one whose beliefs are limited.
+const HEARERS: usize = 6;
+
+/// Ids of the liars.
+const LIARS: u32 = 20;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    /// No honest robot observes anything: all reports come from liars, directly or relayed.
+    #[test]
+    fn liars_are_believed_within_the_bound_whatever_they_send_and_whoever_relays_it(
+        trusts in [0.0_f64..1.0, 0.0_f64..1.0, 0.0_f64..1.0],
+        liars in 1_usize..4,
+        acts in proptest::collection::vec(act(), 1..200),
+    ) {
+        let mut team: Vec<Items> = vec![Items::default(); HEARERS];
+        let trust = liar_trust(&trusts);
+        let hear = |items: &mut Items, own: usize, report: &Report| {
+            let own = robot(u32::try_from(own).unwrap());
+            items.receive(&Reception { own, trust: &trust }, report, 0.01, &[PER_M2]);
+        };
+        for Act { liar, to, from, report } in acts {
+            let liar = robot(LIARS + u32::try_from(liar % liars).unwrap());
+            hear(&mut team[to], to, &Report { from: liar, ..report });
+            let sender = robot(u32::try_from(from).unwrap());
+            let mut outbox = Vec::new();
+            let reception = Reception { own: sender, trust: &trust };
+            team[from].report(&reception, &mut outbox, 2);
+            team[from].repeat_next();
+            for message in outbox {
+                for (own, items) in team.iter_mut().enumerate().filter(|(own, _)| *own != from) {
+                    hear(items, own, &received_from(sender, message));
+                }
+            }
+            let reception = Reception { own: ME, trust: &trust };
+            for track in &team[0].tracks {
+                let bound = (0..liars).fold(1.0 - probability(track.prior), |left, liar| {
+                    left * (1.0 - trust.of(robot(LIARS + u32::try_from(liar).unwrap())))
+                });
+                let belief = track.confidence(&reception);
+                prop_assert!(belief <= 1.0 - bound + 1e-9, "{} above {}", belief, 1.0 - bound);
+            }
+        }
+    }
+}
+
+/// Trust near the given values in the three liars, and .9 in all other robots.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "few"
+)]
+fn liar_trust(wanted: &[f64; 3]) -> Trust {
+    let mut trust = Trust::new(&TrustSpec::default());
+    for (wanted, liar) in wanted.iter().zip(LIARS..) {
+        let refuted = (3.6 / wanted.max(0.05) - 4.0).max(0.0) as u32;
+        (0..refuted).for_each(|_| trust.learn(robot(liar), false));
+    }
+    trust
+}
+
+fn received_from(from: RobotId, message: Message) -> Report {
+    match message.about {
+        About::Item {
+            kind,
+            at,
+            provenance,
+        } => Report {
+            kind,
+            at,
+            provenance,
+            confidence: message.confidence,
+            from,
+        },
+        about => panic!("no item: {about:?}"),
+    }
+}
+
+#[test]
+fn three_liars_are_believed_at_most_a_half_three_quarters_and_seven_eighths() {
+    let spec = TrustSpec {
+        initial: 0.5,
+        adaptive: true,
+    };
+    let trust = Trust::new(&spec);
+    let (reception, mut items) = (
+        Reception {
+            own: ME,
+            trust: &trust,
+        },
+        Items::default(),
+    );
+    let mut beliefs = Vec::new();
+    for liar in 1..4 {
+        items.receive(&reception, &report(liar, 1.0), 0.01, &[PER_M2]);
+        beliefs.push(items.tracks[0].confidence(&reception));
+    }
+    let prior = probability(items.tracks[0].prior);
+    for (belief, left) in beliefs.iter().zip([0.5, 0.25, 0.125]) {
+        assert!(
+            (belief - (1.0 - (1.0 - prior) * left)).abs() < 1e-3,
+            "{beliefs:?}"
+        );
+    }
+}
+
+#[test]
+fn a_relayed_report_is_not_relayed_again() {
+    let mut items = Items::default();
+    let relayed = Report {
+        from: robot(2),
+        ..report(1, 0.9)
+    };
+    receive(&mut items, ME, &relayed);
+    assert!(sent(&mut items).is_empty());
+    receive(&mut items, ME, &report(1, 0.9));
+    assert_eq!(sent(&mut items).len(), 1);
+}
+
+#[test]
+fn of_reports_that_share_a_robot_only_the_strongest_counts() {
+    let alone = |reports: &[Report]| {
+        let mut items = Items::default();
+        reports
+            .iter()
+            .for_each(|each| receive(&mut items, ME, each));
+        confidence(&items, ME)
+    };
+    let strong = report(1, 0.9);
+    for weaker in [
+        Report {
+            from: robot(1),
+            ..report(3, 0.5)
+        },
+        Report {
+            from: robot(3),
+            provenance: Provenance {
+                track_id: 2,
+                ..strong.provenance
+            },
+            ..report(1, 0.5)
+        },
+    ] {
+        let both = alone(&[strong, weaker]);
+        assert!((both - alone(&[strong])).abs() < 1e-12);
+        // The prior of a report depends on those before it.
+        assert!(alone(&[weaker, strong]) <= both);
+    }
+    assert!(alone(&[strong, report(3, 0.5)]) > alone(&[strong]));
+}
+
+#[test]
+fn a_liar_cannot_keep_honest_reports_out_of_a_track() {
+    let mut items = Items::default();
+    for observer in 10..30 {
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                from: robot(7),
+                ..report(observer, 1.0)
+            },
+        );
+    }
+    let by_liar = confidence(&items, ME);
+    receive(&mut items, ME, &report(1, 0.5));
+    assert!(confidence(&items, ME) > by_liar);
+}
+
+#[test]
+fn a_liar_cannot_move_a_reported_item_far() {
+    let mut items = Items::default();
+    receive(&mut items, ME, &report(1, 0.9));
+    for number in 0..100 {
+        let provenance = Provenance {
+            track_id: number,
+            ..report(7, 1.0).provenance
+        };
+        let at = items.tracks[0].at.plus(Point { x: 0.2, y: 0.0 });
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                at,
+                provenance,
+                ..report(7, 1.0)
+            },
+        );
+    }
+    assert!(
+        items.tracks[0].at.to(POSITION).length() < 0.2,
+        "{:?}",
+        items.tracks[0].at
+    );
 }
 
 impl Track {

@@ -6,7 +6,7 @@ use base::geometry::Point;
 use core::f64::consts::PI;
 
 /// Maximum number of sources per track.
-const SOURCES: usize = 6;
+pub(crate) const SOURCES: usize = 6;
 
 /// Minimum standard deviation of a position.
 pub(crate) const MIN_DEVIATION_M: f64 = 0.05;

@@ -50,17 +50,38 @@ impl Items {
         nearest.map(|(_, number)| number)
     }
 
-    /// Adds a track; returns its index.
+    /// Adds a track, replacing the least likely one if there are too many; returns its index.
     pub(crate) fn add_track(&mut self, track: Track) -> usize {
+        let index = self.replaceable(|_| true).unwrap_or(0);
+        self.insert(track, index)
+    }
+
+    /// Like [`Items::add_track`] for an item that another robot reports: it does not replace own
+    /// observations. Returns `None` if there is nothing else to replace.
+    pub(crate) fn add_reported_track(&mut self, track: Track, own: RobotId) -> Option<usize> {
+        let index = self.replaceable(|track| !track.is_observed_by(own))?;
+        Some(self.insert(track, index))
+    }
+
+    /// Index of the least likely track for which a condition holds, or of the next one while there
+    /// is space.
+    fn replaceable(&self, condition: impl Fn(&Track) -> bool) -> Option<usize> {
         if self.tracks.len() < MAX_TRACKS {
-            self.tracks.push(track);
-            return self.tracks.len() - 1;
+            return Some(self.tracks.len());
         }
         let numbered = self.tracks.iter().enumerate();
-        let log_odds = numbered.map(|(number, track)| (track.log_odds(), number));
+        let tracks = numbered.filter(|(_, track)| condition(track));
+        let log_odds = tracks.map(|(number, track)| (track.log_odds(), number));
         let lowest = log_odds.min_by(|one, other| one.0.total_cmp(&other.0));
-        let index = lowest.map_or(0, |(_, number)| number);
-        self.tracks[index] = track;
+        lowest.map(|(_, number)| number)
+    }
+
+    fn insert(&mut self, track: Track, index: usize) -> usize {
+        if index < self.tracks.len() {
+            self.tracks[index] = track;
+        } else {
+            self.tracks.push(track);
+        }
         index
     }
 
