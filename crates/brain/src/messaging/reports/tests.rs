@@ -495,9 +495,9 @@ fn a_relayed_report_is_not_relayed_again() {
 fn of_reports_that_share_a_robot_only_the_strongest_counts() {
     let alone = |reports: &[Report]| {
         let mut items = Items::default();
-        reports
-            .iter()
-            .for_each(|each| receive(&mut items, ME, each));
+        for each in reports {
+            receive(&mut items, ME, each);
+        }
         confidence(&items, ME)
     };
     let strong = report(1, 0.9);
