@@ -61,7 +61,13 @@ pub(crate) fn arbitrate<B: Behaviour>(
             layer.hold.advance(situation);
         }
     }
-    proposal
+    proposal.or_else(|| idle(behaviours))
+}
+
+/// The index and motion of the highest behaviour that moves while none proposes anything.
+pub(crate) fn idle<B: Behaviour>(behaviours: &[B]) -> Option<(usize, Proposal)> {
+    let mut numbered = behaviours.iter().enumerate().rev();
+    numbered.find_map(|(place, behaviour)| Some((place, behaviour.idle()?.into())))
 }
 
 /// The proposals of all behaviours, the highest first, down to the first that proposes a motion:
@@ -82,6 +88,9 @@ pub(crate) fn proposals<B: Behaviour>(
             has_motion = matches!(proposal, Proposal::Motion(_));
             proposals.push((place, proposal));
         }
+    }
+    if proposals.is_empty() {
+        proposals.extend(idle(behaviours));
     }
 }
 

@@ -50,6 +50,11 @@ pub(crate) trait Behaviour {
     /// The motion while it is active without being triggered.
     fn held(&self) -> Motion;
 
+    /// Its motion while no behaviour proposes anything; `None` if it has none.
+    fn idle(&self) -> Option<Motion> {
+        None
+    }
+
     /// The heading at which the turn that it proposed last ends, from -pi (excluded) to pi; `None` if
     /// it did not propose a turn on the spot to a heading.
     fn heading_rad(&self, _memory: &Self::Memory) -> Option<f64> {

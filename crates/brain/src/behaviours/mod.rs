@@ -180,6 +180,12 @@ macro_rules! behaviours {
                 }
             }
 
+            fn idle(&self) -> Option<Motion> {
+                match self {
+                    $(Self::$kind(ready) => ready.idle(),)+
+                }
+            }
+
             #[inline]
             fn heading_rad(&self, memory: &Memory) -> Option<f64> {
                 match (self, memory) {

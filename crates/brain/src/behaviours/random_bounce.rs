@@ -104,6 +104,11 @@ impl Behaviour for Ready {
         self.held
     }
 
+    /// Straight on. Lower behaviours that propose something take precedence.
+    fn idle(&self) -> Option<Motion> {
+        Some(self.held)
+    }
+
     #[inline]
     fn suppressed(&self, memory: &mut Memory) {
         *memory = STRAIGHT;
@@ -172,7 +177,7 @@ mod tests {
     use super::*;
     use crate::behaviours::{BehaviourSpec, Cruise};
     use crate::world_of_walls::{Walk, Wiring, now, room, rover};
-    use crate::{Brain, BrainSpec, Percept, Scan};
+    use crate::{Arbitration, Brain, BrainSpec, Percept, Scan, Schemas};
     use proptest::prelude::*;
     use std::sync::Arc;
 
@@ -217,6 +222,21 @@ mod tests {
                 squares_visited(&mut walk, &mut brain(&body, RandomBounce::default()), 600);
             assert!(squares >= 24, "{squares} of 25");
             assert!(walk.min_gap_m > 0.0, "{}", walk.min_gap_m);
+        }
+    }
+
+    #[test]
+    fn as_the_only_behaviour_it_searches_the_whole_room() {
+        let schemas = Arbitration::Schemas(Schemas::default());
+        for arbitration in [Arbitration::Subsumption, Arbitration::Goals, schemas] {
+            let spec = BrainSpec {
+                behaviours: vec![BehaviourSpec::RandomBounce(RandomBounce::default())],
+                arbitration,
+                ..BrainSpec::default()
+            };
+            let mut walk = Walk::new(rover(), room(5.0, 5.0), [2.5, 2.5], 0.3);
+            let mut brain = Brain::new(Arc::new(spec), Arc::new(rover()));
+            assert!(squares_visited(&mut walk, &mut brain, 600) >= 24);
         }
     }
 

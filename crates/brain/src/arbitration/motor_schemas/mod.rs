@@ -24,7 +24,7 @@ mod proposal_mean;
 mod repulsion;
 mod spec;
 
-use crate::arbitration::subsumption::{Layer, step};
+use crate::arbitration::subsumption::{Layer, idle, step};
 use crate::behaviours::{Memory, Ready};
 use crate::io::command::Motion;
 use crate::situation::Situation;
@@ -60,10 +60,16 @@ impl Sum {
         situation: &Situation,
     ) -> Motion {
         let mut proposals = ProposalMean::default();
+        let mut is_idle = true;
         for ((behaviour, layer), gain) in behaviours.iter().zip(layers).zip(&self.gains) {
             if let Some(proposal) = step(behaviour, layer, situation) {
                 proposals.add(&proposal, *gain, situation);
+                is_idle = false;
             }
+        }
+        if let Some((place, proposal)) = idle(behaviours).filter(|_| is_idle) {
+            let gain = self.gains.get(place).copied().flatten();
+            proposals.add(&proposal, gain, situation);
         }
         let noise = noise.vector(&self.spec, proposals.max_speed > 0.0, situation);
         if proposals.max_speed <= 0.0 {
