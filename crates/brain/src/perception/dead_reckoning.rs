@@ -154,9 +154,11 @@ impl DeadReckoning {
             self.speed_m_s = 0.0;
         }
         let rate = self.turn_rate_rad_s(percept, body);
-        let heading = percept.heading_rad.filter(is_current);
+        let heading = percept.heading_rad;
         let heading = heading.filter(|reading| reading.value.abs() <= MAX_HEADING_RAD);
-        // Compensates the latency of the compass.
+        // An older reading would need the turn rates of earlier steps.
+        let is_of_step = |age_s: f64| (0.0..=1.000_001 * elapsed_s).contains(&age_s);
+        let heading = heading.filter(|reading| is_of_step(reading.age_s));
         let heading_now =
             heading.map(|reading| wrapped(reading.value + rate * reading.age_s) as f32);
         let now = heading_now.unwrap_or(f32::NAN);

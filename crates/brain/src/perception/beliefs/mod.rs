@@ -19,6 +19,8 @@ pub(crate) mod occupancy;
 pub(crate) mod others;
 pub(crate) mod peers;
 pub(crate) mod pose;
+mod pose_filter;
+mod pose_history;
 mod readings;
 mod scan_objects;
 mod scans;
