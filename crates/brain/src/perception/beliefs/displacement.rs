@@ -6,9 +6,6 @@ use crate::perception::dead_reckoning::Odometry;
 use crate::perception::sector::direction;
 use base::geometry::Point;
 
-/// Maximum number of parts of a gap between percepts whose displacements are added.
-const MAX_PARTS: f64 = 64.0;
-
 /// Relative odometry error, of the distance and of the turn.
 const ODOMETRY_ERROR: f64 = 0.02;
 
@@ -35,19 +32,25 @@ pub(crate) struct Displacement {
 }
 
 impl Displacement {
-    /// The displacement to a new speed: acceleration first, then motion at that speed, both at the
-    /// same turn rate.
+    /// The displacement to a new speed: constant acceleration first, then motion at that speed, both
+    /// at the same turn rate.
     pub(crate) fn new(previous_speed_m_s: f64, to: &Odometry, body: &Body) -> Self {
-        let moved = if to.elapsed_s > body.period_s {
-            Self::in_gap(previous_speed_m_s, to, body)
-        } else {
-            let path_m = path_m(previous_speed_m_s, to, body, to.elapsed_s);
-            Self::along(path_m, to)
-        };
+        let change_m_s = to.speed_m_s - previous_speed_m_s;
+        let max_m_s2 = body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
+        let change_s = (change_m_s.abs() / max_m_s2).min(to.elapsed_s);
+        if change_s == 0.0 {
+            return Self::along(to.speed_m_s * to.elapsed_s, to);
+        }
+        let rate_rad_s = to.turned_rad / to.elapsed_s;
+        let constant_s = to.elapsed_s - change_s;
+        let first = accelerating([previous_speed_m_s, to.speed_m_s], change_s, rate_rad_s);
+        let second = arc(to.speed_m_s * constant_s, rate_rad_s * constant_s);
+        let mean_m_s = f64::midpoint(previous_speed_m_s, to.speed_m_s);
         Self {
+            chord: first.plus(turned(second, direction(rate_rad_s * change_s))),
             from_m_s: previous_speed_m_s,
             to_m_s: to.speed_m_s,
-            ..moved
+            ..Self::along(mean_m_s * change_s + to.speed_m_s * constant_s, to)
         }
     }
 
@@ -57,30 +60,12 @@ impl Displacement {
         let (off_m, off_rad) = (ODOMETRY_ERROR * path_m, ODOMETRY_ERROR * to.turned_rad);
         Self {
             elapsed_s: to.elapsed_s,
-            chord: chord(path_m, to.turned_rad),
+            chord: arc(path_m, to.turned_rad),
             turned_rad: to.turned_rad,
             from_m_s: speed_m_s,
             to_m_s: speed_m_s,
             variance_m2: off_m * off_m + PROCESS_NOISE_M2_S * to.elapsed_s,
             variance_rad2: off_rad * off_rad + PROCESS_NOISE_RAD2_S * to.elapsed_s,
-        }
-    }
-
-    /// In a gap between percepts, the path is a chain of arcs.
-    fn in_gap(previous_speed_m_s: f64, to: &Odometry, body: &Body) -> Self {
-        let count = libm::ceil(to.elapsed_s / body.period_s.max(1e-3)).clamp(2.0, MAX_PARTS);
-        let part_s = to.elapsed_s / count;
-        let part_rad = to.turned_rad / count;
-        let (mut end, mut before_m, mut part) = (Point::default(), 0.0, 0.0);
-        while part < count {
-            let after_m = path_m(previous_speed_m_s, to, body, part_s * (part + 1.0));
-            let front = direction(part_rad * part);
-            end = end.plus(turned(chord(after_m - before_m, part_rad), front));
-            (before_m, part) = (after_m, part + 1.0);
-        }
-        Self {
-            chord: end,
-            ..Self::along(before_m, to)
         }
     }
 
@@ -132,18 +117,8 @@ impl Displacement {
     }
 }
 
-/// Length of the path after a time: acceleration to the new speed first, then motion at that speed.
-fn path_m(previous_speed_m_s: f64, to: &Odometry, body: &Body, after_s: f64) -> f64 {
-    let change_m_s = to.speed_m_s - previous_speed_m_s;
-    let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
-    if after_s < change_s && to.elapsed_s > body.period_s {
-        return after_s * (previous_speed_m_s + change_m_s * after_s / change_s / 2.0);
-    }
-    to.speed_m_s * after_s - change_m_s * change_s.min(after_s) / 2.0
-}
-
 /// The chord of an arc, in the frame at its beginning.
-fn chord(path_m: f64, turned_rad: f64) -> Point {
+fn arc(path_m: f64, turned_rad: f64) -> Point {
     let half_rad = turned_rad / 2.0;
     let bearing = direction(half_rad);
     let chord_per_arc = if half_rad.abs() < 1e-6 {
@@ -152,6 +127,28 @@ fn chord(path_m: f64, turned_rad: f64) -> Point {
         bearing.y / half_rad
     };
     bearing.times(path_m * chord_per_arc)
+}
+
+/// The chord of a path at constant acceleration and turn rate: that of an arc of this length at the
+/// mean speed, and an offset to the side of the larger speed.
+///
+/// With u the time from the middle and h half the turn, the offset is the integral of
+/// acceleration u sin(rate u), which is change x time x (sin h - h cos h) / (2 h^2).
+fn accelerating([from_m_s, to_m_s]: [f64; 2], elapsed_s: f64, rate_rad_s: f64) -> Point {
+    let half_rad = rate_rad_s * elapsed_s / 2.0;
+    let bearing = direction(half_rad);
+    let share = if half_rad.abs() < 1e-3 {
+        half_rad / 6.0
+    } else {
+        (bearing.y - half_rad * bearing.x) / (2.0 * half_rad * half_rad)
+    };
+    let offset_m = (to_m_s - from_m_s) * elapsed_s * share;
+    let left = Point {
+        x: -bearing.y,
+        y: bearing.x,
+    };
+    let path_m = f64::midpoint(from_m_s, to_m_s) * elapsed_s;
+    arc(path_m, 2.0 * half_rad).plus(left.times(offset_m))
 }
 
 #[cfg(test)]
@@ -214,5 +211,26 @@ mod tests {
         let radius_m = 10.0 / TAU;
         let quarter = Point::from([radius_m, radius_m]);
         assert!(until.chord.to(quarter).length() < 1e-9, "{until:?}");
+    }
+
+    #[test]
+    fn the_displacement_is_the_integral_of_the_velocity() {
+        let turns_rad = [0.0, 1e-4, -0.3, 2.0, 7.0];
+        for (from_m_s, turned_rad) in [-0.5, 0.3, 1.0]
+            .into_iter()
+            .flat_map(|from_m_s| turns_rad.map(|turned_rad| (from_m_s, turned_rad)))
+        {
+            let (parts, elapsed_s) = (20_000, 2.0);
+            let part_s = elapsed_s / f64::from(parts);
+            let mut end = Point::default();
+            for part in 0..parts {
+                let now_s = part_s * (f64::from(part) + 0.5);
+                let speed_m_s = (from_m_s + now_s).min(1.0);
+                let front = direction(turned_rad * now_s / elapsed_s);
+                end = end.plus(front.times(speed_m_s * part_s));
+            }
+            let moved = Displacement::new(from_m_s, &odometry(elapsed_s, turned_rad), &rover());
+            assert!(moved.chord.to(end).length() < 1e-7, "{moved:?} {end:?}");
+        }
     }
 }

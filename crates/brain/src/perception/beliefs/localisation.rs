@@ -7,7 +7,6 @@ use super::pose_history::{Measured, PoseHistory};
 use super::readings::MAX_AGE_S;
 use crate::io::body::Body;
 use crate::io::percept::{Percept, Reading};
-use base::geometry::Point;
 
 /// Readings farther from the origin than this are ignored.
 const MAX_COORDINATE_M: f64 = 1e7;
@@ -91,6 +90,7 @@ mod tests {
     use super::*;
     use crate::perception::dead_reckoning::Odometry;
     use crate::world_of_walls::{now, rover};
+    use base::geometry::Point;
 
     const AT_REST: [f64; 2] = [0.0, 0.0];
     const AHEAD: [f64; 2] = [1.0, 0.0];
