@@ -344,6 +344,23 @@ mod tests {
     }
 
     #[test]
+    fn a_late_compass_does_not_measure_the_turn_of_this_step() {
+        // At rest until now, by a compass that is 1 s late.
+        let late = Percept {
+            heading_rad: Some(Reading {
+                value: 0.5,
+                age_s: 1.0,
+            }),
+            ..Percept::default()
+        };
+        let (mut odometry, body) = (DeadReckoning::default(), rover());
+        odometry.update(&late, &body, 0.1);
+        odometry.record_command(TURN);
+        let turned_rad = odometry.update(&late, &body, 0.1);
+        assert!((turned_rad - 0.1).abs() < 1e-6, "{turned_rad}");
+    }
+
+    #[test]
     fn in_a_gap_between_percepts_more_than_a_full_turn_is_known_from_the_command() {
         let (mut odometry, body) = (DeadReckoning::default(), rover());
         let compass = |heading_rad: f64| Percept {

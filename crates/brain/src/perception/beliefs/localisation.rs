@@ -16,8 +16,9 @@ const MAX_HEADING_RAD: f64 = 1e4;
 
 /// The pose of the robot, now and recently.
 ///
-/// The history is as long as the oldest reading so far was old, so that it takes next to no memory
-/// without late sensors. A reading that is older than the history is ignored, but extends it.
+/// The history is as long as the maximum age of the readings so far, so that it takes next to no
+/// memory without late sensors; while the pose is unknown, it has its maximum length. A reading that
+/// is older than the history is ignored, but extends it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Localisation {
     history: PoseHistory,
@@ -44,7 +45,9 @@ impl Localisation {
 
     /// Updates the pose after a step with a displacement.
     pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
-        self.history.add(moved, self.depth_s);
+        let is_known = self.pose().is_some();
+        let depth_s = if is_known { self.depth_s } else { MAX_AGE_S };
+        self.history.add(moved, depth_s);
         let elapsed_s = moved.elapsed_s;
         if let Some(heading) = unused(percept.heading_rad, &mut self.heading_s, elapsed_s)
             && heading.value.abs() <= MAX_HEADING_RAD
@@ -89,8 +92,10 @@ fn unused<T: Copy>(
 mod tests {
     use super::*;
     use crate::perception::dead_reckoning::Odometry;
+    use crate::perception::sector::direction;
     use crate::world_of_walls::{now, rover};
     use base::geometry::Point;
+    use base::trig::wrapped;
 
     const AT_REST: [f64; 2] = [0.0, 0.0];
     const AHEAD: [f64; 2] = [1.0, 0.0];
@@ -171,19 +176,156 @@ mod tests {
         assert!((localisation.pose().unwrap().deviation_m - 2.0).abs() < 1e-4);
     }
 
-    #[test]
-    fn a_delayed_reading_is_compensated_by_the_distance_since() {
-        let mut localisation = Localisation::default();
-        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), &moved(AT_REST));
-        let late = Percept {
-            position: Some(Reading {
-                value: Point { x: 4.0, y: 0.0 },
-                age_s: 0.05,
-            }),
-            ..percept(0.0, 0.0, 0.0)
+    /// The true pose after a time on a circle, from the origin along x.
+    fn on_circle([speed_m_s, rate_rad_s]: [f64; 2], time_s: f64) -> (Point, f64) {
+        let turned_rad = rate_rad_s * time_s;
+        let radius_m = speed_m_s / rate_rad_s;
+        let front = direction(turned_rad);
+        let at = Point {
+            x: radius_m * front.y,
+            y: radius_m * (1.0 - front.x),
         };
-        localisation.update(&late, &rover(), &moved(AHEAD));
-        assert!((localisation.pose().unwrap().at.x - 4.05).abs() < 1e-9);
+        (at, wrapped(turned_rad))
+    }
+
+    /// A percept of readings of these ages, taken on a circle.
+    fn late(motion: [f64; 2], time_s: f64, [position_s, heading_s]: [f64; 2]) -> Percept {
+        Percept {
+            position: Some(Reading {
+                value: on_circle(motion, time_s - position_s).0,
+                age_s: position_s,
+            }),
+            heading_rad: Some(Reading {
+                value: on_circle(motion, time_s - heading_s).1,
+                age_s: heading_s,
+            }),
+            ..Percept::default()
+        }
+    }
+
+    #[test]
+    fn on_a_circle_late_exact_readings_give_the_exact_pose() {
+        let motion = [0.7, 1.3];
+        for ages_s in [[0.0, 0.0], [0.5, 0.0], [0.0, 1.0], [2.0, 0.73], [0.31, 4.9]] {
+            let mut localisation = Localisation {
+                depth_s: MAX_AGE_S,
+                ..Localisation::default()
+            };
+            for step in 1..=100 {
+                let time_s = 0.1 * f64::from(step);
+                let percept = late(motion, time_s, ages_s);
+                localisation.update(&percept, &rover(), &moved(motion));
+            }
+            let pose = localisation.pose().unwrap();
+            let (at, heading_rad) = on_circle(motion, 10.0);
+            assert!(pose.at.to(at).length() < 1e-9, "{ages_s:?} {pose:?}");
+            assert!(wrapped(pose.heading_rad - heading_rad).abs() < 1e-9);
+            let then = localisation.pose_before(0.23, &rover()).unwrap();
+            let (at, _) = on_circle(motion, 9.77);
+            assert!(then.at.to(at).length() < 1e-9, "{ages_s:?} {then:?}");
+        }
+    }
+
+    /// The pose after 20 s on a circle with the same noisy readings, measured every 0.3 s and at the
+    /// beginning, each with a delay of its own of up to a maximum.
+    fn with_delays(max_delay_s: f64) -> Pose {
+        let (mut body, motion) = (rover(), [0.7, 1.3]);
+        (body.position_noise_m, body.heading_noise_rad) = (0.2, 0.05);
+        let mut localisation = Localisation {
+            depth_s: MAX_AGE_S,
+            ..Localisation::default()
+        };
+        let mut waiting: Vec<(f64, f64, Measured)> = Vec::new();
+        for number in 0..60_u32 {
+            let measured_s = 0.3 * f64::from(number) + 0.1;
+            let pseudo = |factor: u32| f64::from((number * factor + 3) % 101) / 101.0;
+            let (at, heading_rad) = on_circle(motion, measured_s);
+            let mut off_m = 0.5 * (pseudo(17) - 0.5);
+            if number % 13 == 5 {
+                // An outlier.
+                off_m += 9.0;
+            }
+            let at = at.plus(Point {
+                x: off_m,
+                y: -off_m,
+            });
+            let due_s = |factor| measured_s + max_delay_s * pseudo(factor);
+            waiting.push((due_s(29), measured_s, Measured::Position(at)));
+            let heading_rad = heading_rad + 0.1 * (pseudo(41) - 0.5);
+            waiting.push((due_s(53), measured_s, Measured::Heading(heading_rad)));
+        }
+        for step in 1..=220 {
+            let time_s = 0.1 * f64::from(step);
+            localisation.history.add(&moved(motion), MAX_AGE_S);
+            waiting.retain(|(due_s, measured_s, measured)| {
+                let is_due = *due_s <= time_s + 1e-9;
+                if is_due {
+                    localisation.record(*measured, time_s - measured_s, &body);
+                }
+                !is_due
+            });
+            localisation.history.update(&body);
+        }
+        assert!(waiting.is_empty());
+        localisation.pose().unwrap()
+    }
+
+    #[test]
+    fn the_pose_does_not_depend_on_when_readings_arrive() {
+        let expected = with_delays(0.0);
+        for max_delay_s in [0.05, 0.5, 2.0, 4.0] {
+            let pose = with_delays(max_delay_s);
+            assert!(pose.at.to(expected.at).length() < 1e-9, "{pose:?}");
+            assert!((pose.heading_rad - expected.heading_rad).abs() < 1e-9);
+            assert!((pose.deviation_m - expected.deviation_m).abs() < 1e-9);
+            assert!((pose.deviation_rad - expected.deviation_rad).abs() < 1e-9);
+            assert!((pose.age_s - expected.age_s).abs() < 1e-9, "{pose:?}");
+        }
+    }
+
+    #[test]
+    fn a_reading_is_validated_at_the_time_of_its_measurement() {
+        let mut body = rover();
+        (body.position_noise_m, body.heading_noise_rad) = (0.01, 0.01);
+        let mut localisation = Localisation::default();
+        let exact = percept(0.0, 0.0, 0.0);
+        for _ in 0..20 {
+            localisation.update(&exact, &body, &moved(AT_REST));
+        }
+        // The robot drives at 1 m/s. After 1 s, a reading from its start is right, and one of its
+        // current position is an outlier.
+        let at_age = |x: f64, age_s: f64| Percept {
+            position: Some(Reading {
+                value: Point { x, y: 0.0 },
+                age_s,
+            }),
+            ..Percept::default()
+        };
+        // Extends the history.
+        localisation.update(&at_age(0.0, 2.0), &body, &moved(AT_REST));
+        for _ in 0..10 {
+            localisation.update(&Percept::default(), &body, &moved(AHEAD));
+        }
+        let mut both = [localisation.clone(), localisation];
+        both[0].update(&at_age(0.0, 1.1), &body, &moved(AHEAD));
+        both[1].update(&at_age(1.1, 1.1), &body, &moved(AHEAD));
+        let [right, outlier] = both.map(|localisation| localisation.pose().unwrap());
+        assert!((right.age_s - 1.1).abs() < 1e-9, "{right:?}");
+        assert!(outlier.age_s > 1.15, "{outlier:?}");
+        assert!((outlier.at.x - 1.1).abs() < 0.01, "{outlier:?}");
+    }
+
+    #[test]
+    fn an_old_reading_extends_the_history() {
+        let mut localisation = Localisation::default();
+        let before = |localisation: &mut Localisation| {
+            (0..30).for_each(|_| {
+                localisation.update(&percept(0.0, 0.0, 0.0), &rover(), &moved(AT_REST))
+            });
+            localisation.pose_before(2.0, &rover())
+        };
+        assert_eq!(before(&mut localisation), None);
+        assert!(before(&mut localisation).is_some());
     }
 
     #[test]

@@ -189,3 +189,73 @@ fn cost_s((first, second): (&Part, &Part)) -> f64 {
         first.moved.elapsed_s + second.moved.elapsed_s
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::perception::dead_reckoning::Odometry;
+    use crate::world_of_walls::rover;
+
+    const DEPTH_S: f64 = 5.0;
+
+    /// A history of 10 s at 100 Hz and 1 m/s along x, with an exact compass in each step, and an exact
+    /// position every 0.2 s that is late.
+    fn fast(late_s: f64) -> PoseHistory {
+        let mut history = PoseHistory::default();
+        let ahead = Odometry {
+            elapsed_s: 0.01,
+            speed_m_s: 1.0,
+            turned_rad: 0.0,
+        };
+        for step in 1..=1000 {
+            history.add(&Displacement::along(0.01, &ahead), DEPTH_S);
+            history.record(Measured::Heading(0.0), 0.0, &rover());
+            if step % 20 == 0 {
+                let at = Point {
+                    x: 0.01 * f64::from(step) - late_s,
+                    y: 0.0,
+                };
+                history.record(Measured::Position(at), late_s, &rover());
+            }
+            history.update(&rover());
+            assert!(history.parts.len() <= MAX_PARTS);
+        }
+        history
+    }
+
+    #[test]
+    fn a_fast_brain_joins_parts_and_keeps_the_whole_time() {
+        for late_s in [0.0, 0.5, 4.7] {
+            let history = fast(late_s);
+            let total_s: f64 = history.parts.iter().map(|part| part.moved.elapsed_s).sum();
+            assert!(total_s > 4.9, "{total_s}");
+            let pose = history.pose().unwrap();
+            assert!((pose.at.x - 10.0).abs() < 1e-9, "{pose:?}");
+            assert!((pose.age_s - late_s).abs() < 0.011, "{pose:?}");
+            let then = history.pose_before(3.21, &rover());
+            let is_right = |then: Pose| (then.at.x - 6.79).abs() < 1e-9;
+            assert!(then.is_none_or(is_right), "{then:?}");
+        }
+    }
+
+    #[test]
+    fn a_part_is_dropped_once_its_end_is_older_than_the_history() {
+        let mut history = PoseHistory::default();
+        for _ in 0..100 {
+            history.add(
+                &Displacement::along(
+                    0.0,
+                    &Odometry {
+                        elapsed_s: 0.1,
+                        speed_m_s: 0.0,
+                        turned_rad: 0.0,
+                    },
+                ),
+                1.0,
+            );
+            history.update(&rover());
+        }
+        // Those that ended 0, 0.1, ..., 1 s ago.
+        assert_eq!(history.parts.len(), 11);
+    }
+}
