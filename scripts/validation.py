@@ -132,7 +132,7 @@ def overview() -> str:
         ["beliefs: of those with confidence c, the fraction c is true", *deviation("calibration")],
         [
             "poses: 0.989 and 0.997 within three deviations",
-            f"at least {min(row.measured for row in rows('poses')):.3f} with readings up to 2 s late",
+            f"at least {min(row.measured for row in rows('poses')):.3f}, up to 2 s late",
             "one-sided",
         ],
     ]

@@ -10,7 +10,7 @@ use sim::simulation::Simulation;
 
 const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
 
-/// Runs of each delay, of three robots each.
+/// Runs per delay, of three robots each.
 const RUNS: u64 = 8;
 /// Runs with random sensors.
 const MIXES: u64 = 64;
@@ -81,7 +81,13 @@ fn rows(series: &str, x: f64, runs: &[[f64; 2]]) -> [Row; 2] {
 /// Random delays, rates, dropouts and noise of both sensors.
 fn mixed(number: u64) -> Changes {
     let mut random = Random::of_run(number);
-    let mut any = |values: &[f64]| values[(random.unit() * values.len() as f64) as usize];
+    let mut any = |values: &[f64]| {
+        let share_each = 1.0 / values.iter().map(|_| 1.0).sum::<f64>();
+        let drawn = random.unit();
+        let mut shares = values.iter().zip(1_u8..);
+        let found = shares.find(|(_, number)| drawn < share_each * f64::from(*number));
+        found.map_or(values[0], |(value, _)| *value)
+    };
     let mut changes = Vec::new();
     for (name, noise, levels) in [
         ("gps", "noise_m", [0.0, 0.05, 0.5]),

@@ -220,14 +220,14 @@ mod tests {
             .into_iter()
             .flat_map(|from_m_s| turns_rad.map(|turned_rad| (from_m_s, turned_rad)))
         {
-            let (parts, elapsed_s) = (20_000, 2.0);
-            let part_s = elapsed_s / f64::from(parts);
+            let (count, elapsed_s) = (20_000, 2.0);
+            let substep_s = elapsed_s / f64::from(count);
             let mut end = Point::default();
-            for part in 0..parts {
-                let now_s = part_s * (f64::from(part) + 0.5);
+            for number in 0..count {
+                let now_s = substep_s * (f64::from(number) + 0.5);
                 let speed_m_s = (from_m_s + now_s).min(1.0);
                 let front = direction(turned_rad * now_s / elapsed_s);
-                end = end.plus(front.times(speed_m_s * part_s));
+                end = end.plus(front.times(speed_m_s * substep_s));
             }
             let moved = Displacement::new(from_m_s, &odometry(elapsed_s, turned_rad), &rover());
             assert!(moved.chord.to(end).length() < 1e-7, "{moved:?} {end:?}");

@@ -319,9 +319,9 @@ mod tests {
     fn an_old_reading_extends_the_history() {
         let mut localisation = Localisation::default();
         let before = |localisation: &mut Localisation| {
-            (0..30).for_each(|_| {
-                localisation.update(&percept(0.0, 0.0, 0.0), &rover(), &moved(AT_REST))
-            });
+            for _ in 0..30 {
+                localisation.update(&percept(0.0, 0.0, 0.0), &rover(), &moved(AT_REST));
+            }
             localisation.pose_before(2.0, &rover())
         };
         assert_eq!(before(&mut localisation), None);
