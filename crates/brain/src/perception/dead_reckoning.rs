@@ -46,7 +46,7 @@ pub(crate) struct DeadReckoning {
     speed_m_s: f32,
     /// Time since the end of that turn; 0 while the command in force is a turn.
     straight_s: f32,
-    /// Compass heading in the previous step; NaN without one.
+    /// Compass heading in the previous step, or dead reckoning since the last one; NaN without any.
     heading_rad: f32,
     /// Index of the behaviour that decided the command in force, if there is a single one.
     pub(crate) decided_by: Option<u16>,
@@ -154,17 +154,19 @@ impl DeadReckoning {
             self.speed_m_s = 0.0;
         }
         let rate = self.turn_rate_rad_s(percept, body);
-        let heading = percept.heading_rad.filter(is_current);
+        let heading = percept.heading_rad;
         let heading = heading.filter(|reading| reading.value.abs() <= MAX_HEADING_RAD);
-        // Compensates the latency of the compass.
-        let heading_now =
-            heading.map(|reading| wrapped(reading.value + rate * reading.age_s) as f32);
-        let now = heading_now.unwrap_or(f32::NAN);
-        let before = core::mem::replace(&mut self.heading_rad, now);
-        if before.is_nan() || now.is_nan() {
+        // An older reading would need the turn rates of earlier steps.
+        let is_of_step = |age_s: f64| (0.0..=1.000_001 * elapsed_s).contains(&age_s);
+        let heading = heading.filter(|reading| is_of_step(reading.age_s));
+        let measured = heading.map(|reading| wrapped(reading.value + rate * reading.age_s));
+        let before_rad = f64::from(self.heading_rad);
+        let now_rad = measured.unwrap_or_else(|| wrapped(before_rad + rate * elapsed_s));
+        self.heading_rad = now_rad as f32;
+        if before_rad.is_nan() || measured.is_none() {
             return rate * elapsed_s;
         }
-        let turned_rad = wrapped(f64::from(now) - f64::from(before));
+        let turned_rad = wrapped(f64::from(self.heading_rad) - before_rad);
         if elapsed_s > body.period_s {
             // In a gap between percepts the body may have turned around more than once.
             turned_rad + TAU * libm::round((rate * elapsed_s - turned_rad) / TAU)
@@ -339,6 +341,40 @@ mod tests {
             })
             .collect();
         assert!((turned_rad(&percepts) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_late_compass_does_not_measure_the_turn_of_this_step() {
+        // At rest until now, by a compass that is 1 s late.
+        let late = Percept {
+            heading_rad: Some(Reading {
+                value: 0.5,
+                age_s: 1.0,
+            }),
+            ..Percept::default()
+        };
+        let (mut odometry, body) = (DeadReckoning::default(), rover());
+        odometry.update(&late, &body, 0.1);
+        odometry.record_command(TURN);
+        let turned_rad = odometry.update(&late, &body, 0.1);
+        assert!((turned_rad - 0.1).abs() < 1e-6, "{turned_rad}");
+    }
+
+    #[test]
+    fn a_compass_that_is_slower_than_the_brain_corrects_the_turn() {
+        // The robot turns at half the commanded rate; a measurement every five steps.
+        let percepts: Vec<Percept> = (0..11)
+            .map(|step| {
+                let age_s = 0.1 * f64::from(step % 5);
+                let value = 0.05 * f64::from(step - step % 5);
+                let heading_rad = Some(Reading { value, age_s });
+                Percept {
+                    heading_rad,
+                    ..Percept::default()
+                }
+            })
+            .collect();
+        assert!((turned_rad(&percepts) - 0.5).abs() < 1e-6);
     }
 
     #[test]

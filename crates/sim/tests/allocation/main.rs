@@ -91,6 +91,9 @@ fn messages_are_sent_and_received_without_allocation() {
 /// Documented maximum size of beliefs in bytes: constant part, per cell, and per ray.
 const BELIEFS_BYTES: [usize; 3] = [40_000, 20, 40];
 
+/// Documented maximum size of the history of poses with late readings, in bytes.
+const HISTORY_BYTES: usize = 14_000;
+
 /// A belief-based brain with a map of this number of cells.
 fn brain_with_beliefs(cells: usize, rays: u32) -> Brain {
     let spec = format!(
@@ -135,8 +138,9 @@ fn brain_with_beliefs(cells: usize, rays: u32) -> Brain {
     Brain::new(Arc::new(spec), Arc::new(body))
 }
 
-/// A percept with more items, nearby robots and senders than beliefs can hold.
-fn crowded_percept(step: u32, rays: u32) -> Percept {
+/// A percept with more items, nearby robots and senders than beliefs can hold, and with readings of
+/// this age.
+fn crowded_percept(step: u32, rays: u32, age_s: f64) -> Percept {
     let spread = |number: u32| f64::from((number * 7919 + step * 104_729) % 1000) / 1000.0;
     let id = |number: u32| RobotId {
         kind: 0,
@@ -173,11 +177,11 @@ fn crowded_percept(step: u32, rays: u32) -> Percept {
     Percept {
         position: Some(Reading {
             value: place(3),
-            age_s: 0.0,
+            age_s,
         }),
         heading_rad: Some(Reading {
             value: 6.0 * spread(9) - 3.0,
-            age_s: 0.0,
+            age_s,
         }),
         scans: vec![Scan {
             age_s: Some(0.0),
@@ -212,8 +216,10 @@ fn crowded_percept(step: u32, rays: u32) -> Percept {
 
 #[test]
 fn beliefs_stay_within_their_documented_size() {
-    for (cells, rays) in [(16, 16), (4096, 360), (30_000, 16)] {
-        let percepts: Vec<Percept> = (0..400).map(|step| crowded_percept(step, rays)).collect();
+    let immediate = [(16, 16, 0.0), (4096, 360, 0.0), (30_000, 16, 0.0)];
+    for (cells, rays, age_s) in immediate.into_iter().chain([(16, 16, 4.95)]) {
+        let percept = |step| crowded_percept(step, rays, age_s);
+        let percepts: Vec<Percept> = (0..400).map(percept).collect();
         let initial = brain_with_beliefs(cells, rays);
         let mut kept = None;
         let bytes = measure(|| {
@@ -224,7 +230,11 @@ fn beliefs_stay_within_their_documented_size() {
             }
             kept = Some(brain);
         });
-        let max = BELIEFS_BYTES[0] + BELIEFS_BYTES[1] * cells + BELIEFS_BYTES[2] * rays as usize;
+        let history = if age_s > 0.0 { HISTORY_BYTES } else { 0 };
+        let max = BELIEFS_BYTES[0]
+            + BELIEFS_BYTES[1] * cells
+            + BELIEFS_BYTES[2] * rays as usize
+            + history;
         let bytes = usize::try_from(bytes.bytes_current).unwrap();
         assert!(bytes <= max, "{cells} cells, {rays} rays: {bytes} of {max}");
         let belief_state = kept.unwrap().belief_state().unwrap();

@@ -16,6 +16,16 @@ obstacles = [
 ]
 ";
 
+/// Two walls 20 m long, 3 m apart.
+const PASSAGE: &str = "
+[world]
+size_m = [30, 20]
+obstacles = [
+    { polygon_m = [[5, 8], [25, 8], [25, 8.5], [5, 8.5]] },
+    { polygon_m = [[5, 11.5], [25, 11.5], [25, 12], [5, 12]] },
+]
+";
+
 const FIELD: &str = "
 [world]
 size_m = [40, 20]
@@ -77,5 +87,21 @@ fn a_robot_with_a_destination_behind_it_turns_around() {
         let text = rover(FIELD, "max_turn_rate_deg_s = 30", 6.0, from, to);
         let times_s = times_s(&text, to, 100.0);
         assert!(times_s.iter().all(|time_s| *time_s < 25.0), "{times_s:?}");
+    }
+}
+
+#[test]
+fn a_robot_with_a_late_compass_passes_between_two_walls() {
+    let [from, to] = [3.0, 26.5].map(|x| Point { x, y: 10.0 });
+    for noise_deg in ["0", "1"] {
+        for latency_s in ["0.5", "1.0"] {
+            let text = rover(PASSAGE, "max_turn_rate_deg_s = 120", 6.0, from, to).replace(
+                "noise_deg = 1",
+                &format!("noise_deg = {noise_deg}, latency_s = {latency_s}"),
+            );
+            let times_s = times_s(&text, to, 60.0);
+            // The path is 23.5 m long.
+            assert!(times_s.iter().all(|time_s| *time_s < 30.0), "{times_s:?}");
+        }
     }
 }

@@ -14,6 +14,7 @@ mod false_alarms;
 mod lanes;
 mod paths;
 mod placement;
+mod poses;
 mod radio;
 mod random_search;
 mod rows;

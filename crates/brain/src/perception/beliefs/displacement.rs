@@ -1,103 +1,154 @@
 //! The displacement of the body since the previous step.
 
+use super::pose::turned;
 use crate::io::body::Body;
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::sector::direction;
 use base::geometry::Point;
 
-/// Maximum number of parts of a gap between percepts whose displacements are added.
-const MAX_PARTS: f64 = 64.0;
+/// Relative odometry error, of the distance and of the turn.
+const ODOMETRY_ERROR: f64 = 0.02;
 
-/// The displacement of the body since the previous step.
+/// Minimum process noise, also at rest: about a millimetre and some hundredths of a degree per
+/// second. It keeps the gain above zero, so that a robot that has been at rest for long still
+/// follows its sensors.
+const PROCESS_NOISE_M2_S: f64 = 1e-6;
+const PROCESS_NOISE_RAD2_S: f64 = 1e-8;
+
+/// The displacement of the body since the previous step, or in a part of a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Displacement {
     pub(crate) elapsed_s: f64,
-    /// Length of the path.
-    pub(crate) path_m: f64,
-    /// Length of the chord of the path; negative in reverse.
-    pub(crate) chord_m: f64,
-    /// Direction of the chord relative to the front in the previous step.
-    pub(crate) bearing_rad: f64,
+    /// The chord of the path, in the frame of the body at its beginning.
+    pub(crate) chord: Point,
     pub(crate) turned_rad: f64,
-    /// Speed at its end; negative in reverse.
-    pub(crate) speed_m_s: f64,
+    /// Speed at its beginning and at its end; negative in reverse.
+    from_m_s: f64,
+    to_m_s: f64,
+    /// Process noise: variance of the chord along each axis, and of the turn. It is the sum of those
+    /// of the parts.
+    pub(crate) variance_m2: f64,
+    pub(crate) variance_rad2: f64,
 }
 
 impl Displacement {
-    /// The displacement to a new speed: acceleration first, then motion at that speed, both at the
-    /// same turn rate.
+    /// The displacement to a new speed: constant acceleration first, then motion at that speed, both
+    /// at the same turn rate.
     pub(crate) fn new(previous_speed_m_s: f64, to: &Odometry, body: &Body) -> Self {
-        if to.elapsed_s > body.period_s {
-            Self::in_gap(previous_speed_m_s, to, body)
-        } else {
-            let path_m = path_m(previous_speed_m_s, to, body, to.elapsed_s);
-            Self::along(path_m, to)
+        let change_m_s = to.speed_m_s - previous_speed_m_s;
+        let max_m_s2 = body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
+        let change_s = (change_m_s.abs() / max_m_s2).min(to.elapsed_s);
+        if change_s == 0.0 {
+            return Self::along(to.speed_m_s * to.elapsed_s, to);
+        }
+        let rate_rad_s = to.turned_rad / to.elapsed_s;
+        let constant_s = to.elapsed_s - change_s;
+        let first = accelerating([previous_speed_m_s, to.speed_m_s], change_s, rate_rad_s);
+        let second = arc(to.speed_m_s * constant_s, rate_rad_s * constant_s);
+        let mean_m_s = f64::midpoint(previous_speed_m_s, to.speed_m_s);
+        Self {
+            chord: first.plus(turned(second, direction(rate_rad_s * change_s))),
+            from_m_s: previous_speed_m_s,
+            to_m_s: to.speed_m_s,
+            ..Self::along(mean_m_s * change_s + to.speed_m_s * constant_s, to)
         }
     }
 
-    /// Within a period, the path is about as long as its chord, and the speed is the mean speed.
+    /// The displacement along an arc, at constant speed.
     pub(crate) fn along(path_m: f64, to: &Odometry) -> Self {
+        let speed_m_s = path_m / to.elapsed_s.max(f64::MIN_POSITIVE);
+        let (off_m, off_rad) = (ODOMETRY_ERROR * path_m, ODOMETRY_ERROR * to.turned_rad);
         Self {
             elapsed_s: to.elapsed_s,
-            path_m,
-            chord_m: path_m,
-            bearing_rad: to.turned_rad / 2.0,
+            chord: arc(path_m, to.turned_rad),
             turned_rad: to.turned_rad,
-            speed_m_s: path_m / to.elapsed_s.max(f64::MIN_POSITIVE),
+            from_m_s: speed_m_s,
+            to_m_s: speed_m_s,
+            variance_m2: off_m * off_m + PROCESS_NOISE_M2_S * to.elapsed_s,
+            variance_rad2: off_rad * off_rad + PROCESS_NOISE_RAD2_S * to.elapsed_s,
         }
-    }
-
-    /// In a gap between percepts, the path is a chain of arcs.
-    fn in_gap(previous_speed_m_s: f64, to: &Odometry, body: &Body) -> Self {
-        let count = libm::ceil(to.elapsed_s / body.period_s.max(1e-3)).clamp(2.0, MAX_PARTS);
-        let part_s = to.elapsed_s / count;
-        let part_rad = to.turned_rad / count;
-        let (mut chord, mut before_m, mut part) = (Point::default(), 0.0, 0.0);
-        while part < count {
-            let after_m = path_m(previous_speed_m_s, to, body, part_s * (part + 1.0));
-            let part_m = (after_m - before_m) * chord_per_arc(part_rad);
-            chord = chord.plus(direction(part_rad * (part + 0.5)).times(part_m));
-            (before_m, part) = (after_m, part + 1.0);
-        }
-        Self {
-            elapsed_s: to.elapsed_s,
-            path_m: before_m,
-            chord_m: chord.length(),
-            bearing_rad: libm::atan2(chord.y, chord.x),
-            turned_rad: to.turned_rad,
-            speed_m_s: to.speed_m_s,
-        }
-    }
-
-    /// The chord in the frame of the body in the previous step.
-    pub(crate) fn chord(&self) -> Point {
-        direction(self.bearing_rad).times(self.chord_m)
     }
 
     /// The mean turn rate.
     pub(crate) fn turn_rate_rad_s(&self) -> f64 {
         self.turned_rad / self.elapsed_s.max(f64::MIN_POSITIVE)
     }
-}
 
-/// Length of the path after a time: acceleration to the new speed first, then motion at that speed.
-fn path_m(previous_speed_m_s: f64, to: &Odometry, body: &Body, after_s: f64) -> f64 {
-    let change_m_s = to.speed_m_s - previous_speed_m_s;
-    let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
-    if after_s < change_s && to.elapsed_s > body.period_s {
-        return after_s * (previous_speed_m_s + change_m_s * after_s / change_s / 2.0);
+    /// The parts until and from a time after its beginning.
+    pub(crate) fn split(&self, after_s: f64, body: &Body) -> [Self; 2] {
+        let share = after_s / self.elapsed_s.max(f64::MIN_POSITIVE);
+        let max_change_m_s = body.max_acceleration_m_s2 * after_s;
+        let change_m_s = self.to_m_s - self.from_m_s;
+        let to = Odometry {
+            elapsed_s: after_s,
+            speed_m_s: self.from_m_s + change_m_s.max(-max_change_m_s).min(max_change_m_s),
+            turned_rad: share * self.turned_rad,
+        };
+        let until = Self {
+            variance_m2: share * self.variance_m2,
+            variance_rad2: share * self.variance_rad2,
+            ..Self::new(self.from_m_s, &to, body)
+        };
+        let from = Self {
+            elapsed_s: self.elapsed_s - after_s,
+            chord: turned(until.chord.to(self.chord), direction(-until.turned_rad)),
+            turned_rad: self.turned_rad - until.turned_rad,
+            from_m_s: until.to_m_s,
+            to_m_s: self.to_m_s,
+            variance_m2: self.variance_m2 - until.variance_m2,
+            variance_rad2: self.variance_rad2 - until.variance_rad2,
+        };
+        [until, from]
     }
-    to.speed_m_s * after_s - change_m_s * change_s.min(after_s) / 2.0
+
+    /// This displacement followed by another one.
+    pub(crate) fn then(&self, next: &Self) -> Self {
+        Self {
+            elapsed_s: self.elapsed_s + next.elapsed_s,
+            chord: self
+                .chord
+                .plus(turned(next.chord, direction(self.turned_rad))),
+            turned_rad: self.turned_rad + next.turned_rad,
+            from_m_s: self.from_m_s,
+            to_m_s: next.to_m_s,
+            variance_m2: self.variance_m2 + next.variance_m2,
+            variance_rad2: self.variance_rad2 + next.variance_rad2,
+        }
+    }
 }
 
-/// The length of the chord of an arc, as a fraction of the length of the arc.
-fn chord_per_arc(turned_rad: f64) -> f64 {
+/// The chord of an arc, in the frame at its beginning.
+fn arc(path_m: f64, turned_rad: f64) -> Point {
     let half_rad = turned_rad / 2.0;
-    if half_rad.abs() < 1e-6 {
+    let bearing = direction(half_rad);
+    let chord_per_arc = if half_rad.abs() < 1e-6 {
         1.0
     } else {
-        direction(half_rad).y / half_rad
-    }
+        bearing.y / half_rad
+    };
+    bearing.times(path_m * chord_per_arc)
+}
+
+/// The chord of a path at constant acceleration and turn rate: that of an arc of this length at the
+/// mean speed, and an offset to the side of the larger speed.
+///
+/// With u the time from the middle and h half the turn, the offset is the integral of
+/// acceleration u sin(rate u), which is change x time x (sin h - h cos h) / (2 h^2).
+fn accelerating([from_m_s, to_m_s]: [f64; 2], elapsed_s: f64, rate_rad_s: f64) -> Point {
+    let half_rad = rate_rad_s * elapsed_s / 2.0;
+    let bearing = direction(half_rad);
+    let share = if half_rad.abs() < 1e-3 {
+        half_rad / 6.0
+    } else {
+        (bearing.y - half_rad * bearing.x) / (2.0 * half_rad * half_rad)
+    };
+    let offset_m = (to_m_s - from_m_s) * elapsed_s * share;
+    let left = Point {
+        x: -bearing.y,
+        y: bearing.x,
+    };
+    let path_m = f64::midpoint(from_m_s, to_m_s) * elapsed_s;
+    arc(path_m, 2.0 * half_rad).plus(left.times(offset_m))
 }
 
 #[cfg(test)]
@@ -120,8 +171,7 @@ mod tests {
             let radius_m = 10.0 / turned_rad;
             let moved = Displacement::new(1.0, &odometry(10.0, turned_rad), &rover());
             let end = Point::from(expected).times(radius_m);
-            assert!(moved.chord().to(end).length() < 1e-9, "{moved:?}");
-            assert!((moved.path_m - 10.0).abs() < 1e-9);
+            assert!(moved.chord.to(end).length() < 1e-9, "{moved:?}");
         }
     }
 
@@ -129,6 +179,58 @@ mod tests {
     fn in_a_gap_a_robot_accelerates_first() {
         // At 1 m/s2 from rest.
         let moved = Displacement::new(0.0, &odometry(10.0, 0.0), &rover());
-        assert!((moved.chord_m - 9.5).abs() < 1e-9, "{moved:?}");
+        assert!((moved.chord.x - 9.5).abs() < 1e-9, "{moved:?}");
+    }
+
+    #[test]
+    fn the_parts_of_a_displacement_follow_each_other_to_its_end() {
+        for (elapsed_s, turned_rad) in [(0.1, 0.2), (0.1, -0.01), (3.0, 2.0)] {
+            let moved = Displacement::new(0.4, &odometry(elapsed_s, turned_rad), &rover());
+            let [until, from] = moved.split(0.3 * elapsed_s, &rover());
+            let both = until.then(&from);
+            assert!(both.chord.to(moved.chord).length() < 1e-12, "{both:?}");
+            assert!((both.turned_rad - turned_rad).abs() < 1e-12);
+            assert!((both.variance_m2 - moved.variance_m2).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_first_part_of_a_displacement_accelerates_as_the_whole() {
+        // At 1 m/s2 from rest; at 1 m/s after one second.
+        let moved = Displacement::new(0.0, &odometry(10.0, 0.0), &rover());
+        for (after_s, path_m) in [(0.5, 0.125), (2.0, 1.5)] {
+            let [until, _] = moved.split(after_s, &rover());
+            assert!((until.chord.x - path_m).abs() < 1e-9, "{until:?}");
+        }
+    }
+
+    #[test]
+    fn the_first_part_of_an_arc_is_an_arc() {
+        let moved = Displacement::new(1.0, &odometry(10.0, TAU), &rover());
+        let [until, _] = moved.split(2.5, &rover());
+        let radius_m = 10.0 / TAU;
+        let quarter = Point::from([radius_m, radius_m]);
+        assert!(until.chord.to(quarter).length() < 1e-9, "{until:?}");
+    }
+
+    #[test]
+    fn the_displacement_is_the_integral_of_the_velocity() {
+        let turns_rad = [0.0, 1e-4, -0.3, 2.0, 7.0];
+        for (from_m_s, turned_rad) in [-0.5, 0.3, 1.0]
+            .into_iter()
+            .flat_map(|from_m_s| turns_rad.map(|turned_rad| (from_m_s, turned_rad)))
+        {
+            let (count, elapsed_s) = (20_000, 2.0);
+            let substep_s = elapsed_s / f64::from(count);
+            let mut end = Point::default();
+            for number in 0..count {
+                let now_s = substep_s * (f64::from(number) + 0.5);
+                let speed_m_s = (from_m_s + now_s).min(1.0);
+                let front = direction(turned_rad * now_s / elapsed_s);
+                end = end.plus(front.times(speed_m_s * substep_s));
+            }
+            let moved = Displacement::new(from_m_s, &odometry(elapsed_s, turned_rad), &rover());
+            assert!(moved.chord.to(end).length() < 1e-7, "{moved:?} {end:?}");
+        }
     }
 }

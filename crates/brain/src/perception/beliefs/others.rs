@@ -43,7 +43,7 @@ pub(crate) struct Others {
 impl Others {
     /// Updates the tracks after a step with a displacement.
     pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
-        let motion = moved.chord();
+        let motion = moved.chord;
         self.movers.retain(|mover| mover.id.is_some());
         self.predict(motion, moved);
         self.objects

@@ -3,7 +3,7 @@
 use crate::io::percept::Reading;
 
 /// Older readings are ignored.
-const MAX_AGE_S: f64 = 5.0;
+pub(super) const MAX_AGE_S: f64 = 5.0;
 
 /// A reading that was not used before: a repeated one is older by the elapsed time.
 pub(crate) fn fresh<T: Copy>(

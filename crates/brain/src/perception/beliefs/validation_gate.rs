@@ -10,14 +10,10 @@ const RESET_AFTER: u8 = 3;
 
 /// The last rejected reading, and the number of consecutive rejected readings in agreement, itself
 /// included.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ValidationGate<T>(Option<(T, u8)>);
-
-// The derived implementation would require `T: Default`.
-impl<T> Default for ValidationGate<T> {
-    fn default() -> Self {
-        Self(None)
-    }
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ValidationGate<T> {
+    last: T,
+    count: u8,
 }
 
 /// The difference between a reading and the estimate, and how much of it is expected.
@@ -26,16 +22,13 @@ pub(crate) struct Innovation {
     pub(crate) distance: f64,
     /// Of the estimate and of the sensor, along each axis.
     pub(crate) variances: [f64; 2],
-    /// Additional tolerance for the age of the reading.
-    pub(crate) tolerance: f64,
 }
 
 impl Innovation {
     /// Whether the reading is outside the gate; that of an exact sensor never is.
     fn is_outside(&self) -> bool {
         let [own, sensor] = self.variances;
-        let excess = self.distance - self.tolerance;
-        sensor > 0.0 && excess > 0.0 && excess * excess > GATE * GATE * (own + sensor)
+        sensor > 0.0 && self.distance * self.distance > GATE * GATE * (own + sensor)
     }
 }
 
@@ -50,7 +43,7 @@ pub(crate) enum Verdict {
     Reset,
 }
 
-impl<T> ValidationGate<T> {
+impl<T: Copy> ValidationGate<T> {
     /// Decides what to do with a reading; `distance` is its distance from another reading.
     ///
     /// Two readings agree if their distance is less than half the distance of the later one from
@@ -64,24 +57,24 @@ impl<T> ValidationGate<T> {
         distance: impl Fn(&T) -> f64,
     ) -> Verdict {
         if !innovation.is_outside() {
-            self.0 = None;
+            self.count = 0;
             return Verdict::Accept;
         }
-        let previous = self.0.take();
-        let agreed = previous.filter(|(last, _)| distance(last) < innovation.distance / 2.0);
-        let count = agreed.map_or(1, |(_, count)| count + 1);
-        if count >= RESET_AFTER {
-            return Verdict::Reset;
+        let agrees = self.count > 0 && distance(&self.last) < innovation.distance / 2.0;
+        self.count = if agrees { self.count + 1 } else { 1 };
+        self.last = reading;
+        if self.count < RESET_AFTER {
+            return Verdict::Reject;
         }
-        self.0 = Some((reading, count));
-        Verdict::Reject
+        self.count = 0;
+        Verdict::Reset
     }
 
     /// Moves the last rejected reading along with the body.
     #[inline]
     pub(crate) fn predict(&mut self, motion: impl Fn(T) -> T) {
-        if let Some((last, count)) = self.0.take() {
-            self.0 = Some((motion(last), count));
+        if self.count > 0 {
+            self.last = motion(self.last);
         }
     }
 }
@@ -98,7 +91,6 @@ mod tests {
             let innovation = Innovation {
                 distance: reading.abs(),
                 variances: [0.36, 0.64],
-                tolerance: 0.0,
             };
             gate.check(*reading, &innovation, |last: &f64| (last - reading).abs())
         });
@@ -129,25 +121,10 @@ mod tests {
     }
 
     #[test]
-    fn the_tolerance_widens_the_gate() {
-        let innovation = Innovation {
-            distance: 7.0,
-            variances: [0.0, 1.0],
-            tolerance: 2.5,
-        };
-        let narrower = Innovation {
-            tolerance: 1.5,
-            ..innovation
-        };
-        assert!(!innovation.is_outside() && narrower.is_outside());
-    }
-
-    #[test]
     fn readings_of_an_exact_sensor_are_never_rejected() {
         let innovation = Innovation {
             distance: 1e6,
             variances: [1.0, 0.0],
-            tolerance: 0.0,
         };
         assert!(!innovation.is_outside());
     }

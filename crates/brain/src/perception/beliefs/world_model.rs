@@ -14,10 +14,8 @@ use crate::io::body::{Body, Detector, RobotId};
 use crate::io::percept::{Contact, Observation, Percept};
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::rays::Ring;
-use crate::perception::sector::direction;
 use alloc::sync::Arc;
 use base::geometry::Point;
-use base::trig::wrapped;
 
 /// Rounding tolerance between the ages of an observation and of its contacts.
 const AGE_TOLERANCE_S: f64 = 1e-6;
@@ -121,10 +119,10 @@ impl Beliefs {
             return;
         };
         self.update_map(percept, &pose, rings, elapsed_s);
-        let rates = [odometry.speed_m_s, moved.turn_rate_rad_s()];
         for observation in &percept.observations {
-            let then = earlier(&pose, rates, observation.age_s);
-            self.update_items(observation, percept, body, then);
+            if let Some(then) = self.localisation.pose_before(observation.age_s, body) {
+                self.update_items(observation, percept, body, then);
+            }
         }
     }
 
@@ -193,22 +191,5 @@ impl Beliefs {
             };
             coverage.update(field, occupancy, &scan);
         }
-    }
-}
-
-/// The pose some time ago, at a constant speed and turn rate.
-fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
-    // Invalid ages count as 0.
-    let age_s = if (0.0..=60.0).contains(&age_s) {
-        age_s
-    } else {
-        0.0
-    };
-    let heading_rad = wrapped(pose.heading_rad - rate_rad_s * age_s);
-    let backwards = direction(heading_rad + rate_rad_s * age_s / 2.0).times(-speed_m_s * age_s);
-    Pose {
-        at: pose.at.plus(backwards),
-        heading_rad,
-        ..*pose
     }
 }

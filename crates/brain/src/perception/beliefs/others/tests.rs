@@ -57,7 +57,7 @@ fn tracked([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Poin
     let at_rest = Displacement::along(0.0, &STILL);
     for step in 0..steps {
         if step > 0 {
-            at = at.plus(turned(moved.chord(), direction(heading_rad)));
+            at = at.plus(turned(moved.chord, direction(heading_rad)));
             heading_rad = wrapped(heading_rad + turned_rad);
             other = other.plus(velocity.times(0.1));
         }
