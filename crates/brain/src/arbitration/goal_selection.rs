@@ -9,7 +9,7 @@ use crate::arbitration::decided::Decided;
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{Memory, Ready};
-use crate::goals::fitness::Step;
+use crate::goals::fitness::{Pursuit, Step};
 use crate::goals::proposal::{Destination, Proposal};
 use crate::goals::{Goal, Goals, Verdict};
 use crate::io::body::Body;
@@ -33,6 +33,9 @@ pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
     pursued: Option<Destination>,
+    /// Time since goals were last served: a reflex that interrupts the pursuit does not stop its
+    /// clock.
+    unserved_s: f64,
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
@@ -64,6 +67,7 @@ impl GoalSelection {
     ) -> Decided {
         let all = core::mem::take(&mut self.proposals);
         self.navigator.target = None;
+        self.unserved_s += situation.elapsed_s;
         // The highest comes first. A motion there is a reflex; one further down applies only if no
         // destination is proposed.
         let decided = match all.first() {
@@ -127,13 +131,18 @@ impl GoalSelection {
                 Proposal::Destination(destination) => Some((*behaviour, *destination)),
                 Proposal::Motion(_) => None,
             });
+        let is_lengthened = self.navigator.take_is_lengthened();
         let step = Step {
             at: pose.at,
-            elapsed_s: situation.elapsed_s,
+            elapsed_s: core::mem::take(&mut self.unserved_s),
             period_s: situation.body.period_s,
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
-            pursued: pursued.map(|goal| (goal, self.navigator.remaining_m(pose.at, goal))),
+            pursued: pursued.map(|goal| Pursuit {
+                goal,
+                remaining_m: self.navigator.remaining_m(pose.at, goal),
+                is_lengthened,
+            }),
             noise_m: 0.0,
         };
         self.goals.update(destinations, &step);

@@ -96,9 +96,9 @@ impl GoalState {
             within_m: destination.tolerance_m,
             verdict: goal.verdict,
             remaining_m: fitness.last_m,
-            min_remaining_m: fitness.best_m,
+            min_remaining_m: fitness.min_m(),
             stuck_s: fitness.stuck_s,
-            retry_s: fitness.rest_s.max(0.0),
+            retry_s: goal.rest_s,
             is_pursued: selection.is_pursued(goal),
         }
     }
