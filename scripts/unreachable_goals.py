@@ -46,12 +46,12 @@ cell_m = 0.5
 {parked}
 """
 PARKED = """
-[robots.parked]
+[robots.waiting]
 count = {count}
 radius_m = 0.3
 start = {{ kind = "fixed", at_m = {at} }}
 drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 90 }}
-[robots.parked.brain]
+[robots.waiting.brain]
 behaviours = []
 """
 PERIOD_S = 0.2
