@@ -9,7 +9,7 @@ use crate::arbitration::decided::Decided;
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{Memory, Ready};
-use crate::goals::fitness::{Pursuit, Step};
+use crate::goals::fitness::{Pursuit, Step, counted_s};
 use crate::goals::proposal::{Destination, Proposal};
 use crate::goals::{Goal, Goals, Verdict};
 use crate::io::body::Body;
@@ -33,9 +33,9 @@ pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
     pursued: Option<Destination>,
-    /// Time since goals were last served: a reflex that interrupts the pursuit does not stop its
-    /// clock.
-    unserved_s: f64,
+    /// Time since goals were last served in which a reflex moved the robot: such as *avoid*, which
+    /// interrupts the pursuit of a goal, but does not stop its clock.
+    reflex_s: f64,
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
@@ -67,7 +67,6 @@ impl GoalSelection {
     ) -> Decided {
         let all = core::mem::take(&mut self.proposals);
         self.navigator.target = None;
-        self.unserved_s += situation.elapsed_s;
         // The highest comes first. A motion there is a reflex; one further down applies only if no
         // destination is proposed.
         let decided = match all.first() {
@@ -77,6 +76,7 @@ impl GoalSelection {
             }
             Some((behaviour, Proposal::Motion(motion))) => {
                 self.keep_below(*behaviour);
+                self.interrupt(motion, situation);
                 (Some(*behaviour), *motion)
             }
             Some((_, Proposal::Destination(_))) => {
@@ -86,6 +86,14 @@ impl GoalSelection {
         };
         self.proposals = all;
         decided
+    }
+
+    /// Takes a step into account in which a reflex determined the motion.
+    fn interrupt(&mut self, motion: &Motion, situation: &Situation) {
+        self.goals.rest(situation.elapsed_s);
+        if *motion != Motion::default() {
+            self.reflex_s += counted_s(situation.elapsed_s, situation.body.period_s);
+        }
     }
 
     pub(crate) fn is_pursued(&self, goal: &Goal) -> bool {
@@ -134,8 +142,9 @@ impl GoalSelection {
         let is_lengthened = self.navigator.take_is_lengthened();
         let step = Step {
             at: pose.at,
-            elapsed_s: core::mem::take(&mut self.unserved_s),
+            elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
+            reflex_s: core::mem::take(&mut self.reflex_s),
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
             pursued: pursued.map(|goal| Pursuit {

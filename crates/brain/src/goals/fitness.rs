@@ -36,6 +36,8 @@ pub(crate) struct Step {
     /// Time since the previous step, and the time that a step is expected to take.
     pub(crate) elapsed_s: f64,
     pub(crate) period_s: f64,
+    /// Time since the previous step of the goals in which a reflex moved the robot.
+    pub(crate) reflex_s: f64,
     /// A goal to which no path is known.
     pub(crate) unreachable: Option<GoalPlace>,
     /// Remaining battery time.
@@ -132,10 +134,15 @@ impl Fitness {
         if pursued.is_lengthened || self.behind_m < -step.min_progress_m() {
             (self.behind_m, self.stuck_s) = (0.0, 0.0);
         } else if was_pursued {
-            // A gap between percepts alone does not make a goal impossible.
-            self.stuck_s += step.elapsed_s.min(step.period_s.max(RECEDING_S));
+            self.stuck_s += counted_s(step.elapsed_s, step.period_s) + step.reflex_s;
         }
     }
+}
+
+/// The part of the time since the last percept that counts as time without progress: a gap between
+/// percepts alone does not make a goal impossible.
+pub(crate) fn counted_s(elapsed_s: f64, period_s: f64) -> f64 {
+    elapsed_s.min(period_s.max(RECEDING_S))
 }
 
 #[cfg(test)]
@@ -164,6 +171,7 @@ mod tests {
             },
             elapsed_s: 1.0,
             period_s: 1.0,
+            reflex_s: 0.0,
             unreachable: None,
             battery_s: 20.0,
             pursued: Some(Pursuit {

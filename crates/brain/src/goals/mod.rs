@@ -97,7 +97,7 @@ impl Goals {
         step: &Step,
     ) {
         let before = core::mem::take(&mut self.goals);
-        self.given_up.advance(step.elapsed_s);
+        self.rest(step.elapsed_s);
         for (behaviour, destination) in destinations {
             let mut known = before.iter();
             let same = known.find(|goal| {
@@ -114,6 +114,11 @@ impl Goals {
             _ => DetourBudget::new(first, step.at),
         });
         self.detours = detours;
+    }
+
+    /// Lets goals rest that were given up.
+    pub(crate) fn rest(&mut self, elapsed_s: f64) {
+        self.given_up.advance(elapsed_s);
     }
 
     /// The goal of a destination, which may be the same as in the last step.
@@ -222,6 +227,7 @@ mod tests {
             at,
             elapsed_s: 0.1,
             period_s: 0.1,
+            reflex_s: 0.0,
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,

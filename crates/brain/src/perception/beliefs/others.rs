@@ -91,6 +91,8 @@ impl Others {
             mover.at = turned(motion.to(mover.at.plus(drift)), back);
             mover.velocity_m_s = turned(mover.velocity_m_s, back);
             mover.course = turned(mover.course, back);
+            mover.place = turned(motion.to(mover.place), back);
+            mover.standing_s += moved.elapsed_s;
             mover.age_s += moved.elapsed_s;
         }
     }
@@ -125,6 +127,8 @@ impl Others {
                 }),
                 age_s: neighbour.age_s,
                 observations: 1,
+                place: at,
+                standing_s: 0.0,
             }),
         }
     }
@@ -148,14 +152,23 @@ impl Others {
     pub(crate) fn is_on_mover(&self, at: Point) -> bool {
         is_on_any(&self.movers, at)
     }
+
+    /// Whether a hit, in this robot's frame, belongs to a robot that is not parked, or to another
+    /// moving object.
+    pub(super) fn is_on_moving(&self, at: Point) -> bool {
+        let mut movers = self.movers.iter();
+        movers.any(|mover| !mover.is_parked() && is_on(mover, at))
+    }
 }
 
 /// Whether a hit, in this robot's frame, belongs to one of the tracks.
 fn is_on_any(movers: &[Mover], at: Point) -> bool {
-    movers.iter().any(|mover| {
-        let max_m = mover.radius_m + HIT_MARGIN_M;
-        mover.at.to(at).length_squared() <= max_m * max_m
-    })
+    movers.iter().any(|mover| is_on(mover, at))
+}
+
+fn is_on(mover: &Mover, at: Point) -> bool {
+    let max_m = mover.radius_m + HIT_MARGIN_M;
+    mover.at.to(at).length_squared() <= max_m * max_m
 }
 
 fn is_valid(neighbour: &Neighbour) -> bool {
