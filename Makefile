@@ -149,6 +149,9 @@ bench-page: .venv/released web ## Measure the page: first load, latency of chang
 safety: .venv/installed ## Measure how soon robots stop after each fault: 20 stops per fault (takes minutes)
 	$(BIN)/python python/tests/measure_safety.py
 
+goals: .venv/installed ## Measure how soon robots give up goals that they cannot reach, in 400 random worlds
+	$(BIN)/python python/tests/measure_goals.py
+
 drive: .venv/installed ## Drive an emulated robot around a wall to two waypoints, and replay the recording
 	@$(BIN)/agent-economy bender-emulator & emulator=$$!; trap "kill $$emulator" EXIT; \
 		$(BIN)/agent-economy drive fleets/bender.toml --headless --arm --record bender.mcap && \

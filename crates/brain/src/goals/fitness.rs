@@ -205,6 +205,19 @@ mod tests {
     }
 
     #[test]
+    fn a_reflex_that_moves_the_robot_does_not_stop_the_clock() {
+        let mut fitness = Fitness::default();
+        let interrupted = Step {
+            reflex_s: 5.0,
+            ..step(5.0, 5.0)
+        };
+        let verdicts: Vec<Verdict> = (0..7)
+            .map(|_| fitness.update(&GOAL, &interrupted))
+            .collect();
+        assert_eq!(verdicts[6], Verdict::Impossible);
+    }
+
+    #[test]
     fn a_robot_on_a_detour_approaches_while_its_path_shortens() {
         let mut fitness = Fitness::default();
         for remaining_m in (0..40).map(|step| 60.0 - f64::from(step)) {

@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn an_impossible_goal_is_reported_once_and_rests_for_ten_seconds() {
+    fn an_impossible_goal_is_reported_once_and_first_rests_for_ten_seconds() {
         let (destinations, mut goals) = first_is_unreachable();
         assert_eq!(goals.unreported().count(), 1);
         let mut next = || {

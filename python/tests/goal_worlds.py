@@ -1,19 +1,15 @@
-"""Measure how soon robots give up goals that they cannot reach, and how often goals that they can.
+"""Random worlds with goals that a robot can reach, and with goals that it cannot."""
 
-Example: python scripts/unreachable_goals.py --worlds 200
-"""
-
-import argparse
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from random import Random
 
-from agent_economy import Scenario, Simulation
+from agent_economy import Scenario
 
 WORLD = """
 engine = "metric"
-summary = "A robot with a goal that it cannot reach"
+summary = "A robot with goals"
 merit = "equation-5.2"
 [clock]
 step_s = 0.1
@@ -54,10 +50,7 @@ drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 9
 [robots.waiting.brain]
 behaviours = []
 """
-PERIOD_S = 0.2
-"""Time between two decisions."""
 TIME_LIMIT_S = 600.0
-PROMISE_S = 120.0
 
 Place = tuple[float, float]
 Box = tuple[float, float, float, float]
@@ -96,7 +89,8 @@ class World:
 def rectangle(box: Box) -> str:
     """Return a rectangle as an obstacle of a scenario."""
     left, low, right, high = box
-    return f"{{ polygon_m = [[{left}, {low}], [{right}, {low}], [{right}, {high}], [{left}, {high}]] }}"
+    corners = [[left, low], [right, low], [right, high], [left, high]]
+    return f"{{ polygon_m = {corners} }}"
 
 
 def block(random: Random) -> World:
@@ -211,115 +205,26 @@ def free_places(random: Random, boxes: list[Box], count: int) -> Iterator[Place]
 def distance_m(at: Place, box: Box) -> float:
     """Return the distance of a place from a box."""
     left, low, right, high = box
-    return math.hypot(
-        max(left - at[0], 0.0, at[0] - right), max(low - at[1], 0.0, at[1] - high)
-    )
+    return math.hypot(max(left - at[0], 0.0, at[0] - right), max(low - at[1], 0.0, at[1] - high))
 
 
-@dataclass
-class Attempt:
-    """One waypoint: when it was given up, reached, and when its clock last restarted, in seconds."""
-
-    at: Place
-    began_s: float | None = None
-    restarted_s: float = 0.0
-    min_m: float = math.inf
-    given_up_s: list[float] = field(default_factory=list)
-    reached_s: float | None = None
-    was_impossible: bool = False
-
-    def observe(self, goal: dict, time_s: float) -> None:
-        """Take the state of its goal into account."""
-        is_impossible = goal["verdict"] == "impossible"
-        if is_impossible and not self.was_impossible:
-            self.given_up_s.append(time_s)
-        self.was_impossible = is_impossible
-        if goal["is_pursued"] and not self.given_up_s:
-            self.began_s = time_s if self.began_s is None else self.began_s
-            if goal["min_remaining_m"] > self.min_m + 0.1:
-                self.restarted_s = time_s
-            self.min_m = goal["min_remaining_m"]
-
-
-def attempts(world: World, scenario: Scenario, seed: int) -> list[Attempt]:
-    """Return what became of each waypoint, until all reachable ones were reached."""
-    simulation = Simulation(scenario, seed=seed)
-    result = [Attempt(at) for at in world.waypoints]
-    while simulation.time_s < TIME_LIMIT_S and not simulation.is_over:
-        simulation.step(2)
-        state = simulation.belief_state("rover/0")
-        here = simulation.poses[0, :2]
-        for attempt in result:
-            near = [goal for goal in state["goals"] if math.dist(goal["to"], attempt.at) < 0.01]
-            for goal in near:
-                attempt.observe(goal, simulation.time_s)
-            if not near:
-                attempt.was_impossible = False
-            if attempt.reached_s is None and math.dist(here, attempt.at) < 0.45:
-                attempt.reached_s = simulation.time_s
-        impossible, possible = result[: world.count], result[world.count :]
-        is_given_up = all(attempt.given_up_s for attempt in impossible)
-        if is_given_up and all(attempt.reached_s for attempt in possible):
-            break
-    return result
-
-
-def report(name: str, worlds: int, make: Callable[[Random], World]) -> None:
-    """Print the results of a family of worlds."""
-    never = late = unserved = wrong = places = 0
-    since_s, whole_s, end_s = [], [], []
-    for number in range(worlds):
-        random = Random(f"{name} {number}")
-        world = make(random)
-        result = attempts(world, world.scenario(random), number)
-        impossible, possible = result[: world.count], result[world.count :]
-        for attempt in impossible:
-            if not attempt.given_up_s:
-                never += 1
-                continue
-            since = attempt.given_up_s[0] - max(attempt.restarted_s, attempt.began_s or 0.0)
-            since_s.append(since)
-            whole_s.append(attempt.given_up_s[0] - (attempt.began_s or 0.0))
-            late += since > PROMISE_S
-        unserved += sum(attempt.reached_s is None for attempt in possible)
-        wrong += sum(len(attempt.given_up_s) for attempt in possible)
-        places += len(possible)
-        end_s.append(max((a.reached_s or TIME_LIMIT_S for a in possible), default=0.0))
-    given_up = f"never given up {never}, later than {PROMISE_S:g} s {late}; " if never else ""
-    if since_s:
-        whole_s.sort()
-        given_up = (
-            f"never given up {never}, later than {PROMISE_S:g} s {late}; after the last restart: mean "
-            f"{sum(since_s) / len(since_s):.1f} s, max {max(since_s):.1f} s; in all: median "
-            f"{whole_s[len(whole_s) // 2]:.1f} s, max {whole_s[-1]:.1f} s; "
-        )
-    print(
-        f"{name}: {worlds} worlds; {given_up}of {places} reachable places {unserved} not reached, "
-        f"{wrong} give-ups; end after {sum(end_s) / max(worlds, 1):.1f} s on average",
-        flush=True,
-    )
-
-
-UNREACHABLE = {
+UNREACHABLE: dict[str, Callable[[Random], World]] = {
     "inside a block": block,
     "closed room": room,
-    "door too narrow": door,
+    "door narrower than the robot": door,
     "corner of the world": corner,
     "aisle with a parked robot": aisle,
 }
-REACHABLE = {"blocks": blocks, "maze": maze, "dead end": trap, "room with a door": doors}
+REACHABLE: dict[str, Callable[[Random], World]] = {
+    "blocks": blocks,
+    "maze": maze,
+    "dead end": trap,
+    "room with a door": doors,
+}
 
 
-def main() -> None:
-    """Measure all families of worlds."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--worlds", type=int, default=200, help="unreachable worlds in all")
-    worlds = parser.parse_args().worlds
-    for name, make in UNREACHABLE.items():
-        report(name, worlds // len(UNREACHABLE), make)
-    for name, make in REACHABLE.items():
-        report(name, worlds // len(REACHABLE), make)
-
-
-if __name__ == "__main__":
-    main()
+def random_world(family: str, number: int) -> tuple[World, Scenario]:
+    """Return a world of a family, and a scenario of it with random noise, the same each time."""
+    random = Random(f"{family} {number}")  # noqa: S311
+    world = {**UNREACHABLE, **REACHABLE}[family](random)
+    return world, world.scenario(random)
