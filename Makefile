@@ -10,7 +10,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture page-pictures bench-page examples replication validation brain-comparison web lint quick \
+	picture page-pictures bench-page examples replication validation brain-comparison goals web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test clean
 
 help: ## List the targets

@@ -103,14 +103,14 @@ impl GoalSelection {
 
     /// Index of the behaviour whose goal the robot pursues.
     pub(crate) fn pursued_behaviour(&self) -> Option<usize> {
-        let mut goals = self.goals.goals.iter();
+        let mut goals = self.goals.list.iter();
         Some(goals.find(|goal| self.is_pursued(goal))?.behaviour)
     }
 
     /// Keeps only the goals of behaviours below one: those are suppressed, while the ones above
     /// propose nothing.
     pub(crate) fn keep_below(&mut self, behaviour: usize) {
-        let goals = &mut self.goals.goals;
+        let goals = &mut self.goals.list;
         goals.retain(|goal| goal.behaviour < behaviour);
         let is_kept =
             |pursued: &Destination| goals.iter().any(|goal| goal.destination.id == pursued.id);

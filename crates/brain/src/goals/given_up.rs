@@ -8,7 +8,7 @@ const MIN_REST_S: f64 = 10.0;
 const MAX_REST_S: f64 = 160.0;
 
 /// Maximum number of goals: beyond it, the one whose last failure is the oldest is forgotten.
-const MAX_GOALS: usize = 64;
+const MAX_GOALS: usize = 16;
 
 /// The goals that a robot has given up.
 #[derive(Debug, Clone, Default)]

@@ -47,7 +47,7 @@ pub(crate) struct Goal {
 /// All goals of a robot, by precedence: at most one per behaviour.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Goals {
-    pub(crate) goals: Vec<Goal>,
+    pub(crate) list: Vec<Goal>,
     given_up: GivenUp,
     detours: Option<DetourBudget>,
 }
@@ -96,7 +96,7 @@ impl Goals {
         destinations: impl Iterator<Item = (usize, Destination)>,
         step: &Step,
     ) {
-        let before = core::mem::take(&mut self.goals);
+        let before = core::mem::take(&mut self.list);
         self.rest(step.elapsed_s);
         for (behaviour, destination) in destinations {
             let mut known = before.iter();
@@ -104,10 +104,10 @@ impl Goals {
                 goal.behaviour == behaviour && goal.destination.goal() == destination.goal()
             });
             let goal = self.judged(behaviour, destination, same, step);
-            self.goals.push(goal);
+            self.list.push(goal);
         }
         // The sort is stable: equal goals stay in the order of their behaviours.
-        self.goals
+        self.list
             .sort_by(|one, other| other.precedence.total_cmp(&one.precedence));
         let detours = self.possible().next().map(|first| match self.detours {
             Some(detours) if detours.applies_to(first) => detours.moved(first, step.at),
@@ -161,7 +161,7 @@ impl Goals {
     }
 
     fn possible(&self) -> impl Iterator<Item = &Goal> {
-        let goals = self.goals.iter();
+        let goals = self.list.iter();
         goals.filter(|goal| goal.verdict != Verdict::Impossible)
     }
 
@@ -191,7 +191,7 @@ impl Goals {
             Verdict::Receding => true,
             Verdict::Complete | Verdict::Approaching => false,
         };
-        self.goals.iter().filter(is_unreported)
+        self.list.iter().filter(is_unreported)
     }
 }
 
@@ -292,7 +292,7 @@ mod tests {
         let destinations = [destination(10.0, 0.0, 5.0), destination(0.0, 5.0, 0.1)];
         let goals = goals(&destinations, HERE);
         assert_eq!(goals.select(HERE).unwrap().behaviour, 0);
-        let order: Vec<usize> = goals.goals.iter().map(|goal| goal.behaviour).collect();
+        let order: Vec<usize> = goals.list.iter().map(|goal| goal.behaviour).collect();
         assert_eq!(order, [0, 1]);
     }
 
@@ -347,7 +347,7 @@ mod tests {
             goals.update([one, other].into_iter().enumerate(), &stuck);
         }
         // Only the one that is pursued makes no progress.
-        let verdicts = goals.goals.iter().map(|goal| goal.verdict);
+        let verdicts = goals.list.iter().map(|goal| goal.verdict);
         let verdicts: Vec<Verdict> = verdicts.collect();
         assert_eq!(verdicts, [Verdict::Receding, Verdict::Approaching]);
     }
@@ -365,7 +365,7 @@ mod tests {
         goals.update([(0, moved(20.0))].into_iter(), &step(aside));
         assert!(budget_m(&goals) < MAX_DETOUR * 10.0);
         // The progress was made on the path to another place.
-        assert!((goals.goals[0].fitness.min_m() - aside.to(moved(20.0).at).length()).abs() < 1e-9);
+        assert!((goals.list[0].fitness.min_m() - aside.to(moved(20.0).at).length()).abs() < 1e-9);
         goals.update([(0, destination(20.0, 3.0, 1.0))].into_iter(), &step(aside));
         assert!(budget_m(&goals) > MAX_DETOUR * 20.0);
     }

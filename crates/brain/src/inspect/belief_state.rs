@@ -67,7 +67,7 @@ impl BeliefState {
             velocity_m_s: mover.velocity_m_s,
             age_s: mover.age_s,
         });
-        let goals = selection.goals.goals.iter();
+        let goals = selection.goals.list.iter();
         let goals = goals.map(|goal| GoalState::of(goal, beliefs, selection));
         Self {
             pose: beliefs.pose(),

@@ -34,8 +34,8 @@ pub(crate) struct Mover {
     /// Number of observations; a velocity needs two.
     pub(crate) observations: u32,
     /// The place where it stands, in this robot's frame, and for how long it has been there.
-    pub(super) place: Point,
-    pub(super) standing_s: f64,
+    pub(crate) place: Point,
+    pub(crate) standing_s: f64,
 }
 
 impl Mover {

@@ -116,11 +116,9 @@ impl Others {
             .find(|mover| mover.id == Some(neighbour.id))
         {
             Some(mover) => mover.correct(at, neighbour.age_s, gain),
-            None => self.movers.push(Mover {
+            None => self.add(Mover {
                 id: Some(neighbour.id),
                 at,
-                velocity_m_s: Point::default(),
-                course: Point::default(),
                 radius_m: other.map_or(body.radius_m, |other| other.radius_m),
                 braking_m_s2: other.map_or(body.max_acceleration_m_s2, |other| {
                     other.max_acceleration_m_s2
@@ -128,9 +126,17 @@ impl Others {
                 age_s: neighbour.age_s,
                 observations: 1,
                 place: at,
-                standing_s: 0.0,
+                ..Mover::default()
             }),
         }
+    }
+
+    fn add(&mut self, mover: Mover) {
+        // A doubled capacity would exceed the bound on the memory of a brain.
+        if self.movers.len() == self.movers.capacity() {
+            self.movers.reserve_exact(MAX_MOVERS / 2);
+        }
+        self.movers.push(mover);
     }
 
     /// Keeps the tracks whose stopping distances come nearest to the robot's own.
