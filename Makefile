@@ -10,7 +10,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture page-pictures bench-page examples replication validation brain-comparison web lint quick \
+	picture page-pictures bench-page examples replication validation brain-comparison goals web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test clean
 
 help: ## List the targets
@@ -148,6 +148,9 @@ bench-page: .venv/released web ## Measure the page: first load, latency of chang
 # Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
 safety: .venv/installed ## Measure how soon robots stop after each fault: 20 stops per fault (takes minutes)
 	$(BIN)/python python/tests/measure_safety.py
+
+goals: .venv/installed ## Measure how soon robots give up goals that they cannot reach, in 400 random worlds
+	$(BIN)/python python/tests/measure_goals.py
 
 drive: .venv/installed ## Drive an emulated robot around a wall to two waypoints, and replay the recording
 	@$(BIN)/agent-economy bender-emulator & emulator=$$!; trap "kill $$emulator" EXIT; \

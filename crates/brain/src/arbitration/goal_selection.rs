@@ -9,7 +9,7 @@ use crate::arbitration::decided::Decided;
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{Memory, Ready};
-use crate::goals::fitness::Step;
+use crate::goals::fitness::{Pursuit, Step, counted_s};
 use crate::goals::proposal::{Destination, Proposal};
 use crate::goals::{Goal, Goals, Verdict};
 use crate::io::body::{Body, RobotId};
@@ -37,6 +37,9 @@ pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
     pursued: Option<Destination>,
+    /// Time since goals were last served in which a reflex moved the robot: such as *avoid*, which
+    /// interrupts the pursuit of a goal, but does not stop its clock.
+    reflex_s: f64,
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
@@ -97,6 +100,7 @@ impl GoalSelection {
             }
             Some((behaviour, Proposal::Motion(motion))) => {
                 self.keep_below(*behaviour);
+                self.interrupt(motion, situation);
                 (Some(*behaviour), *motion)
             }
             Some((_, Proposal::Destination(_))) => {
@@ -108,6 +112,14 @@ impl GoalSelection {
         decided
     }
 
+    /// Takes a step into account in which a reflex determined the motion.
+    fn interrupt(&mut self, motion: &Motion, situation: &Situation) {
+        self.goals.rest(situation.elapsed_s);
+        if *motion != Motion::default() {
+            self.reflex_s += counted_s(situation.elapsed_s, situation.body.period_s);
+        }
+    }
+
     pub(crate) fn is_pursued(&self, goal: &Goal) -> bool {
         self.pursued
             .is_some_and(|pursued| pursued.id == goal.destination.id)
@@ -115,14 +127,14 @@ impl GoalSelection {
 
     /// Index of the behaviour whose goal the robot pursues.
     pub(crate) fn pursued_behaviour(&self) -> Option<usize> {
-        let mut goals = self.goals.goals.iter();
+        let mut goals = self.goals.list.iter();
         Some(goals.find(|goal| self.is_pursued(goal))?.behaviour)
     }
 
     /// Keeps only the goals of behaviours below one: those are suppressed, while the ones above
     /// propose nothing.
     pub(crate) fn keep_below(&mut self, behaviour: usize) {
-        let goals = &mut self.goals.goals;
+        let goals = &mut self.goals.list;
         goals.retain(|goal| goal.behaviour < behaviour);
         let is_kept =
             |pursued: &Destination| goals.iter().any(|goal| goal.destination.id == pursued.id);
@@ -166,13 +178,19 @@ impl GoalSelection {
                 Proposal::Destination(destination) => Some((*behaviour, *destination)),
                 Proposal::Motion(_) => None,
             });
+        let is_lengthened = self.navigator.take_is_lengthened();
         let step = Step {
             at: pose.at,
             elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
+            reflex_s: core::mem::take(&mut self.reflex_s),
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
-            pursued: pursued.map(|goal| (goal, self.navigator.remaining_m(pose.at, goal))),
+            pursued: pursued.map(|goal| Pursuit {
+                goal,
+                remaining_m: self.navigator.remaining_m(pose.at, goal),
+                is_lengthened,
+            }),
             noise_m: 0.0,
         };
         self.goals.update(destinations, &step);

@@ -152,6 +152,7 @@ impl Ready {
             at,
             elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
+            reflex_s: 0.0,
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,

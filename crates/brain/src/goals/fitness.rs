@@ -8,16 +8,12 @@ use serde::{Deserialize, Serialize};
 
 /// The robot makes progress when the path to the goal is shorter by this than ever before, in
 /// metres; more if its position is noisy.
-const PROGRESS_M: f64 = 0.1;
+pub(crate) const PROGRESS_M: f64 = 0.1;
 
 /// Time without progress after which the robot recedes, and after which the goal is impossible, in
 /// seconds.
 const RECEDING_S: f64 = 4.0;
 const IMPOSSIBLE_S: f64 = 30.0;
-
-/// Time for which an impossible goal is not tried again, in seconds; other goals are served
-/// meanwhile.
-const REST_S: f64 = 10.0;
 
 /// The state of a goal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -40,15 +36,27 @@ pub(crate) struct Step {
     /// Time since the previous step, and the time that a step is expected to take.
     pub(crate) elapsed_s: f64,
     pub(crate) period_s: f64,
+    /// Time since the previous step of the goals in which a reflex moved the robot.
+    pub(crate) reflex_s: f64,
     /// A goal to which no path is known.
     pub(crate) unreachable: Option<GoalPlace>,
     /// Remaining battery time.
     pub(crate) battery_s: f64,
-    /// The goal that was pursued in the last step, and the path length to it. For other goals, time
-    /// without progress does not count.
-    pub(crate) pursued: Option<(GoalPlace, f64)>,
+    /// The goal that was pursued in the last step. For other goals, time without progress does not
+    /// count.
+    pub(crate) pursued: Option<Pursuit>,
     /// Standard deviation of `at` from one step to the next; 0 for a filtered position.
     pub(crate) noise_m: f64,
+}
+
+/// The pursuit of a goal.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pursuit {
+    pub(crate) goal: GoalPlace,
+    /// Path length to it.
+    pub(crate) remaining_m: f64,
+    /// Whether the path has become longer because of a cell that had never been occupied before.
+    pub(crate) is_lengthened: bool,
 }
 
 impl Step {
@@ -56,79 +64,43 @@ impl Step {
     pub(crate) fn min_progress_m(&self) -> f64 {
         PROGRESS_M + 2.0 * self.noise_m
     }
-
-    /// Maximum change of the path length in this step; beyond it, the path is another one.
-    fn max_change_m(&self, max_speed_m_s: f64) -> f64 {
-        max_speed_m_s * self.elapsed_s + PROGRESS_M + 6.0 * self.noise_m
-    }
-
-    /// Path length to a goal; only a straight line unless it is the pursued one.
-    fn remaining_m(&self, goal: GoalPlace) -> f64 {
-        let known = self.pursued.filter(|(pursued, _)| *pursued == goal);
-        known.map_or_else(
-            || self.at.to(goal.at).length(),
-            |(_, remaining_m)| remaining_m,
-        )
-    }
 }
 
 /// The progress towards one goal so far.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Fitness {
-    /// The minimum path length so far, and that of the last step.
-    pub(crate) best_m: f64,
+    /// Path length in the last step; only a straight line while another goal is pursued.
     pub(crate) last_m: f64,
+    /// The difference between it and the minimum so far.
+    behind_m: f64,
     /// Time without progress.
     pub(crate) stuck_s: f64,
-    /// Remaining time for which the goal counts as impossible.
-    pub(crate) rest_s: f64,
-}
-
-impl Default for Fitness {
-    fn default() -> Self {
-        Self {
-            best_m: f64::INFINITY,
-            last_m: f64::INFINITY,
-            stuck_s: 0.0,
-            rest_s: 0.0,
-        }
-    }
+    /// Whether the goal was pursued in the last step.
+    is_pursued: bool,
 }
 
 impl Fitness {
-    pub(crate) fn is_resting(&self) -> bool {
-        self.rest_s > 0.0
-    }
-
-    /// Lets the goal count as impossible for some time.
-    pub(crate) fn start_rest(&mut self) {
-        self.rest_s = REST_S;
+    /// The minimum path length so far. What the path became longer while another goal was pursued
+    /// is added.
+    pub(crate) fn min_m(&self) -> f64 {
+        (self.last_m - self.behind_m).max(0.0)
     }
 
     /// Takes a step into account, and returns the verdict:
     ///
     /// ```text
     /// complete      distance <= tolerance
-    /// impossible    no known path, or battery time < path length / speed, or no progress for 30 s;
-    ///               and for 10 s after that
+    /// impossible    no known path, or battery time < path length / speed, or no progress for 30 s
     /// receding      no progress for 4 s
     /// approaching   otherwise
     /// ```
     pub(crate) fn update(&mut self, destination: &Destination, step: &Step) -> Verdict {
-        if self.is_resting() {
-            self.rest_s -= step.elapsed_s;
-            if !self.is_resting() {
-                *self = Self::default();
-            }
-        }
-        let remaining_m = step.remaining_m(destination.goal());
-        self.track(remaining_m, destination, step);
-        let is_out_of_range = super::time_s(remaining_m, destination) > step.battery_s;
+        self.track(destination, step);
         let is_unreachable = step.unreachable == Some(destination.goal());
         let is_stuck = self.stuck_s > IMPOSSIBLE_S;
         if step.at.to(destination.at).length() <= destination.tolerance_m {
             Verdict::Complete
-        } else if self.is_resting() || is_unreachable || is_out_of_range || is_stuck {
+        } else if is_unreachable || is_stuck || self.is_beyond_battery(destination, step) {
             Verdict::Impossible
         } else if self.stuck_s > RECEDING_S {
             Verdict::Receding
@@ -137,23 +109,40 @@ impl Fitness {
         }
     }
 
-    fn track(&mut self, remaining_m: f64, destination: &Destination, step: &Step) {
-        // No robot moves that far in a step: the old path is blocked, or a shorter one was found.
-        let max_change_m = step.max_change_m(destination.max_speed_m_s);
-        let is_new_path = (remaining_m - self.last_m).abs() > max_change_m;
-        self.last_m = remaining_m;
-        if is_new_path {
-            self.best_m = remaining_m;
-        } else if remaining_m < self.best_m - step.min_progress_m() {
-            (self.best_m, self.stuck_s) = (remaining_m, 0.0);
-        } else if step
+    /// Whether the battery does not last for the path.
+    pub(crate) fn is_beyond_battery(&self, destination: &Destination, step: &Step) -> bool {
+        super::time_s(self.last_m, destination) > step.battery_s
+    }
+
+    /// Progress is only a path that is shorter than ever before: a path that jumps between two
+    /// lengths is none. A discovery that lengthens the path starts over. As each cell is discovered
+    /// only once, this ends.
+    fn track(&mut self, destination: &Destination, step: &Step) {
+        let pursued = step
             .pursued
-            .is_some_and(|(pursued, _)| pursued == destination.goal())
-        {
-            // A gap between percepts alone does not make a goal impossible.
-            self.stuck_s += step.elapsed_s.min(step.period_s.max(RECEDING_S));
+            .filter(|pursued| pursued.goal == destination.goal());
+        let was_pursued = core::mem::replace(&mut self.is_pursued, pursued.is_some());
+        let before_m = self.last_m;
+        let Some(pursued) = pursued else {
+            self.last_m = step.at.to(destination.at).length();
+            return;
+        };
+        self.last_m = pursued.remaining_m;
+        if was_pursued {
+            self.behind_m += pursued.remaining_m - before_m;
+        }
+        if pursued.is_lengthened || self.behind_m < -step.min_progress_m() {
+            (self.behind_m, self.stuck_s) = (0.0, 0.0);
+        } else if was_pursued {
+            self.stuck_s += counted_s(step.elapsed_s, step.period_s) + step.reflex_s;
         }
     }
+}
+
+/// The part of the time since the last percept that counts as time without progress: a gap between
+/// percepts alone does not make a goal impossible.
+pub(crate) fn counted_s(elapsed_s: f64, period_s: f64) -> f64 {
+    elapsed_s.min(period_s.max(RECEDING_S))
 }
 
 #[cfg(test)]
@@ -182,9 +171,14 @@ mod tests {
             },
             elapsed_s: 1.0,
             period_s: 1.0,
+            reflex_s: 0.0,
             unreachable: None,
             battery_s: 20.0,
-            pursued: Some((GOAL.goal(), remaining_m)),
+            pursued: Some(Pursuit {
+                goal: GOAL.goal(),
+                remaining_m,
+                is_lengthened: false,
+            }),
             noise_m: 0.0,
         }
     }
@@ -211,6 +205,19 @@ mod tests {
     }
 
     #[test]
+    fn a_reflex_that_moves_the_robot_does_not_stop_the_clock() {
+        let mut fitness = Fitness::default();
+        let interrupted = Step {
+            reflex_s: 5.0,
+            ..step(5.0, 5.0)
+        };
+        let verdicts: Vec<Verdict> = (0..7)
+            .map(|_| fitness.update(&GOAL, &interrupted))
+            .collect();
+        assert_eq!(verdicts[6], Verdict::Impossible);
+    }
+
+    #[test]
     fn a_robot_on_a_detour_approaches_while_its_path_shortens() {
         let mut fitness = Fitness::default();
         for remaining_m in (0..40).map(|step| 60.0 - f64::from(step)) {
@@ -222,12 +229,55 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_robot_that_finds_its_path_longer_approaches_while_the_new_one_shortens() {
+    /// The verdicts while a path of 5 m jumps to 18 m, and then becomes shorter by 0.5 m/s.
+    fn after_a_jump(is_lengthened: bool) -> Vec<Verdict> {
         let mut fitness = Fitness::default();
-        fitness.update(&GOAL, &step(5.0, 5.0));
-        for remaining_m in [18.0, 17.0, 16.0, 15.0, 14.0, 13.0, 12.0] {
-            let verdict = fitness.update(&GOAL, &step(5.0, remaining_m));
+        (0..5).for_each(|_| {
+            fitness.update(&GOAL, &step(5.0, 5.0));
+        });
+        let verdicts = (0..26).map(|second| {
+            let mut step = step(5.0, 18.0 - 0.5 * f64::from(second));
+            let pursued = step.pursued.as_mut().unwrap();
+            pursued.is_lengthened = is_lengthened && second == 0;
+            fitness.update(&GOAL, &step)
+        });
+        verdicts.collect()
+    }
+
+    #[test]
+    fn a_robot_that_discovers_an_obstacle_approaches_while_its_new_path_shortens() {
+        let is_approaching = |verdict: &Verdict| *verdict == Verdict::Approaching;
+        assert!(after_a_jump(true).iter().all(is_approaching));
+        assert!(!after_a_jump(false).iter().any(is_approaching));
+    }
+
+    #[test]
+    fn a_path_that_jumps_between_two_lengths_is_no_progress() {
+        let mut fitness = Fitness::default();
+        let mut next = |second| {
+            let remaining_m = if second % 10 < 5 { 5.0 } else { 12.0 };
+            fitness.update(&GOAL, &step(5.0, remaining_m))
+        };
+        let verdicts: Vec<Verdict> = (0..40).map(&mut next).collect();
+        assert_eq!(verdicts[35], Verdict::Impossible);
+    }
+
+    #[test]
+    fn the_way_back_from_another_goal_is_not_counted_as_receding() {
+        let mut fitness = Fitness::default();
+        (0..3).for_each(|_| {
+            fitness.update(&GOAL, &step(5.0, 5.0));
+        });
+        let elsewhere = Step {
+            pursued: None,
+            ..step(15.0, 15.0)
+        };
+        (0..50).for_each(|_| {
+            fitness.update(&GOAL, &elsewhere);
+        });
+        assert!(fitness.stuck_s <= 3.0, "{fitness:?}");
+        for remaining_m in (0..10).map(|second| 15.0 - f64::from(second)) {
+            let verdict = fitness.update(&GOAL, &step(remaining_m, remaining_m));
             assert_eq!(verdict, Verdict::Approaching);
         }
     }

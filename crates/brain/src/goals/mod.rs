@@ -5,13 +5,14 @@
 //! precedence, and on its path goals that need only a small detour. The verdicts mean:
 //!
 //! * *complete*: the behaviour continues to its next destination;
-//! * *impossible*: the behaviour is notified, and chooses another destination; if it proposes the
-//!   same one again, that rests for [ten seconds](fitness), in which other goals are pursued;
+//! * *impossible*: the behaviour is notified, and chooses another destination; the goal itself
+//!   [rests](given_up), after each failure for longer, while other goals are pursued;
 //! * *approaching*: nothing changes;
 //! * *receding*: the behaviour is notified; searches choose another destination. The path is
 //!   checked for obstacles [every second](crate::navigation::navigator) in any case.
 
 pub(crate) mod fitness;
+mod given_up;
 pub(crate) mod orders;
 pub(crate) mod precedence;
 pub(crate) mod proposal;
@@ -22,6 +23,7 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 pub use fitness::Verdict;
 use fitness::{Fitness, Step};
+use given_up::GivenUp;
 use precedence::{precedence, time_s};
 
 /// All detours on the way to a goal together are at most this fraction of the straight line to it.
@@ -36,6 +38,8 @@ pub(crate) struct Goal {
     pub(crate) precedence: f64,
     pub(crate) verdict: Verdict,
     pub(crate) fitness: Fitness,
+    /// Remaining time for which it is not tried again.
+    pub(crate) rest_s: f64,
     /// Whether the behaviour was notified before that the goal is impossible.
     is_reported: bool,
 }
@@ -43,7 +47,8 @@ pub(crate) struct Goal {
 /// All goals of a robot, by precedence: at most one per behaviour.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Goals {
-    pub(crate) goals: Vec<Goal>,
+    pub(crate) list: Vec<Goal>,
+    given_up: GivenUp,
     detours: Option<DetourBudget>,
 }
 
@@ -91,36 +96,18 @@ impl Goals {
         destinations: impl Iterator<Item = (usize, Destination)>,
         step: &Step,
     ) {
-        let before = core::mem::take(&mut self.goals);
-        self.goals
-            .extend(destinations.map(|(behaviour, destination)| {
-                let mut known = before.iter();
-                let same = known.find(|goal| {
-                    goal.behaviour == behaviour && goal.destination.goal() == destination.goal()
-                });
-                let is_reported = same.is_some_and(|goal| goal.fitness.is_resting());
-                // A goal that was impossible and is proposed again starts over, unless it rests.
-                let same = same.filter(|goal| goal.verdict != Verdict::Impossible || is_reported);
-                let mut fitness = same.map_or_else(Fitness::default, |goal| goal.fitness);
-                let distance_m = step.at.to(destination.at).length();
-                let verdict = fitness.update(&destination, step);
-                // Without other goals, it may as well be tried again, if there is a path.
-                let must_rest = before.len() > 1 || step.unreachable == Some(destination.goal());
-                if verdict == Verdict::Impossible && must_rest && !fitness.is_resting() {
-                    fitness.start_rest();
-                }
-                let time_s = time_s(distance_m, &destination);
-                Goal {
-                    behaviour,
-                    destination,
-                    precedence: precedence(&destination, time_s, step.battery_s),
-                    verdict,
-                    is_reported: is_reported && fitness.is_resting(),
-                    fitness,
-                }
-            }));
+        let before = core::mem::take(&mut self.list);
+        self.rest(step.elapsed_s);
+        for (behaviour, destination) in destinations {
+            let mut known = before.iter();
+            let same = known.find(|goal| {
+                goal.behaviour == behaviour && goal.destination.goal() == destination.goal()
+            });
+            let goal = self.judged(behaviour, destination, same, step);
+            self.list.push(goal);
+        }
         // The sort is stable: equal goals stay in the order of their behaviours.
-        self.goals
+        self.list
             .sort_by(|one, other| other.precedence.total_cmp(&one.precedence));
         let detours = self.possible().next().map(|first| match self.detours {
             Some(detours) if detours.applies_to(first) => detours.moved(first, step.at),
@@ -129,8 +116,52 @@ impl Goals {
         self.detours = detours;
     }
 
+    /// Lets goals rest that were given up.
+    pub(crate) fn rest(&mut self, elapsed_s: f64) {
+        self.given_up.advance(elapsed_s);
+    }
+
+    /// The goal of a destination, which may be the same as in the last step.
+    fn judged(
+        &mut self,
+        behaviour: usize,
+        destination: Destination,
+        same: Option<&Goal>,
+        step: &Step,
+    ) -> Goal {
+        let place = destination.goal();
+        let was_impossible = same.is_some_and(|goal| goal.verdict == Verdict::Impossible);
+        let is_resting = self.given_up.rest_s(place) > 0.0;
+        let same = same.filter(|_| !was_impossible);
+        let mut fitness = same.map_or_else(Fitness::default, |goal| goal.fitness);
+        let verdict = match fitness.update(&destination, step) {
+            Verdict::Complete => {
+                self.given_up.remove(place);
+                Verdict::Complete
+            }
+            _ if is_resting => Verdict::Impossible,
+            Verdict::Impossible => {
+                // The battery may be charged meanwhile.
+                let is_beyond_battery = fitness.is_beyond_battery(&destination, step);
+                self.given_up.add(place, !is_beyond_battery);
+                Verdict::Impossible
+            }
+            verdict => verdict,
+        };
+        let time_s = time_s(step.at.to(destination.at).length(), &destination);
+        Goal {
+            behaviour,
+            destination,
+            precedence: precedence(&destination, time_s, step.battery_s),
+            verdict,
+            fitness,
+            rest_s: self.given_up.rest_s(place),
+            is_reported: was_impossible && is_resting,
+        }
+    }
+
     fn possible(&self) -> impl Iterator<Item = &Goal> {
-        let goals = self.goals.iter();
+        let goals = self.list.iter();
         goals.filter(|goal| goal.verdict != Verdict::Impossible)
     }
 
@@ -160,7 +191,7 @@ impl Goals {
             Verdict::Receding => true,
             Verdict::Complete | Verdict::Approaching => false,
         };
-        self.goals.iter().filter(is_unreported)
+        self.list.iter().filter(is_unreported)
     }
 }
 
@@ -168,6 +199,7 @@ impl Goals {
 mod tests {
     use super::*;
     use crate::io::body::RobotId;
+    use fitness::Pursuit;
 
     fn id(number: u32) -> GoalId {
         let issuer = RobotId::default();
@@ -195,6 +227,7 @@ mod tests {
             at,
             elapsed_s: 0.1,
             period_s: 0.1,
+            reflex_s: 0.0,
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,
@@ -259,7 +292,7 @@ mod tests {
         let destinations = [destination(10.0, 0.0, 5.0), destination(0.0, 5.0, 0.1)];
         let goals = goals(&destinations, HERE);
         assert_eq!(goals.select(HERE).unwrap().behaviour, 0);
-        let order: Vec<usize> = goals.goals.iter().map(|goal| goal.behaviour).collect();
+        let order: Vec<usize> = goals.list.iter().map(|goal| goal.behaviour).collect();
         assert_eq!(order, [0, 1]);
     }
 
@@ -283,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn an_impossible_goal_is_reported_once_and_rests_for_ten_seconds() {
+    fn an_impossible_goal_is_reported_once_and_first_rests_for_ten_seconds() {
         let (destinations, mut goals) = first_is_unreachable();
         assert_eq!(goals.unreported().count(), 1);
         let mut next = || {
@@ -302,7 +335,11 @@ mod tests {
             ..destination(10.0, 0.0, 1.0)
         });
         let stuck = Step {
-            pursued: Some((one.goal(), 10.0)),
+            pursued: Some(Pursuit {
+                goal: one.goal(),
+                remaining_m: 10.0,
+                is_lengthened: false,
+            }),
             ..step(HERE)
         };
         let mut goals = Goals::default();
@@ -310,7 +347,7 @@ mod tests {
             goals.update([one, other].into_iter().enumerate(), &stuck);
         }
         // Only the one that is pursued makes no progress.
-        let verdicts = goals.goals.iter().map(|goal| goal.verdict);
+        let verdicts = goals.list.iter().map(|goal| goal.verdict);
         let verdicts: Vec<Verdict> = verdicts.collect();
         assert_eq!(verdicts, [Verdict::Receding, Verdict::Approaching]);
     }
@@ -328,7 +365,7 @@ mod tests {
         goals.update([(0, moved(20.0))].into_iter(), &step(aside));
         assert!(budget_m(&goals) < MAX_DETOUR * 10.0);
         // The progress was made on the path to another place.
-        assert!((goals.goals[0].fitness.best_m - aside.to(moved(20.0).at).length()).abs() < 1e-9);
+        assert!((goals.list[0].fitness.min_m() - aside.to(moved(20.0).at).length()).abs() < 1e-9);
         goals.update([(0, destination(20.0, 3.0, 1.0))].into_iter(), &step(aside));
         assert!(budget_m(&goals) > MAX_DETOUR * 20.0);
     }

@@ -3,7 +3,7 @@
 //! A goal with an [order](About::Order) is visited in the order of assignment. One that turns out to
 //! be impossible is tried again after all others.
 
-use super::fitness::{Fitness, Step, Verdict};
+use super::fitness::{Fitness, Pursuit, Step, Verdict};
 use super::proposal::Destination;
 use crate::io::body::RobotId;
 use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
@@ -172,7 +172,11 @@ impl Order {
         let GoalPlace { id, at } = self.goal;
         let distance_m = step.at.to(at).length();
         let step = Step {
-            pursued: Some((self.goal, distance_m)),
+            pursued: Some(Pursuit {
+                goal: self.goal,
+                remaining_m: distance_m,
+                is_lengthened: false,
+            }),
             ..*step
         };
         let destination = Destination {

@@ -71,7 +71,7 @@ impl BeliefState {
             velocity_m_s: mover.velocity_m_s,
             age_s: mover.age_s,
         });
-        let goals = selection.goals.goals.iter();
+        let goals = selection.goals.list.iter();
         let goals = goals.map(|goal| GoalState::of(goal, beliefs, selection));
         Self {
             pose: beliefs.pose(),
@@ -100,9 +100,9 @@ impl GoalState {
             within_m: destination.tolerance_m,
             verdict: goal.verdict,
             remaining_m: fitness.last_m,
-            min_remaining_m: fitness.best_m,
+            min_remaining_m: fitness.min_m(),
             stuck_s: fitness.stuck_s,
-            retry_s: fitness.rest_s.max(0.0),
+            retry_s: goal.rest_s,
             is_pursued: selection.is_pursued(goal),
         }
     }

@@ -9,6 +9,7 @@ use super::path::Wavefront;
 use super::reachable::{Reachable, approach_speed_m_s};
 use super::shunting::{Shunting, Step};
 use super::traffic::Traffic;
+use crate::goals::fitness::PROGRESS_M;
 use crate::goals::proposal::Destination;
 use crate::io::command::Motion;
 use crate::io::goal_id::GoalPlace;
@@ -39,6 +40,7 @@ pub(crate) struct Navigator {
     hits: Vec<Ray>,
     wavefront: Wavefront,
     plan: Option<Plan>,
+    is_lengthened: bool,
     /// The target of the last step, relative to the robot's front: bearing (radians) and distance
     /// (metres).
     pub(crate) target: Option<[f64; 2]>,
@@ -55,9 +57,26 @@ struct Plan {
     /// [`Occupancy::changes`](crate::perception::beliefs::occupancy::Occupancy::changes) of the map
     /// that it was made on.
     map_changes: u32,
+    /// Likewise [`Occupancy::ever_occupied`](crate::perception::beliefs::occupancy::Occupancy::ever_occupied).
+    ever_occupied: u32,
 }
 
 impl Plan {
+    /// Length of the path from a position; the straight line if no path is known.
+    fn remaining_m(&self, at: Point) -> f64 {
+        let waypoint = self.waypoint.unwrap_or(self.goal.at);
+        at.to(waypoint).length() + self.beyond_m
+    }
+
+    /// Whether the path from a position is longer than that of an older plan, and the robot has
+    /// discovered an occupied cell since then.
+    fn is_longer_by_discovery(&self, older: &Self, at: Point) -> bool {
+        let has_paths = self.waypoint.is_some() && older.waypoint.is_some();
+        let added_m = self.remaining_m(at) - older.remaining_m(at);
+        let has_discovered = self.ever_occupied != older.ever_occupied;
+        self.goal == older.goal && has_paths && has_discovered && added_m > PROGRESS_M
+    }
+
     fn is_straight(&self) -> bool {
         self.waypoint == Some(self.goal.at)
     }
@@ -138,9 +157,13 @@ impl Navigator {
     /// Length of the path from a position to a goal; the straight line if no path is known.
     pub(crate) fn remaining_m(&self, at: Point, goal: GoalPlace) -> f64 {
         let plan = self.plan.filter(|plan| plan.goal == goal);
-        let known = plan.and_then(|plan| Some((plan.waypoint?, plan.beyond_m)));
-        let (waypoint, beyond_m) = known.unwrap_or((goal.at, 0.0));
-        at.to(waypoint).length() + beyond_m
+        plan.map_or_else(|| at.to(goal.at).length(), |plan| plan.remaining_m(at))
+    }
+
+    /// Whether the path has become longer since the last call, because of a cell that had never
+    /// been occupied before.
+    pub(crate) fn take_is_lengthened(&mut self) -> bool {
+        core::mem::take(&mut self.is_lengthened)
     }
 
     pub(crate) fn discard_plan(&mut self) {
@@ -162,13 +185,17 @@ impl Navigator {
             Source::LastSearch => self.wavefront.waypoint(&map.field, &map.occupancy, pose.at),
             Source::NewSearch => self.search(goal.at, pose.at, map, body.radius_m),
         };
-        self.plan = Some(Plan {
+        let plan = Plan {
             goal,
             waypoint,
             beyond_m: self.beyond_m(waypoint, goal.at, map),
             age_s: 0.0,
             map_changes: map.occupancy.changes,
-        });
+            ever_occupied: map.occupancy.ever_occupied,
+        };
+        let older = self.plan.replace(plan);
+        self.is_lengthened |=
+            older.is_some_and(|older| plan.is_longer_by_discovery(&older, pose.at));
         waypoint
     }
 

@@ -22,6 +22,7 @@ fn mover() -> impl Strategy<Value = Mover> {
         braking_m_s2: 1.0,
         age_s: 0.0,
         observations: 2,
+        ..Mover::default()
     })
 }
 

@@ -32,6 +32,7 @@ fn mover(velocity: [f64; 2]) -> Mover {
         braking_m_s2: 1.0,
         age_s: 0.0,
         observations: 2,
+        ..Mover::default()
     }
 }
 

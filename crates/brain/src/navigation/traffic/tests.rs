@@ -271,6 +271,7 @@ fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {
         braking_m_s2: 1.0,
         age_s: 0.0,
         observations: 2,
+        ..Mover::default()
     }
 }
 

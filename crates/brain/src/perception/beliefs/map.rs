@@ -54,7 +54,8 @@ impl Map {
         true
     }
 
-    /// Integrates a scan into the occupancy map. Hits on moving objects are left out.
+    /// Integrates a scan into the occupancy map. Hits on moving objects are left out,
+    /// those on parked robots are not.
     pub(super) fn update(
         &mut self,
         pose: &Pose,
@@ -67,7 +68,7 @@ impl Map {
         let free_m = free_ranges_m(ranges_m);
         for (ray, free_m) in ring.rays(ranges_m).zip(free_m) {
             let end = ray.end();
-            let is_hit = ray.range_m < ring.range_m() && !others.is_on_mover(end);
+            let is_hit = ray.range_m < ring.range_m() && !others.is_on_moving(end);
             let free_end = in_world(ray.direction.times(free_m.min(ray.range_m)));
             let free = Segment {
                 from: pose.at,

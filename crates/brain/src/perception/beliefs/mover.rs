@@ -9,8 +9,13 @@ const MAX_SPEED_M_S: f64 = 100.0;
 /// Below this speed an object counts as stationary.
 const MIN_SPEED_M_S: f64 = 0.1;
 
+/// A robot is parked when it has stayed for this time, in seconds, within this distance of one
+/// place, in metres. Robots that give way to each other do not stand for that long.
+const PARKED_S: f64 = 20.0;
+const SAME_PLACE_M: f64 = 0.5;
+
 /// The estimated state of a robot or other moving object.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Mover {
     /// The robot, if it was identified as one.
     pub(crate) id: Option<RobotId>,
@@ -28,6 +33,9 @@ pub(crate) struct Mover {
     pub(crate) age_s: f64,
     /// Number of observations; a velocity needs two.
     pub(crate) observations: u32,
+    /// The place where it stands, in this robot's frame, and for how long it has been there.
+    pub(crate) place: Point,
+    pub(crate) standing_s: f64,
 }
 
 impl Mover {
@@ -46,6 +54,9 @@ impl Mover {
         if corrected.length_squared() <= MAX_SPEED_M_S * MAX_SPEED_M_S {
             self.velocity_m_s = corrected;
         }
+        if self.place.to(at).length_squared() > SAME_PLACE_M * SAME_PLACE_M {
+            (self.place, self.standing_s) = (at, 0.0);
+        }
         let speed_m_s = self.speed_m_s();
         if speed_m_s > MIN_SPEED_M_S {
             self.course = self.velocity_m_s.times(1.0 / speed_m_s);
@@ -53,6 +64,11 @@ impl Mover {
         self.at = at.plus(self.velocity_m_s.times(age_s));
         self.age_s = age_s;
         self.observations = self.observations.saturating_add(1);
+    }
+
+    /// Whether it is an obstacle that paths lead around, rather than one that will move on.
+    pub(super) fn is_parked(&self) -> bool {
+        self.standing_s >= PARKED_S
     }
 
     /// Stopping distance if it brakes now.

@@ -20,8 +20,8 @@ const OCCUPIED: i8 = 4;
 /// The cells of a field, each with the log odds that it is occupied.
 ///
 /// After Moravec and Elfes, *High resolution maps from wide angle sonar*, ICRA 1985, with log odds:
-/// each ray adds [`HIT`] to the cell in which it ends and [`PASS`] to those that it passes. One
-/// byte per cell.
+/// each ray adds [`HIT`] to the cell in which it ends and [`PASS`] to those that it passes. Nine
+/// bits per cell.
 ///
 /// A wall at a grazing angle ends few rays, while many pass through cells that it occupies in part.
 /// A ray therefore clears cells only as far as its neighbours reach, and each cell about once per
@@ -33,6 +33,9 @@ pub(crate) struct Occupancy {
     passed: Vec<usize>,
     /// Number of cells that have become occupied or free so far.
     pub(crate) changes: u32,
+    /// Whether each cell has ever been occupied, in groups of 64, and the number of those cells.
+    was_occupied: Vec<u64>,
+    pub(crate) ever_occupied: u32,
 }
 
 /// A measured ray.
@@ -50,6 +53,8 @@ impl Occupancy {
             quarter_nats: vec![0; field.cells()],
             passed: Vec::with_capacity(field.columns.max(field.rows) + 1),
             changes: 0,
+            was_occupied: vec![0; field.cells().div_ceil(64)],
+            ever_occupied: 0,
         }
     }
 
@@ -123,8 +128,22 @@ impl Occupancy {
         if let Some(odds) = self.quarter_nats.get_mut(cell) {
             let was_occupied = *odds >= OCCUPIED;
             *odds = (*odds + change).clamp(-MAX_LOG_ODDS, MAX_LOG_ODDS);
-            let is_changed = was_occupied != (*odds >= OCCUPIED);
-            self.changes = self.changes.wrapping_add(u32::from(is_changed));
+            let is_occupied = *odds >= OCCUPIED;
+            if was_occupied != is_occupied {
+                self.changes = self.changes.wrapping_add(1);
+                if is_occupied {
+                    self.count_occupied(cell);
+                }
+            }
+        }
+    }
+
+    /// Counts a cell that has become occupied, once for ever.
+    fn count_occupied(&mut self, cell: usize) {
+        if let Some(group) = self.was_occupied.get_mut(cell / 64) {
+            let bit = 1 << (cell % 64);
+            self.ever_occupied += u32::from(*group & bit == 0);
+            *group |= bit;
         }
     }
 
@@ -229,6 +248,20 @@ mod tests {
             is_occupied(&map, 5.1)
         });
         assert!((10..20).contains(&scans.count()));
+    }
+
+    #[test]
+    fn a_cell_that_is_occupied_again_is_not_counted_again() {
+        let mut map = Occupancy::new(&field());
+        for _ in 0..3 {
+            (0..100).for_each(|_| scan(&mut map, 4.1, true));
+            (0..100).for_each(|_| scan(&mut map, 8.0, false));
+        }
+        assert_eq!((map.changes, map.ever_occupied), (6, 1));
+        scan(&mut map, 6.1, true);
+        assert_eq!(map.ever_occupied, 1);
+        (0..10).for_each(|_| scan(&mut map, 6.1, true));
+        assert_eq!(map.ever_occupied, 2);
     }
 
     #[test]

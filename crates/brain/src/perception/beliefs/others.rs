@@ -91,6 +91,8 @@ impl Others {
             mover.at = turned(motion.to(mover.at.plus(drift)), back);
             mover.velocity_m_s = turned(mover.velocity_m_s, back);
             mover.course = turned(mover.course, back);
+            mover.place = turned(motion.to(mover.place), back);
+            mover.standing_s += moved.elapsed_s;
             mover.age_s += moved.elapsed_s;
         }
     }
@@ -114,19 +116,27 @@ impl Others {
             .find(|mover| mover.id == Some(neighbour.id))
         {
             Some(mover) => mover.correct(at, neighbour.age_s, gain),
-            None => self.movers.push(Mover {
+            None => self.add(Mover {
                 id: Some(neighbour.id),
                 at,
-                velocity_m_s: Point::default(),
-                course: Point::default(),
                 radius_m: other.map_or(body.radius_m, |other| other.radius_m),
                 braking_m_s2: other.map_or(body.max_acceleration_m_s2, |other| {
                     other.max_acceleration_m_s2
                 }),
                 age_s: neighbour.age_s,
                 observations: 1,
+                place: at,
+                ..Mover::default()
             }),
         }
+    }
+
+    fn add(&mut self, mover: Mover) {
+        // A doubled capacity would exceed the bound on the memory of a brain.
+        if self.movers.len() == self.movers.capacity() {
+            self.movers.reserve_exact(MAX_MOVERS / 2);
+        }
+        self.movers.push(mover);
     }
 
     /// Keeps the tracks whose stopping distances come nearest to the robot's own.
@@ -148,14 +158,23 @@ impl Others {
     pub(crate) fn is_on_mover(&self, at: Point) -> bool {
         is_on_any(&self.movers, at)
     }
+
+    /// Whether a hit, in this robot's frame, belongs to a robot that is not parked, or to another
+    /// moving object.
+    pub(super) fn is_on_moving(&self, at: Point) -> bool {
+        let mut movers = self.movers.iter();
+        movers.any(|mover| !mover.is_parked() && is_on(mover, at))
+    }
 }
 
 /// Whether a hit, in this robot's frame, belongs to one of the tracks.
 fn is_on_any(movers: &[Mover], at: Point) -> bool {
-    movers.iter().any(|mover| {
-        let max_m = mover.radius_m + HIT_MARGIN_M;
-        mover.at.to(at).length_squared() <= max_m * max_m
-    })
+    movers.iter().any(|mover| is_on(mover, at))
+}
+
+fn is_on(mover: &Mover, at: Point) -> bool {
+    let max_m = mover.radius_m + HIT_MARGIN_M;
+    mover.at.to(at).length_squared() <= max_m * max_m
 }
 
 fn is_valid(neighbour: &Neighbour) -> bool {

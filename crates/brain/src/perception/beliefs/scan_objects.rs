@@ -139,6 +139,7 @@ impl ScanObjects {
                 braking_m_s2: f64::INFINITY,
                 age_s: object.age_s,
                 observations: object.observations,
+                ..Mover::default()
             }
         })
     }

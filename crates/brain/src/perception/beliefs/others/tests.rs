@@ -192,3 +192,30 @@ fn renumbered_robots_keep_their_tracks_and_removed_ones_lose_them() {
     beliefs.update(&both(1), &body, &[], &STILL);
     assert_eq!(beliefs.others.movers[0].observations, 2);
 }
+
+/// Whether a hit on a robot still counts as one on a moving object after it has stood for a time, and
+/// then moved by a distance.
+fn is_moving_after(standing_s: f64, moved_m: f64) -> bool {
+    let mut others = Others::default();
+    let at = |x: f64| Point { x, y: 0.5 };
+    let mut time_s = 0.0;
+    while time_s <= standing_s {
+        observe(&mut others, vec![neighbour(OTHER, at(2.0))]);
+        time_s += STILL.elapsed_s;
+    }
+    for step in 0..10 {
+        let x = 2.0 + 0.1 * moved_m * f64::from(step + 1);
+        observe(&mut others, vec![neighbour(OTHER, at(x))]);
+    }
+    let hit = others.movers[0].at;
+    assert!(others.is_on_mover(hit));
+    others.is_on_moving(hit)
+}
+
+#[test]
+fn a_robot_is_parked_after_twenty_seconds_in_one_place_until_it_moves_on() {
+    assert!(is_moving_after(15.0, 0.0));
+    assert!(!is_moving_after(21.0, 0.0));
+    assert!(!is_moving_after(21.0, 0.3));
+    assert!(is_moving_after(21.0, 1.0));
+}
