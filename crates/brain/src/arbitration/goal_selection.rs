@@ -9,7 +9,7 @@ use crate::arbitration::decided::Decided;
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{Memory, Ready};
-use crate::goals::fitness::{Pursuit, Step, counted_s};
+use crate::goals::fitness::{Pursuit, Step};
 use crate::goals::proposal::{Destination, Proposal};
 use crate::goals::{Goal, Goals, Verdict};
 use crate::io::body::{Body, RobotId};
@@ -37,9 +37,6 @@ pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
     pursued: Option<Destination>,
-    /// Time since goals were last served in which a reflex moved the robot: such as *avoid*, which
-    /// interrupts the pursuit of a goal, but does not stop its clock.
-    reflex_s: f64,
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
@@ -100,7 +97,7 @@ impl GoalSelection {
             }
             Some((behaviour, Proposal::Motion(motion))) => {
                 self.keep_below(*behaviour);
-                self.interrupt(motion, situation);
+                self.interrupt(motion, behaviours, layers, situation);
                 (Some(*behaviour), *motion)
             }
             Some((_, Proposal::Destination(_))) => {
@@ -112,11 +109,37 @@ impl GoalSelection {
         decided
     }
 
-    /// Takes a step into account in which a reflex determined the motion.
-    fn interrupt(&mut self, motion: &Motion, situation: &Situation) {
+    /// Takes a step into account in which a reflex determined the motion. One that holds the robot
+    /// in place, such as that of a robot that is charged, stops the clock of the goal.
+    fn interrupt(
+        &mut self,
+        motion: &Motion,
+        behaviours: &[Ready],
+        layers: &mut [Layer<Memory>],
+        situation: &Situation,
+    ) {
         self.goals.rest(situation.elapsed_s);
-        if *motion != Motion::default() {
-            self.reflex_s += counted_s(situation.elapsed_s, situation.body.period_s);
+        let (elapsed_s, period_s) = (situation.elapsed_s, situation.body.period_s);
+        let moved = self.pursued.filter(|_| *motion != Motion::default());
+        if moved.is_some_and(|pursued| self.goals.interrupt(pursued.id, elapsed_s, period_s)) {
+            self.notify(behaviours, layers);
+        }
+    }
+
+    /// Notifies the behaviours of which the goals are not being reached.
+    fn notify(&mut self, behaviours: &[Ready], layers: &mut [Layer<Memory>]) {
+        let pursued_id = self.pursued.map(|pursued| pursued.id);
+        for goal in self.goals.unreported() {
+            if let (Some(behaviour), Some(layer)) = (
+                behaviours.get(goal.behaviour),
+                layers.get_mut(goal.behaviour),
+            ) {
+                behaviour.judged(layer.memory(), goal.verdict);
+            }
+            if goal.verdict == Verdict::Impossible && pursued_id == Some(goal.destination.id) {
+                self.navigator.discard_plan();
+                self.pursued = None;
+            }
         }
     }
 
@@ -165,13 +188,14 @@ impl GoalSelection {
         layers: &mut [Layer<Memory>],
         situation: &Situation,
     ) -> Motion {
-        let pursued = self.pursued.take().map(|destination| destination.goal());
-        let Some(beliefs) = situation.beliefs else {
+        let known = situation
+            .beliefs
+            .and_then(|beliefs| Some((beliefs, beliefs.pose()?)));
+        let Some((beliefs, pose)) = known else {
+            self.pursued = None;
             return Motion::default();
         };
-        let Some(pose) = beliefs.pose() else {
-            return Motion::default();
-        };
+        let pursued = self.pursued.map(|destination| destination.goal());
         let destinations = proposals
             .iter()
             .filter_map(|(behaviour, proposal)| match proposal {
@@ -183,7 +207,6 @@ impl GoalSelection {
             at: pose.at,
             elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
-            reflex_s: core::mem::take(&mut self.reflex_s),
             unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
             pursued: pursued.map(|goal| Pursuit {
@@ -194,18 +217,8 @@ impl GoalSelection {
             noise_m: 0.0,
         };
         self.goals.update(destinations, &step);
-        let pursued_id = pursued.map(|goal| goal.id);
-        for goal in self.goals.unreported() {
-            if let (Some(behaviour), Some(layer)) = (
-                behaviours.get(goal.behaviour),
-                layers.get_mut(goal.behaviour),
-            ) {
-                behaviour.judged(layer.memory(), goal.verdict);
-            }
-            if goal.verdict == Verdict::Impossible && pursued_id == Some(goal.destination.id) {
-                self.navigator.discard_plan();
-            }
-        }
+        self.notify(behaviours, layers);
+        self.pursued = None;
         let Some(goal) = self.goals.select(pose.at) else {
             return Motion::default();
         };

@@ -152,7 +152,6 @@ impl Ready {
             at,
             elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
-            reflex_s: 0.0,
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,

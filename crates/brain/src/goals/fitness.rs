@@ -36,8 +36,6 @@ pub(crate) struct Step {
     /// Time since the previous step, and the time that a step is expected to take.
     pub(crate) elapsed_s: f64,
     pub(crate) period_s: f64,
-    /// Time since the previous step of the goals in which a reflex moved the robot.
-    pub(crate) reflex_s: f64,
     /// A goal to which no path is known.
     pub(crate) unreachable: Option<GoalPlace>,
     /// Remaining battery time.
@@ -97,16 +95,26 @@ impl Fitness {
     pub(crate) fn update(&mut self, destination: &Destination, step: &Step) -> Verdict {
         self.track(destination, step);
         let is_unreachable = step.unreachable == Some(destination.goal());
-        let is_stuck = self.stuck_s > IMPOSSIBLE_S;
         if step.at.to(destination.at).length() <= destination.tolerance_m {
             Verdict::Complete
-        } else if is_unreachable || is_stuck || self.is_beyond_battery(destination, step) {
+        } else if is_unreachable || self.is_stuck() || self.is_beyond_battery(destination, step) {
             Verdict::Impossible
         } else if self.stuck_s > RECEDING_S {
             Verdict::Receding
         } else {
             Verdict::Approaching
         }
+    }
+
+    /// Counts a step as time without progress. A gap between percepts alone does not make a goal
+    /// impossible.
+    pub(crate) fn count(&mut self, elapsed_s: f64, period_s: f64) {
+        self.stuck_s += elapsed_s.min(period_s.max(RECEDING_S));
+    }
+
+    /// Whether the robot has made no progress for too long.
+    pub(crate) fn is_stuck(&self) -> bool {
+        self.stuck_s > IMPOSSIBLE_S
     }
 
     /// Whether the battery does not last for the path.
@@ -134,15 +142,9 @@ impl Fitness {
         if pursued.is_lengthened || self.behind_m < -step.min_progress_m() {
             (self.behind_m, self.stuck_s) = (0.0, 0.0);
         } else if was_pursued {
-            self.stuck_s += counted_s(step.elapsed_s, step.period_s) + step.reflex_s;
+            self.count(step.elapsed_s, step.period_s);
         }
     }
-}
-
-/// The part of the time since the last percept that counts as time without progress: a gap between
-/// percepts alone does not make a goal impossible.
-pub(crate) fn counted_s(elapsed_s: f64, period_s: f64) -> f64 {
-    elapsed_s.min(period_s.max(RECEDING_S))
 }
 
 #[cfg(test)]
@@ -171,7 +173,6 @@ mod tests {
             },
             elapsed_s: 1.0,
             period_s: 1.0,
-            reflex_s: 0.0,
             unreachable: None,
             battery_s: 20.0,
             pursued: Some(Pursuit {
@@ -202,19 +203,6 @@ mod tests {
         assert_eq!(verdicts[4], Verdict::Approaching);
         assert_eq!(verdicts[6], Verdict::Receding);
         assert_eq!(verdicts[35], Verdict::Impossible);
-    }
-
-    #[test]
-    fn a_reflex_that_moves_the_robot_does_not_stop_the_clock() {
-        let mut fitness = Fitness::default();
-        let interrupted = Step {
-            reflex_s: 5.0,
-            ..step(5.0, 5.0)
-        };
-        let verdicts: Vec<Verdict> = (0..7)
-            .map(|_| fitness.update(&GOAL, &interrupted))
-            .collect();
-        assert_eq!(verdicts[6], Verdict::Impossible);
     }
 
     #[test]

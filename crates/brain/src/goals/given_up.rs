@@ -41,7 +41,7 @@ impl GivenUp {
     }
 
     /// Lets a goal rest after a failure: for the minimum time after the first one and after
-    /// failures that say nothing about the next attempt, otherwise for twice as long as last time.
+    /// failures that do not make the next one likely, otherwise for twice as long as last time.
     pub(crate) fn add(&mut self, goal: GoalPlace, is_longer_each_time: bool) {
         let factor = if is_longer_each_time { 2.0 } else { 1.0 };
         let total_s = self

@@ -116,6 +116,22 @@ impl Goals {
         self.detours = detours;
     }
 
+    /// Takes a step into account in which a reflex moved the robot, which does not stop the clock of
+    /// the goal that it interrupts. Returns whether that has become impossible.
+    pub(crate) fn interrupt(&mut self, id: GoalId, elapsed_s: f64, period_s: f64) -> bool {
+        let mut goals = self.list.iter_mut();
+        let Some(goal) = goals.find(|goal| goal.destination.id == id) else {
+            return false;
+        };
+        goal.fitness.count(elapsed_s, period_s);
+        let is_given_up = goal.fitness.is_stuck() && goal.verdict != Verdict::Impossible;
+        if is_given_up {
+            goal.verdict = Verdict::Impossible;
+            self.given_up.add(goal.destination.goal(), true);
+        }
+        is_given_up
+    }
+
     /// Lets goals rest that were given up.
     pub(crate) fn rest(&mut self, elapsed_s: f64) {
         self.given_up.advance(elapsed_s);
@@ -227,7 +243,6 @@ mod tests {
             at,
             elapsed_s: 0.1,
             period_s: 0.1,
-            reflex_s: 0.0,
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,
@@ -326,6 +341,20 @@ mod tests {
         };
         let others = core::iter::from_fn(|| Some(next())).take_while(|next| *next == (1, 0));
         assert!((95..=101).contains(&others.count()));
+    }
+
+    #[test]
+    fn a_reflex_that_moves_the_robot_does_not_stop_the_clock_of_the_goal() {
+        let place = destination(10.0, 0.0, 1.0);
+        let mut goals = goals(&[place], HERE);
+        let mut interrupt = || goals.interrupt(place.id, 0.1, 0.1);
+        let steps = (0..1000).take_while(|_| !interrupt()).count();
+        assert!((295..=305).contains(&steps), "{steps}");
+        assert_eq!(goals.unreported().count(), 1);
+        assert!(goals.select(HERE).is_none());
+        goals.update([(0, place)].into_iter(), &step(HERE));
+        assert_eq!(goals.list[0].verdict, Verdict::Impossible);
+        assert_eq!(goals.unreported().count(), 0);
     }
 
     #[test]

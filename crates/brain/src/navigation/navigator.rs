@@ -57,7 +57,7 @@ struct Plan {
     /// [`Occupancy::changes`](crate::perception::beliefs::occupancy::Occupancy::changes) of the map
     /// that it was made on.
     map_changes: u32,
-    /// Likewise [`Occupancy::ever_occupied`](crate::perception::beliefs::occupancy::Occupancy::ever_occupied).
+    /// The same for [`Occupancy::ever_occupied`](crate::perception::beliefs::occupancy::Occupancy::ever_occupied).
     ever_occupied: u32,
 }
 
