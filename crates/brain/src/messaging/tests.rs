@@ -141,23 +141,6 @@ fn mate(x: f64, y: f64, observations: u32, confidence: f64) -> ReceivedMessage {
     )
 }
 
-fn item(x: f64, y: f64, track_id: u32) -> ReceivedMessage {
-    let provenance = Provenance {
-        observer: MATE,
-        track_id,
-        observations: 1,
-    };
-    let at = Point { x, y };
-    received(
-        About::Item {
-            kind: 0,
-            at,
-            provenance,
-        },
-        0.95,
-    )
-}
-
 /// The thesis's example: a range of 2, and a fully confident sender 5 away with a range of 2.
 #[test]
 fn a_report_extends_the_map_around_its_sender_but_not_to_a_full_disc() {
@@ -225,7 +208,12 @@ fn trust_in_a_sender_of_false_reports_falls() {
         // In view, at a different position each time.
         robot.step(
             false,
-            vec![item(7.0 + 0.5 * f64::from(track_id), 9.5, track_id)],
+            vec![relayed(
+                MATE,
+                MATE,
+                7.0 + 0.5 * f64::from(track_id),
+                track_id,
+            )],
         );
         let sent = robot.last_confidence();
         (0..8).for_each(|_| robot.step(true, Vec::new()));
