@@ -65,6 +65,17 @@ impl PoseFilter {
             // The direction of the motion is unknown.
             self.variance_m2 = f64::INFINITY;
         }
+        self.forget_overflow();
+    }
+
+    /// Forgets a pose that is not finite, such as that of a body of absurd speed: no reading could
+    /// correct it.
+    fn forget_overflow(&mut self) {
+        let is_finite = (self.at.x + self.at.y + self.heading_rad).is_finite();
+        let has_variances = !(self.variance_m2.is_nan() || self.variance_rad2.is_nan());
+        if !(is_finite && has_variances) {
+            *self = Self::default();
+        }
     }
 
     fn move_by(&mut self, motion: Point) {
@@ -145,5 +156,33 @@ fn posterior_variance(own: f64, sensor: f64) -> f64 {
         sensor
     } else {
         own * (1.0 - gain(own, sensor))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_that_overflows_is_forgotten_and_corrected_by_the_next_readings() {
+        let mut filter = PoseFilter::default();
+        let correct = |filter: &mut PoseFilter| {
+            filter.correct_heading(1.0, 0.1);
+            filter.correct_position(Point { x: 2.0, y: 3.0 }, 0.1);
+        };
+        correct(&mut filter);
+        let chord = Point {
+            x: f64::INFINITY,
+            y: 0.0,
+        };
+        filter.predict(&Displacement {
+            elapsed_s: 0.1,
+            chord,
+            ..Displacement::default()
+        });
+        assert_eq!(filter.pose(), None);
+        correct(&mut filter);
+        let pose = filter.pose().expect("both are known again");
+        assert_eq!(pose.at, Point { x: 2.0, y: 3.0 });
     }
 }
