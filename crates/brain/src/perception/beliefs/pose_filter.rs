@@ -162,6 +162,7 @@ fn posterior_variance(own: f64, sensor: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::perception::dead_reckoning::Odometry;
 
     #[test]
     fn a_pose_that_overflows_is_forgotten_and_corrected_by_the_next_readings() {
@@ -171,15 +172,12 @@ mod tests {
             filter.correct_position(Point { x: 2.0, y: 3.0 }, 0.1);
         };
         correct(&mut filter);
-        let chord = Point {
-            x: f64::INFINITY,
-            y: 0.0,
-        };
-        filter.predict(&Displacement {
+        let absurd = Odometry {
             elapsed_s: 0.1,
-            chord,
-            ..Displacement::default()
-        });
+            speed_m_s: f64::INFINITY,
+            turned_rad: 0.0,
+        };
+        filter.predict(&Displacement::along(f64::INFINITY, &absurd));
         assert_eq!(filter.pose(), None);
         correct(&mut filter);
         let pose = filter.pose().expect("both are known again");
