@@ -8,10 +8,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from agent_economy.cli.requirement_table import requirement_table
 from agent_economy.cli.whole_table import print_whole
 from agent_economy.study import files
+from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.results import Result
 from agent_economy.study.store.folder import REPORT
 
@@ -25,7 +28,7 @@ MAX_ROWS = 20
 """Maximum number of configurations in a table."""
 
 
-def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
+def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
     """Print an answer: as JSON, or as a table, a sentence and the path of the report."""
     if as_json:
         typer.echo(files.as_json(answer), nl=False)
@@ -33,10 +36,15 @@ def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = WIDE
-    print_whole(results_table(answer, ranges=console.width >= WIDE), console, NAME)
+    is_wide = console.width >= WIDE
+    if isinstance(answer, RequirementAnswer):
+        table, precision = requirement_table(answer, ranges=is_wide), ""
+    else:
+        table, precision = results_table(answer, ranges=is_wide), f"delta {answer.delta:g}, "
+    print_whole(table, console, NAME)
     console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
     console.print(
-        f"{answer.guarantee} (delta {answer.delta:g}, {answer.runs:,} runs)\n",
+        f"{answer.guarantee} ({precision}{answer.runs:,} runs)\n",
         markup=False,
         emoji=False,
     )

@@ -1,12 +1,13 @@
 """Options that commands share, and the values of a scenario that options replace."""
 
 import tomllib
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 import typer
 
 from agent_economy._core import InputError
-from agent_economy.scenario import Override
+from agent_economy.scenario import Override, TomlValue
 from agent_economy.scenario.validation import check, is_text
 
 ScenarioArgument = typer.Argument(
@@ -33,14 +34,22 @@ Seed = Annotated[
 """The option --seed of a command that runs a scenario."""
 
 
+OPTION_NAMES = {"require.all": "require"}
+"""Options whose names are not the last key of their path."""
+
+
 def overrides(
     sets: list[str] | None,
     vary: list[str] | None = None,
     *,
-    merit: str | None = None,
-    design: str | None = None,
+    options: Mapping[str, TomlValue | None] | None = None,
 ) -> tuple[Override, ...]:
     """Return the values that options set, in place of the file's.
+
+    Args:
+        sets: Values of --set.
+        vary: Values of --vary.
+        options: Values of other options by the path that they replace; None for those not given.
 
     Raises:
         InputError: If a --set is not PATH=VALUE, a --vary is not PATH=VALUES, or one of them has a
@@ -48,10 +57,9 @@ def overrides(
     """
     changes = [assigned(text) for text in once("--set", sets or [])]
     changes += [varied(text) for text in once("--vary", vary or [])]
-    options = {("merit",): merit, ("study", "design"): design}
     changes += [
-        Override(path, value, f"--{path[-1]}")
-        for path, value in options.items()
+        Override(tuple(path.split(".")), value, f"--{OPTION_NAMES.get(path, path.split('.')[-1])}")
+        for path, value in (options or {}).items()
         if value is not None
     ]
     return tuple(changes)

@@ -16,11 +16,11 @@ from agent_economy.cli.answer_table import show
 from agent_economy.cli.errors import INTERRUPTED, error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Sets, overrides
 from agent_economy.cli.study_progress import ProgressDisplay
-from agent_economy.scenario import Override, Scenario
+from agent_economy.scenario import Override, Scenario, TomlValue
 from agent_economy.study.answer.labels import label
+from agent_economy.study.description import Description, usual_folder
 from agent_economy.study.engine import Engine
 from agent_economy.study.plan import Plan, with_confidence
-from agent_economy.study.question import Question, usual_folder
 from agent_economy.study.run_block import Compute
 
 QUESTION, PRECISION, COMPUTING = "Question", "Precision", "Computing"
@@ -99,6 +99,25 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             rich_help_panel=QUESTION,
         ),
     ] = None,
+    require: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="CONDITION",
+            help="What a mission must meet, such as 'time_s <= 1200'; may be repeated. The study then "
+            "selects the cheapest team that meets all.",
+            show_default="the scenario's",
+            rich_help_panel=QUESTION,
+        ),
+    ] = None,
+    minimize: Annotated[
+        str | None,
+        typer.Option(
+            help="With a requirement, what is minimized: robots, price, or an expression of team "
+            "sizes, such as rover_a + 2 * rover_b.",
+            show_default="the scenario's, or robots",
+            rich_help_panel=QUESTION,
+        ),
+    ] = None,
     seed: Annotated[
         int | None,
         typer.Option(
@@ -123,6 +142,22 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             help="Probability that the guarantee holds. With --resume, a higher value raises the "
             "confidence and reuses all runs.",
             show_default="the scenario's, or 0.95",
+            rich_help_panel=PRECISION,
+        ),
+    ] = None,
+    probability: Annotated[
+        float | None,
+        typer.Option(
+            help="With a requirement, the share of missions that must meet it.",
+            show_default="the scenario's, or 0.95",
+            rich_help_panel=PRECISION,
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            help="With a requirement, the share above --probability that is not told apart from it.",
+            show_default="the scenario's, or 0.02",
             rich_help_panel=PRECISION,
         ),
     ] = None,
@@ -179,7 +214,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         bool, typer.Option("--json", help="Print answer.json instead of a table.")
     ] = False,
 ) -> None:
-    """Find the best team, with the fewest runs that the guarantee allows.
+    """Find the best team, or the cheapest that meets a requirement, with the fewest runs.
 
     The study's folder stores every run. A study that was stopped or killed continues when the
     command is repeated, or with --resume. The folder receives answer.json and report.html at the
@@ -189,9 +224,19 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     in use, workers fail); 2 an argument or the scenario is invalid; 130 stopped by Ctrl-C.
 
     Example: agent-economy study classic --vary robots.wanderer.count=1..12
+
+    Example: agent-economy study search --require 'time_s <= 100' --probability 0.9
     """
     with error_exits():
-        changes = overrides(sets, vary, merit=merit, design=design)
+        options: dict[str, TomlValue | None] = {
+            "merit": merit,
+            "study.design": design,
+            "study.minimize": minimize,
+            "require.all": require or None,
+            "require.probability": probability,
+            "require.tolerance": tolerance,
+        }
+        changes = overrides(sets, vary, options=options)
         settings = {
             "seed": seed,
             "delta": delta,
@@ -212,14 +257,14 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             request = ResumeStudy(resume, confidence)
         plan, folder = request.plan()
         print_warnings(plan.warnings)
-        typer.echo(str(Question.of(plan)), err=True)
+        typer.echo(str(Description.of(plan)), err=True)
         answer = compute_answer(plan, folder, workers, dask)
     show(answer, folder, as_json=as_json)
 
 
 def compute_answer(
     plan: Plan, folder: Path, workers: int | None, dask: str | None
-) -> studies.Answer:
+) -> studies.AnyAnswer:
     """Run a study with a progress display; Ctrl-C prints how to resume it."""
     display = ProgressDisplay([label(values) for values in plan.configurations])
     try:

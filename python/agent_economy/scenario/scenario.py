@@ -10,6 +10,7 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario import bundled, validation
 from agent_economy.scenario.merit import Merit, Term, display_name
+from agent_economy.scenario.requirement import Condition, Requirement
 from agent_economy.scenario.source import (
     MAX_BYTES,
     Override,
@@ -74,6 +75,10 @@ class Scenario:
         delta: Indifference zone: the smallest difference in merit that matters, above 0; None if
             the file has none.
         confidence: Probability with which the answer is right: from 0.5 to below 1.
+        requirement: What a mission must meet, and in which share of missions; None if the file has
+            no requirement.
+        minimize: What a study with a requirement minimizes, as an expression.
+        where: Which combinations of values a study compares, as an expression; None for all.
         published: Results from the literature, if the file has them.
     """
 
@@ -89,6 +94,9 @@ class Scenario:
     design: str
     delta: float | None
     confidence: float
+    requirement: Requirement | None
+    minimize: str
+    where: str | None
     published: Published | None
 
     @classmethod
@@ -136,6 +144,7 @@ class Scenario:
             merit=merit_of(fields.pop("merit")),
             facts=tuple(fields.pop("facts")),
             factors=tuple(map(factor_of, fields.pop("factors"))),
+            requirement=requirement_of(fields.pop("requirement")),
             published=published_of(fields.pop("published")),
             **fields,
         )
@@ -230,6 +239,14 @@ def merit_of(fields: dict[str, Any]) -> Merit:
     """Return a figure of merit from the fields that the Rust core read."""
     terms = tuple(Term(*term) for term in fields["terms"])
     return Merit(display_name(fields["name"], terms), terms)
+
+
+def requirement_of(fields: Mapping[str, Any] | None) -> Requirement | None:
+    """Return a requirement."""
+    if fields is None:
+        return None
+    conditions = tuple(Condition(*each) for each in fields["conditions"])
+    return Requirement(conditions, fields["probability"], fields["tolerance"])
 
 
 def published_of(fields: dict[str, Any] | None) -> Published | None:

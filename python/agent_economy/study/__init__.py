@@ -5,7 +5,10 @@ procedure of `selection` requests runs, `store` reads them, `engine` or `workers
 ones) -> `answer` (what the runs prove) -> `report` and `files`.
 """
 
+from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.requirement import RequirementAnswer
+from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.answer.results import Result
 from agent_economy.study.api import load_answer, load_plan, rebuild, resume, run, run_plan
 from agent_economy.study.plan import Plan
@@ -17,8 +20,11 @@ from agent_economy.study.store.folder import is_locked
 
 __all__ = [
     "Answer",
+    "AnyAnswer",
     "Plan",
     "Progress",
+    "RequirementAnswer",
+    "RequirementResult",
     "Result",
     "Selection",
     "is_locked",

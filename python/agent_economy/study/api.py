@@ -12,7 +12,7 @@ from agent_economy.scenario import Override, Scenario, Value, validation
 from agent_economy.scenario.source import check_path
 from agent_economy.study import files
 from agent_economy.study import plan as plans
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import word
 from agent_economy.study.arguments import Guarantee
@@ -31,14 +31,14 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     design: str | None = None,
     delta: float | None = None,
     confidence: float | None = None,
-    guarantee: Guarantee = "indifference",
+    guarantee: Guarantee | None = None,
     runs: int | None = None,
     max_runs: int | None = None,
     seed: int = 0,
     out: str | Path | None = None,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
-) -> Answer:
+) -> AnyAnswer:
     """Run the study of a scenario until its answer is settled, and return the answer.
 
     Args:
@@ -49,7 +49,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         delta: Indifference zone, in units of merit, above 0; None for the scenario's, or 2% of the
             merit's range.
         confidence: Confidence of the guarantee, 0.5 to below 1; None for the scenario's.
-        guarantee: As in `select_best`.
+        guarantee: As in `select_best`; None for "indifference".
         runs: Fixed number of runs per configuration; None to stop when the answer is settled.
         max_runs: Run budget of all configurations together; if it is reached first, the answer has
             no guarantee. None for no limit.
@@ -90,7 +90,7 @@ def resume(
     confidence: float | None = None,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
-) -> Answer:
+) -> AnyAnswer:
     """Resume a study, or raise the confidence of a finished one; all its runs are reused.
 
     Raises:
@@ -102,7 +102,7 @@ def resume(
     return run_plan(plan, folder, compute=compute, on_progress=on_progress)
 
 
-def rebuild(folder: str | Path) -> Answer:
+def rebuild(folder: str | Path) -> AnyAnswer:
     """Rebuild the answer and the report of a finished study from its runs; computes none.
 
     The runs may be of another build: it stays in study.toml.
@@ -114,7 +114,7 @@ def rebuild(folder: str | Path) -> Answer:
     return run_plan(plan, folder, compute=refuse(folder), rewrite=True)
 
 
-def load_answer(folder: str | Path) -> tuple[Answer, Evidence]:
+def load_answer(folder: str | Path) -> tuple[AnyAnswer, Evidence]:
     """Return the answer of a finished study and its runs, without computing or writing anything.
 
     Raises:
@@ -130,7 +130,7 @@ def run_plan(
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
     rewrite: bool = False,
-) -> Answer:
+) -> AnyAnswer:
     """Run or resume a study, and write its answer and report to its folder.
 
     Args:
@@ -147,7 +147,7 @@ def run_plan(
     place = validation.path("folder", folder)
     with ChartScript() as script:
 
-        def finish(answer: Answer, evidence: Evidence) -> None:
+        def finish(answer: AnyAnswer, evidence: Evidence) -> None:
             if rewrite or not files.are_current(place, answer):
                 files.write(place, answer, evidence, script)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from agent_economy.study import report
+from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.errors import StudyError
@@ -13,7 +14,7 @@ from agent_economy.study.store.folder import ANSWER, REPORT, read_bytes, write_w
 from agent_economy.study.versions import versions
 
 
-def write(folder: Path, answer: Answer, evidence: Evidence, script: report.ChartScript) -> None:
+def write(folder: Path, answer: AnyAnswer, evidence: Evidence, script: report.ChartScript) -> None:
     """Write a study's report and answer atomically, the answer last.
 
     Raises:
@@ -29,23 +30,23 @@ def write(folder: Path, answer: Answer, evidence: Evidence, script: report.Chart
     write_whole(folder / ANSWER, as_json(answer).encode())
 
 
-def are_current(folder: Path, answer: Answer) -> bool:
+def are_current(folder: Path, answer: AnyAnswer) -> bool:
     """Return whether a folder contains this answer, and a report with it."""
     existing = read_bytes(folder / ANSWER)
     return existing == as_json(answer).encode() and (folder / REPORT).is_file()
 
 
-def as_json(answer: Answer) -> str:
+def as_json(answer: AnyAnswer) -> str:
     """Return an answer as JSON, without times, paths, hosts and numbers of threads."""
     return json.dumps(as_dict(answer), indent=2, allow_nan=False) + "\n"
 
 
-def as_dict(answer: Answer) -> dict[str, Any]:
+def as_dict(answer: AnyAnswer) -> dict[str, Any]:
     """Return an answer as JSON values; `omissions` only if there are any."""
     values = asdict(answer)
     scenario = values.pop("scenario")
     del scenario["source"]
-    if not answer.omissions:
+    if isinstance(answer, Answer) and not answer.omissions:
         del values["omissions"]
     results = [
         {"configuration": index, **result} for index, result in enumerate(values.pop("results"))

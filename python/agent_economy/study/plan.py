@@ -13,23 +13,27 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import tomli_w
 
 from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
 from agent_economy.scenario import Override, Scenario, ScenarioWarning, Source, warnings
 from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
-from agent_economy.study import design
+from agent_economy.study import design, teams
 from agent_economy.study.arguments import (
     FIRST_ANALYSIS_RUNS,
     MIN_CONFIDENCE,
     Floats,
     Guarantee,
+    confidence_errors,
     question_errors,
 )
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
 from agent_economy.study.errors import StoreError
+from agent_economy.study.question import Best, Cheapest, Question
+from agent_economy.study.teams import compared
 
 FORMAT = 1
 """Format version of study.toml."""
@@ -42,7 +46,7 @@ MAX_RUNS = 10_000_000
 
 MAX_SEED = 2**64 - 1
 
-WITHOUT_RUNS = {"merit", "published", "study", "summary"}
+WITHOUT_RUNS = {"merit", "published", "require", "study", "summary"}
 """Keys of a scenario that do not affect runs; configurations are compared separately."""
 
 HEADER = "# The question of this study. To resume it: agent-economy study --resume FOLDER\n\n"
@@ -55,9 +59,8 @@ class Plan:
     Attributes:
         scenario: The scenario that is varied.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
-        delta: Indifference zone, in units of merit.
+        question: What is asked of the configurations.
         confidence: Confidence of the guarantee, and of all intervals together.
-        guarantee: "indifference" or "pgs", as in `select_best`.
         runs: Fixed number of runs per configuration; None to stop when the answer is settled.
         max_runs: Run budget of all configurations together; None for no limit.
         configurations: The values of the varied factors of each configuration.
@@ -67,9 +70,8 @@ class Plan:
 
     scenario: Scenario
     seed: int
-    delta: float
+    question: Question
     confidence: float
-    guarantee: Guarantee
     runs: int | None
     max_runs: int | None
     configurations: tuple[Values, ...]
@@ -92,9 +94,7 @@ class Plan:
         """Return the text of study.toml."""
         source = self.scenario.source
         question = {
-            "delta": self.delta,
-            "confidence": self.confidence,
-            "guarantee": self.guarantee,
+            **self.question.as_dict(self.confidence),
             "max_runs": self.max_runs,
         }
         data = {
@@ -119,12 +119,24 @@ class Plan:
 
     @cached_property
     def limits(self) -> Floats:
-        """The range of the merit of each configuration; shape (configurations, 2).
+        """The range of what is recorded of each configuration; shape (configurations, 2).
 
         Raises:
             InputError: If a configuration is invalid.
         """
-        return self.engine.merit_limits()
+        if isinstance(self.question, Best):
+            return self.engine.merit_limits()
+        return np.tile([0.0, 1.0], (len(self.configurations), 1))
+
+    @cached_property
+    def costs(self) -> Floats:
+        """The cost of each configuration, if the question is about the cheapest.
+
+        Raises:
+            InputError: If a configuration is invalid, or what is minimized.
+        """
+        minimize = self.question.minimize if isinstance(self.question, Cheapest) else "robots"
+        return teams.costs(self.engine, minimize)
 
     @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:
@@ -161,27 +173,41 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     seed: int = 0,
     delta: float | None = None,
     confidence: float | None = None,
-    guarantee: Guarantee = "indifference",
+    guarantee: Guarantee | None = None,
     runs: int | None = None,
     max_runs: int | None = None,
 ) -> Plan:
     """Return the plan of a scenario's study; None selects the scenario's value or the default.
 
+    The question of a scenario with a requirement is the cheapest configuration that meets it, unless
+    `delta`, `guarantee` or `runs` asks for the best by merit.
+
     Raises:
         InputError: If an argument or a configuration is invalid.
     """
-    plan = draft(
-        scenario,
-        seed=seed,
-        delta=delta,
-        confidence=confidence,
-        guarantee=guarantee,
-        runs=runs,
-        max_runs=max_runs,
-    )
+    of_type("scenario", scenario, Scenario, "a Scenario")
+    question: dict[str, Any] = {"confidence": confidence, "max_runs": max_runs}
+    asks_for_best = (delta, guarantee, runs) != (None, None, None)
+    if scenario.requirement is None or asks_for_best:
+        question |= {"delta": delta, "guarantee": guarantee or "indifference"}
+    plan = draft(scenario, seed=seed, runs=runs, **question)
     limits = plan.limits
-    has_delta = delta is not None or scenario.delta is not None
-    return plan if has_delta else replace(plan, delta=default_delta(limits))
+    if isinstance(plan.question, Cheapest):
+        check_costs(plan)
+    elif delta is None and scenario.delta is None:
+        return replace(plan, question=replace(plan.question, delta=default_delta(limits)))
+    return plan
+
+
+def check_costs(plan: Plan) -> None:
+    """Check that every configuration of a plan can be compiled, and has a cost.
+
+    Raises:
+        InputError: If not.
+    """
+    for configuration in range(len(plan.configurations)):
+        plan.engine.limits(configuration)
+    plan.costs  # noqa: B018  (computed and checked once)
 
 
 def default_delta(limits: Floats) -> float:
@@ -193,29 +219,35 @@ def draft(  # noqa: PLR0913  (as in make)
     scenario: Scenario,
     *,
     seed: int,
-    delta: float | None,
     confidence: float | None,
-    guarantee: Guarantee,
     runs: int | None,
     max_runs: int | None,
+    delta: float | None = None,
+    guarantee: Guarantee | None = None,
 ) -> Plan:
-    """Return a plan whose configurations are not checked yet.
+    """Return a plan whose configurations are not checked yet; without a guarantee, of a requirement.
 
     Raises:
         InputError: If an argument is invalid.
     """
-    of_type("scenario", scenario, Scenario, "a Scenario")
     confidence = confidence if confidence is not None else scenario.confidence
-    check_question(seed=seed, delta=delta, confidence=confidence, guarantee=guarantee, runs=runs)
-    configurations = tuple(design.points(scenario.factors, scenario.design, seed))
-    check_max_runs(max_runs, runs, FIRST_ANALYSIS_RUNS * len(configurations))
-    delta = delta if delta is not None else scenario.delta
+    wanted = guarantee or "indifference"
+    check_question(seed=seed, delta=delta, confidence=confidence, guarantee=wanted, runs=runs)
+    configurations = compared(scenario, design.points(scenario.factors, scenario.design, seed))
+    question: Question
+    if guarantee is None and scenario.requirement is not None:
+        question = Cheapest(scenario.requirement, scenario.minimize)
+        min_runs = FIRST_ANALYSIS_RUNS
+    else:
+        delta = delta if delta is not None else scenario.delta
+        question = Best(float(delta if delta is not None else 1.0), wanted)
+        min_runs = FIRST_ANALYSIS_RUNS * len(configurations)
+    check_max_runs(max_runs, runs, min_runs)
     return Plan(
         scenario=scenario,
         seed=int(seed),
-        delta=float(delta if delta is not None else 1.0),
+        question=question,
         confidence=float(confidence),
-        guarantee=guarantee,
         runs=None if runs is None else int(runs),
         max_runs=None if max_runs is None else int(max_runs),
         configurations=configurations,
@@ -249,7 +281,7 @@ def check_max_runs(max_runs: int | None, runs: int | None, min_runs: int) -> Non
     if max_runs is None:
         return
     check(runs is None, "max_runs", max_runs, "left out if runs are given")
-    allowed = f"a whole number of {min_runs} or more, {FIRST_ANALYSIS_RUNS} of each configuration"
+    allowed = f"a whole number of {min_runs} or more, the runs of the first round"
     check(is_whole(max_runs, min_runs, 2**62), "max_runs", max_runs, allowed)
 
 
@@ -259,7 +291,7 @@ def with_confidence(plan: Plan, confidence: float) -> Plan:
     Raises:
         InputError: If it is lower, or not below 1.
     """
-    errors = question_errors(plan.delta, confidence, plan.guarantee)
+    errors = confidence_errors(confidence)
     if not errors and confidence < plan.confidence:
         errors = [f"confidence = {confidence:g}: must be above the study's {plan.confidence:g}"]
     if errors:
@@ -317,14 +349,14 @@ def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) ->
         Override(tuple(each["path"]), each["value"], "study.toml") for each in data["changes"]
     )
     files = {name: content(known) for name, known in data.get("files", {}).items()}
+    best = {key: question[key] for key in ("delta", "guarantee") if key in question}
     return draft(
         Scenario.of(Source(data["name"], data["scenario"], overrides, files)),
         seed=int(data["seed"]),
-        delta=question["delta"],
         confidence=question["confidence"],
-        guarantee=question["guarantee"],
         runs=data.get("runs"),
         max_runs=question.get("max_runs"),
+        **best,
     )
 
 

@@ -1,67 +1,75 @@
-"""A study's question in words, and the folder of the study."""
+"""The questions of studies: what is recorded of each run, and what the answer promises."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from typing import Any
 
-from agent_economy.study import design
-from agent_economy.study.plan import Plan, is_same_data
-from agent_economy.study.store.folder import QUESTION, read_bytes
-
-FOLDER = Path("studies")
-"""Default folder of studies."""
+from agent_economy.scenario import Requirement, Scenario
+from agent_economy.study.arguments import Floats, Guarantee
 
 
 @dataclass(frozen=True)
-class Question:
-    """The configurations that a study compares, and its guarantee.
+class Best:
+    """Which configuration has the best mean merit?
 
     Attributes:
-        design: As in `Scenario.design`.
-        configurations: Number of configurations.
         delta: Indifference zone, in units of merit.
-        confidence: Confidence of the guarantee.
         guarantee: "indifference" or "pgs", as in `select_best`.
-        runs: Fixed number of runs per configuration; None to stop when the answer is settled.
     """
 
-    design: str
-    configurations: int
     delta: float
-    confidence: float
-    guarantee: str
-    runs: int | None
+    guarantee: Guarantee
 
-    @classmethod
-    def of(cls, plan: Plan) -> "Question":
-        """Return the question of a plan."""
-        return cls(
-            plan.scenario.design,
-            len(plan.configurations),
-            plan.delta,
-            plan.confidence,
-            plan.guarantee,
-            plan.runs,
-        )
+    quantity = "merit"
+    """The column of what is recorded of each run."""
 
-    def __str__(self) -> str:
-        """Return it in one line."""
-        wanted = (
-            f"{self.runs:,} runs per configuration"
-            if self.runs is not None
-            else f"delta {self.delta:g}, confidence {self.confidence:g}, {self.guarantee}"
-        )
-        return f"{design.describe(self.design, self.configurations)}; {wanted}"
+    part = 1 / 12
+    """Part of the allowed error for the intervals of one quantity: see `Evidence`."""
+
+    columns = ("time_s", "failed", "robots", "price")
+    """Columns that an answer uses besides, of those that the simulator has."""
+
+    def values(self, scenario: Scenario, columns: Mapping[str, Floats]) -> Floats:
+        """Return the merit of each run; NaN for a quarantined one."""
+        return scenario.merit.score(columns)
+
+    def as_dict(self, confidence: float) -> dict[str, Any]:
+        """Return the question as study.toml stores it."""
+        return {"delta": self.delta, "confidence": confidence, "guarantee": self.guarantee}
 
 
-def usual_folder(plan: Plan, below: Path = Path()) -> Path:
-    """Return studies/NAME, or studies/NAME-DIGEST if the former contains other runs.
+@dataclass(frozen=True)
+class Cheapest:
+    """Which is the cheapest configuration that meets a requirement?
 
-    Raises:
-        InputError: If an existing study.toml cannot be read.
+    Attributes:
+        requirement: What a run must meet, and in which share of runs.
+        minimize: What the configuration costs, as an expression.
     """
-    folder = below / FOLDER / plan.scenario.name
-    existing = read_bytes(folder / QUESTION)
-    is_other = existing is not None and not is_same_data(
-        existing.decode(errors="replace"), plan.text()
-    )
-    return folder.with_name(f"{folder.name}-{plan.identity[:8]}") if is_other else folder
+
+    requirement: Requirement
+    minimize: str
+
+    quantity = "met"
+    """The column of what is recorded of each run."""
+
+    part = 1.0
+    """Part of the allowed error for the intervals of one quantity: there is no other."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Columns that an answer uses besides, of those that the simulator has."""
+        each = ("time_s", "failed", "robots", "price", *self.requirement.columns)
+        return tuple(dict.fromkeys(each))
+
+    def values(self, scenario: Scenario, columns: Mapping[str, Floats]) -> Floats:  # noqa: ARG002
+        """Return 1 for each run that meets the requirement, else 0; NaN for a quarantined one."""
+        return self.requirement.met(columns)
+
+    def as_dict(self, confidence: float) -> dict[str, Any]:
+        """Return the question as study.toml stores it."""
+        words = {"requirement": str(self.requirement), "minimize": self.minimize}
+        return {**words, "confidence": confidence}
+
+
+Question = Best | Cheapest

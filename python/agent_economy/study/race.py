@@ -6,7 +6,7 @@ not, and repeating a finished study computes nothing.
 """
 
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -16,15 +16,19 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.runs import quarantine
 from agent_economy.scenario.validation import check
-from agent_economy.study.answer.conclude import Answer, conclude
+from agent_economy.study.answer.any_answer import AnyAnswer
+from agent_economy.study.answer.conclude import conclude
 from agent_economy.study.answer.effort import remaining_runs
 from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.answer.requirement import conclude_requirement
+from agent_economy.study.answer.requirement_results import RequirementEnding
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
 from agent_economy.study.errors import NoConfigurationError
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress
+from agent_economy.study.question import Best, Cheapest
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import (
     Elimination,
@@ -35,9 +39,6 @@ from agent_economy.study.selection import (
     within,
 )
 from agent_economy.study.store import Store, StoredRuns
-
-REPORTED = ("time_s", "failed", "robots", "price")
-"""Columns that an answer uses besides the merit, of those that the simulator has."""
 
 LEADERS = 10
 """Leaders in a progress report."""
@@ -54,8 +55,8 @@ def run_race(
     folder: Path,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
-    finish: Callable[[Answer, Evidence], None] | None = None,
-) -> tuple[Answer, Evidence]:
+    finish: Callable[[AnyAnswer, Evidence], None] | None = None,
+) -> tuple[AnyAnswer, Evidence]:
     """Run or resume a study until it has an answer.
 
     Args:
@@ -77,18 +78,15 @@ def run_race(
     with Store.open(
         folder, plan.text(), columns, content=content, may_replace=partial(may_replace, folder)
     ) as store:
-        race = Race(plan, store, compute, on_progress)
-        evidence, ending = race.run()
-        answer = conclude(plan, evidence, ending)
+        answer, evidence = Race(plan, store, compute, on_progress).run()
         if finish:
             finish(answer, evidence)
     return answer, evidence
 
 
-def answer_of(plan: Plan, store: StoredRuns, compute: Compute) -> tuple[Answer, Evidence]:
+def answer_of(plan: Plan, store: StoredRuns, compute: Compute) -> tuple[AnyAnswer, Evidence]:
     """Return the answer from the stored runs, without writing anything."""
-    evidence, ending = Race(plan, store, compute, None).run()
-    return conclude(plan, evidence, ending), evidence
+    return Race(plan, store, compute, None).run()
 
 
 class Race:
@@ -115,14 +113,13 @@ class Race:
         count = len(plan.configurations)
         self._limits = [plan.engine.limits(index) for index in range(count)]
         self._columns: list[dict[str, list[Floats]]] = [
-            {name: [] for name in ("merit", *REPORTED) if name in {"merit", *self._limits[0]}}
-            for _ in range(count)
+            {name: [] for name in reported(plan, self._limits[0])} for _ in range(count)
         ]
         self._runs = np.zeros(count, dtype=np.int64)
         self._sums = np.zeros(count)
         self._quarantined = np.zeros(count, dtype=np.int64)
 
-    def run(self) -> tuple[Evidence, Ending]:
+    def run(self) -> tuple[AnyAnswer, Evidence]:
         """Run it to its end.
 
         Raises:
@@ -133,11 +130,14 @@ class Race:
         except NoConfigurationError as error:
             message = f"no configuration can be run: {error} ({self._obstacle(0)})"
             raise InputError(message) from None
-        return self.evidence(), self._ending()
+        plan, evidence = self._plan, self.evidence()
+        if isinstance(plan.question, Cheapest):
+            return conclude_requirement(plan, evidence, self._requirement_ending()), evidence
+        return conclude(plan, evidence, self._ending()), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure
-        for number, _ in enumerate(drive(procedure, self._merits, self._plan.max_runs)):
+        for number, _ in enumerate(drive(procedure, self._values, self._plan.max_runs)):
             self._rounds = number + 1
             self._store.pending = 0
             progress = self._progress()
@@ -146,16 +146,33 @@ class Race:
 
     def _ending(self) -> Ending:
         procedure = self._procedure
-        eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
         is_over = self._plan.runs is None and procedure.next() is None
-        impossible = np.flatnonzero(self._quarantined == self._runs).tolist()
+        impossible = self._impossible()
         return Ending(
             leading(procedure),
-            eliminations,
+            self._eliminations(),
             plan_guarantee(self._plan, procedure, len(impossible)),
             is_over,
             self._obstacle(impossible[0]) if impossible else "",
         )
+
+    def _requirement_ending(self) -> RequirementEnding:
+        procedure, impossible = self._procedure, self._impossible()
+        return RequirementEnding(
+            selected=procedure.selected,
+            certified=frozenset(procedure.certified.tolist()),
+            eliminations=self._eliminations(),
+            is_over=procedure.next() is None,
+            obstacle=self._obstacle(impossible[0]) if impossible else "",
+        )
+
+    def _eliminations(self) -> tuple[Elimination, ...]:
+        return tuple(Elimination(*each) for each in self._procedure.eliminations)
+
+    def _impossible(self) -> list[int]:
+        """Return the configurations of which all runs are quarantined."""
+        is_impossible = (self._quarantined == self._runs) & (self._runs > 0)
+        return [int(each) for each in np.flatnonzero(is_impossible)]
 
     def _obstacle(self, configuration: int) -> str:
         """Return why the runs of a configuration are quarantined, from its first run."""
@@ -176,28 +193,28 @@ class Race:
     def evidence(self) -> Evidence:
         """Return the runs until now."""
         samples = [self._sample(index) for index in range(len(self._columns))]
-        return Evidence(tuple(samples), self._plan.confidence)
+        return Evidence(tuple(samples), self._plan.confidence, self._part)
 
-    def _merits(
+    def _values(
         self, configurations: Integers, first_run: int, runs: int
     ) -> tuple[Floats, Integers]:
         block = RunBlock(tuple(configurations.tolist()), first_run, runs)
         columns = self._store.block(block, self._compute)
-        scored = self._plan.scenario.merit.score(columns)
-        merits, quarantined = within(self._plan.limits, configurations, scored)
+        found = self._plan.question.values(self._plan.scenario, columns)
+        values, quarantined = within(self._plan.limits, configurations, found)
         self._quarantined[configurations] += quarantined
         self._runs[configurations] += runs
         for row, configuration in enumerate(block.configurations):
             limits = self._limits[configuration]
             for name, parts in self._columns[configuration].items():
-                if name == "merit":
-                    parts.append(merits[row])
+                if name == self._plan.question.quantity:
+                    parts.append(values[row])
                     continue
                 # A quarantined run counts as the worst possible: late, failed, and with its cost.
-                values = columns[name][row]
-                parts.append(np.where(np.isnan(values), limits[name][1], values))
-            self._sums[configuration] += merits[row].sum()
-        return merits, quarantined
+                given = columns[name][row]
+                parts.append(np.where(np.isnan(given), limits[name][1], given))
+            self._sums[configuration] += values[row].sum()
+        return values, quarantined
 
     def _sample(self, index: int) -> Sample:
         lowest, highest = self._plan.limits[index].tolist()
@@ -207,7 +224,7 @@ class Race:
                 name: np.concatenate([np.empty(0), *parts])
                 for name, parts in self._columns[index].items()
             },
-            limits={**self._limits[index], "merit": (lowest, highest)},
+            limits={**self._limits[index], self._plan.question.quantity: (lowest, highest)},
             quarantined=int(self._quarantined[index]),
         )
 
@@ -232,17 +249,19 @@ class Race:
         )
 
     def _best(self) -> tuple[Leader, ...]:
-        """Return the remaining configurations that have runs, the best first."""
+        """Return the remaining configurations that have runs, the best or the cheapest first."""
         runs, survivors = self._runs, self._procedure.survivors
         sampled = survivors[runs[survivors] > 0]
         means = self._sums[sampled] / runs[sampled]
-        order = np.argsort(-means, kind="stable")
+        is_cheapest = isinstance(self._plan.question, Cheapest)
+        order = np.argsort(self._plan.costs[sampled] if is_cheapest else -means, kind="stable")
         rows = zip(sampled[order], runs[sampled[order]], means[order], strict=True)
         return tuple(Leader(int(each), int(count), float(mean)) for each, count, mean in rows)
 
     def _intervals(self, leaders: tuple[Leader, ...]) -> tuple[LeaderInterval, ...]:
         evidence = self.evidence()
-        return tuple((each, evidence.interval(each.configuration, "merit")) for each in leaders)
+        quantity = self._plan.question.quantity
+        return tuple((each, evidence.interval(each.configuration, quantity)) for each in leaders)
 
     def _is_over(self) -> bool:
         """Return whether it has selected, or its run budget does not allow another round."""
@@ -257,28 +276,40 @@ class Race:
         plan, procedure = self._plan, self._procedure
         if plan.runs is not None:
             missing = float(plan.runs * len(procedure.survivors) - procedure.runs.sum())
-        elif self._rounds:
+        elif self._rounds and isinstance(plan.question, Best):
             survivors = procedure.survivors.tolist()
             evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
-            rivals = len(plan.configurations) - 1
-            missing = remaining_runs(
-                evidence, survivors.index(leading(procedure)), plan.delta, rivals
-            )
+            best, rivals = survivors.index(leading(procedure)), len(plan.configurations) - 1
+            missing = remaining_runs(evidence, best, plan.question.delta, rivals)
         else:
             return None
         return max(0.0, missing - self._store.pending)
 
 
+def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
+    """Yield the columns that an answer uses, of those that the simulator has."""
+    question = plan.question
+    yield question.quantity
+    yield from (name for name in question.columns if name in limits)
+
+
 def procedure_of(plan: Plan) -> _core.Procedure:
     """Return the procedure that decides which runs a study needs next."""
-    if plan.runs is None:
-        return _core.selection(
-            plan.limits,
-            delta=plan.delta,
+    if plan.runs is not None:
+        return _core.equal_allocation(len(plan.configurations), plan.runs)
+    if isinstance(plan.question, Cheapest):
+        return _core.requirement(
+            plan.costs,
+            probability=plan.question.requirement.probability,
+            tolerance=plan.question.requirement.tolerance,
             confidence=plan.confidence,
-            guarantee=plan.guarantee,
         )
-    return _core.equal_allocation(len(plan.configurations), plan.runs)
+    return _core.selection(
+        plan.limits,
+        delta=plan.question.delta,
+        confidence=plan.confidence,
+        guarantee=plan.question.guarantee,
+    )
 
 
 def plan_guarantee(plan: Plan, procedure: _core.Procedure, impossible: int) -> str:
@@ -289,8 +320,9 @@ def plan_guarantee(plan: Plan, procedure: _core.Procedure, impossible: int) -> s
         return (
             "Only one configuration can be run, so nothing was selected; the intervals are valid."
         )
-    if plan.runs is None:
-        guarantee = guarantee_text(procedure, plan.delta, plan.confidence, plan.guarantee)
+    if plan.runs is None and isinstance(plan.question, Best):
+        delta, kind = plan.question.delta, plan.question.guarantee
+        guarantee = guarantee_text(procedure, delta, plan.confidence, kind)
     else:
         guarantee = (
             "The selection carries no guarantee, because the number of runs was fixed beforehand; "

@@ -1,7 +1,6 @@
 """The answer of a study as the page takes it: sections, tables and charts of the report."""
 
 import hashlib
-import math
 import re
 import threading
 from collections import OrderedDict
@@ -9,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from agent_economy import study
-from agent_economy.study import Answer, Result, report
-from agent_economy.study.answer.evidence import Evidence, Interval
-from agent_economy.study.report import Section, Table, View
+from agent_economy.study import AnyAnswer, RequirementResult, Result, report
+from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.report import Section, Table
 from agent_economy.study.store.folder import ANSWER, read_bytes
 
 CACHE_SIZE = 8
@@ -48,16 +47,16 @@ class AnswerCache:
             return self._kept[key]
 
 
-def detail(answer: Answer, evidence: Evidence) -> Detail:
+def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
     """Return an answer with the sections and charts of the report."""
-    view = View(answer, evidence)
+    shown = report.parts(answer, evidence)
     return {
         "sentence": answer.sentence,
         "guarantee": answer.guarantee,
-        "facts": list(report.facts(answer)),
-        "quarantined": report.quarantined(view),
-        "sections": [section(each) for each in report.sections(view)],
-        "charts": report.specifications(answer, evidence),
+        "facts": list(shown.facts),
+        "quarantined": shown.quarantined,
+        "sections": [section(each) for each in shown.sections],
+        "charts": shown.charts,
         "results": [result(index, each) for index, each in enumerate(answer.results)],
     }
 
@@ -88,22 +87,16 @@ def table(given: Table) -> Detail:
     }
 
 
-def result(index: int, given: Result) -> Detail:
-    """Return the results of a configuration."""
+def result(index: int, given: Result | RequirementResult) -> Detail:
+    """Return what the page takes of the results of a configuration."""
+    if isinstance(given, RequirementResult):
+        verdict = "best" if given.status == "selected" else given.status
+    else:
+        verdict = given.standing.verdict
     return {
         "configuration": index,
         "label": given.label,
         "values": given.values,
         "runs": given.runs,
-        "merit": numbers(given.merit),
-        "time_s": numbers(given.time_s),
-        "failed": numbers(given.failed),
-        "verdict": given.standing.verdict,
-        "eliminated": given.eliminated is not None,
+        "verdict": verdict,
     }
-
-
-def numbers(interval: Interval) -> list[float | None]:
-    """Return an interval with null for numbers that are not finite."""
-    each = (interval.value, interval.low, interval.high)
-    return [number if math.isfinite(number) else None for number in each]

@@ -7,7 +7,7 @@ from importlib.resources import files
 from typing import Any
 
 from agent_economy.scenario import Scenario
-from agent_economy.study.answer.labels import robot_kind
+from agent_economy.study.paths import robot_kind
 from agent_economy.study.plan import WITHOUT_RUNS
 
 Part = dict[str, Any]

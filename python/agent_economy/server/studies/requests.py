@@ -11,8 +11,9 @@ from agent_economy.server.messages import ONE_SOURCE, Error, errors_of, number
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
+from agent_economy.study.description import Description
 from agent_economy.study.plan import check_question
-from agent_economy.study.question import Question
+from agent_economy.study.question import Best
 
 T = TypeVar("T")
 
@@ -69,12 +70,14 @@ def plan(request: Any, workspace: Workspace) -> Plan:
     seed = errors.gather(lambda: number("seed", request.get("seed", "0")))
     question = {name: request.get(name) for name in ("delta", "confidence", "runs")}
     guarantee = request.get("guarantee")
-    question["guarantee"] = "indifference" if guarantee is None else guarantee
-    errors.gather(lambda: check_question(seed=seed or 0, **question))
+    asked = "indifference" if guarantee is None else guarantee
+    errors.gather(lambda: check_question(seed=seed or 0, **question, guarantee=asked))
     if not errors and changed is not None:
         max_runs = request.get("max_runs")
         made = errors.gather(
-            lambda: study.make_plan(changed, seed=seed or 0, max_runs=max_runs, **question)
+            lambda: study.make_plan(
+                changed, seed=seed or 0, max_runs=max_runs, guarantee=guarantee, **question
+            )
         )
         if made is not None:
             return made
@@ -119,15 +122,17 @@ def overrides(request: Mapping[str, Any]) -> tuple[Override, ...]:
 
 def planned(plan: Plan, name: str, state: str | None) -> dict[str, Any]:
     """Return a plan as the page takes it; `name` is the id of its folder."""
+    question = plan.question
     return {
         "id": name,
         "name": plan.scenario.name,
         "configurations": len(plan.configurations),
         "labels": [label(values) for values in plan.configurations[:MAX_LABELS]],
-        "words": str(Question.of(plan)),
-        "delta": plan.delta,
+        "words": str(Description.of(plan)),
+        "delta": question.delta if isinstance(question, Best) else None,
         "confidence": plan.confidence,
-        "guarantee": plan.guarantee,
+        "guarantee": question.guarantee if isinstance(question, Best) else None,
+        "requirement": None if isinstance(question, Best) else str(question.requirement),
         "merit": plan.scenario.merit.name,
         "factors": [
             {"path": each.path, "values": each.values, "range": each.range}

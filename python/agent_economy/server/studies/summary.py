@@ -12,7 +12,7 @@ from agent_economy._core import InputError
 from agent_economy.scenario.validation import is_whole
 from agent_economy.server.messages import escaped
 from agent_economy.study import Plan
-from agent_economy.study.question import Question
+from agent_economy.study.description import Description
 from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, STAGING, read_bytes
 
 State = str
@@ -37,7 +37,7 @@ class Summary:
     state: State
     name: str
     engine: str
-    question: Question | None
+    question: Description | None
     runs: int
     sentence: str | None
     message: str | None
@@ -55,7 +55,7 @@ class Summary:
             "configurations": question.configurations if question else 0,
             "runs": self.runs,
             "confidence": question.confidence if question else 0,
-            "delta": question.delta if question else 0,
+            "delta": question.delta if question else None,
             "sentence": self.sentence,
             "message": self.message,
             "changed_s": self.changed_s,
@@ -106,7 +106,7 @@ def summary(folder: Path, changed_s: float) -> Summary:
 def of_plan(plan: Plan, runs: int, changed_s: float) -> Summary:
     """Return the summary of a study that has no answer yet."""
     scenario = plan.scenario
-    question = Question.of(plan)
+    question = Description.of(plan)
     return Summary("stopped", scenario.name, scenario.engine, question, runs, None, None, changed_s)
 
 
@@ -119,12 +119,10 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
     scenario = answer["scenario"]
     try:
         stored = tomllib.loads(study.open(folder).question)
-        question = Question(
+        question = Description.stored(
             scenario["design"],
             len(answer["results"]),
-            stored["question"]["delta"],
-            stored["question"]["confidence"],
-            stored["question"]["guarantee"],
+            stored["question"],
             stored["data"].get("runs"),
         )
         name, engine = str(scenario["name"]), str(scenario["engine"])

@@ -13,6 +13,7 @@ from agent_economy.study.answer.sensitivity import Sensitivity, sensitivity
 from agent_economy.study.answer.sentence import sentence
 from agent_economy.study.answer.side_statements import Omission, SideStatements
 from agent_economy.study.plan import Plan
+from agent_economy.study.question import Best
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ class Answer:
 
 def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
     """Return the answer that follows from the runs of a study."""
-    best, delta = ending.best, plan.delta
+    best, delta = ending.best, delta_of(plan)
     found = results(evidence, ending, delta)
     side = SideStatements()
     saturated = side.make("saturations", lambda: saturations(evidence, best, delta))
@@ -84,3 +85,11 @@ def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
         published=theirs or (),
         omissions=tuple(side.omissions),
     )
+
+
+def delta_of(plan: Plan) -> float:
+    """Return the indifference zone of a plan that asks for the best."""
+    if isinstance(plan.question, Best):
+        return plan.question.delta
+    message = "the question is not about the best by merit"
+    raise TypeError(message)

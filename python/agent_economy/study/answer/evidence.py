@@ -42,8 +42,8 @@ class Sample(EqualByValue):
 
     Attributes:
         values: Values of the varied factors, by path.
-        columns: By name, shape (runs,): each of `QUANTITIES`, "robots", and "price" if the
-            simulator has prices.
+        columns: By name, shape (runs,): the quantities of the question, such as those of
+            `QUANTITIES`, "robots", and "price" if the simulator has prices.
         limits: By name, the range of a column.
         quarantined: Number of runs without a finite merit, which count as the worst.
     """
@@ -56,7 +56,7 @@ class Sample(EqualByValue):
     @property
     def runs(self) -> int:
         """Number of runs."""
-        return len(self.columns["merit"])
+        return len(self.columns["time_s"])
 
     @property
     def is_possible(self) -> bool:
@@ -78,10 +78,17 @@ class Sample(EqualByValue):
 
 @dataclass(frozen=True)
 class Evidence:
-    """The runs of all configurations of a study."""
+    """The runs of all configurations of a study.
+
+    Attributes:
+        samples: Those of each configuration.
+        confidence: The confidence of all intervals together.
+        part: Part of the allowed error for the intervals of one quantity.
+    """
 
     samples: tuple[Sample, ...]
     confidence: float
+    part: float = SINGLES / len(QUANTITIES)
 
     @cached_property
     def has_prices(self) -> bool:
@@ -95,7 +102,7 @@ class Evidence:
 
     def alpha_single(self) -> float:
         """Return the allowed error of each side of one configuration's interval."""
-        return (1 - self.confidence) * SINGLES / (2 * len(QUANTITIES) * len(self.samples))
+        return (1 - self.confidence) * self.part / (2 * len(self.samples))
 
     def alpha_pair(self, name: str) -> float:
         """Return the allowed error of each side of one pair's difference in a quantity."""
@@ -103,7 +110,7 @@ class Evidence:
         return (1 - self.confidence) * PAIRS[name] / max(1, count * (count - 1))
 
     def interval(self, configuration: int, name: str) -> Interval:
-        """Return the mean of one of `QUANTITIES` with its bounds."""
+        """Return the mean of a quantity with its bounds."""
         key = configuration, name
         if key not in self._intervals:
             sample = self.samples[configuration]

@@ -2,10 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 
-Values = Mapping[str, float | str]
+from agent_economy.study.paths import robot_kind
 
-TEAM = ("robots.", ".count")
-"""Prefix and suffix of the path of a factor that is a team size."""
+Values = Mapping[str, float | str]
 
 
 def label(values: Values) -> str:
@@ -36,12 +35,6 @@ def is_number(value: float | str) -> bool:
 def word(value: float | str) -> str:
     """Return a name, true or false as scenarios write it."""
     return str(value).lower() if isinstance(value, bool) else str(value)
-
-
-def robot_kind(path: str) -> str | None:
-    """Return the robot kind whose team size a path is, if it is one."""
-    start, end = TEAM
-    return path[len(start) : -len(end)] if path.startswith(start) and path.endswith(end) else None
 
 
 def recommendation(values: Values) -> str:

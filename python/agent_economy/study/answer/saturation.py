@@ -7,7 +7,7 @@ All other factors have their values in the selected configuration.
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Evidence, Interval
-from agent_economy.study.answer.labels import robot_kind
+from agent_economy.study.paths import robot_kind
 
 
 @dataclass(frozen=True)

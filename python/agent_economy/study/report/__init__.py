@@ -1,11 +1,13 @@
 """The report of a study: one HTML page that works offline.
 
 `view` selects and orders what is shown; `charts` are Vega-Lite specifications, `tables` the same
-numbers as text; `sections` combine both; `page` fills the template with them and the `script`.
+numbers as text; `sections` combine both, those with `requirement_` for the question of that name;
+`parts` are all of them; `page` fills the template with them and the `script`.
 """
 
 from agent_economy.study.report.charts import specifications
-from agent_economy.study.report.page import facts, html, quarantined
+from agent_economy.study.report.page import html
+from agent_economy.study.report.parts import ReportParts, parts
 from agent_economy.study.report.script import ChartScript
 from agent_economy.study.report.sections import Section, sections
 from agent_economy.study.report.tables import Table
@@ -13,12 +15,12 @@ from agent_economy.study.report.view import View
 
 __all__ = [
     "ChartScript",
+    "ReportParts",
     "Section",
     "Table",
     "View",
-    "facts",
     "html",
-    "quarantined",
+    "parts",
     "sections",
     "specifications",
 ]

@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator
 
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.any_answer import AnyAnswer
+from agent_economy.study.answer.labels import varied
 from agent_economy.study.report.formatting import brief
+from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.tables import written
 from agent_economy.study.report.view import View
 from agent_economy.study.versions import versions
@@ -27,7 +29,19 @@ def assumptions(view: View) -> Iterator[tuple[str, str]]:
     yield from versions().items()
 
 
-def scenario(answer: Answer) -> Iterator[tuple[str, str]]:
+def requirement_assumptions(view: RequirementView) -> Iterator[tuple[str, str]]:
+    """Return the assumptions of an answer about a requirement, each with its name."""
+    answer = view.answer
+    yield from scenario(answer)
+    for path in varied([result.values for result in answer.results]):
+        yield path, values(answer, path)
+    yield "seed", f"{answer.seed}; a run number means the same random numbers in all configurations"
+    yield "order", "that more robots are better is not assumed; each configuration is judged alone"
+    yield "quarantine", "a run without an outcome counts as not met and is never omitted"
+    yield from versions().items()
+
+
+def scenario(answer: AnyAnswer) -> Iterator[tuple[str, str]]:
     """Return the constant parts of the study."""
     constant = answer.scenario
     yield "scenario", constant.name
@@ -36,7 +50,7 @@ def scenario(answer: Answer) -> Iterator[tuple[str, str]]:
     yield "design", constant.design
 
 
-def values(answer: Answer, path: str) -> str:
+def values(answer: AnyAnswer, path: str) -> str:
     """Return the values of a varied factor."""
     found = list(dict.fromkeys(result.values[path] for result in answer.results))
     numbers = [value for value in found if not isinstance(value, str | bool)]

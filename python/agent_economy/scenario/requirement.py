@@ -1,0 +1,84 @@
+"""What a mission must meet, and in which share of missions."""
+
+import operator
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+COMPARISONS: dict[str, Callable[[Floats, float], NDArray[np.bool_]]] = {
+    "<=": operator.le,
+    ">=": operator.ge,
+    "<": operator.lt,
+    ">": operator.gt,
+    "==": operator.eq,
+    "!=": operator.ne,
+}
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A condition on the outcome of a run.
+
+    Attributes:
+        text: The condition as it was written, such as "time_s <= 1200".
+        column: The outcome column.
+        comparison: One of `COMPARISONS`.
+        value: What the column is compared with.
+    """
+
+    text: str
+    column: str
+    comparison: str
+    value: float
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that `holds` needs."""
+        return (self.column, "failed") if self.column == "time_s" else (self.column,)
+
+    def holds(self, columns: Mapping[str, Floats]) -> NDArray[np.bool_]:
+        """Return in which runs it holds; NaN meets no condition.
+
+        In a condition, `time_s` is the time of success: of a run without success, it is infinite.
+        """
+        values = columns[self.column]
+        if self.column == "time_s":
+            values = np.where(columns["failed"] > 0, np.inf, values)
+        return COMPARISONS[self.comparison](values, self.value) & ~np.isnan(values)
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """Conditions that must all hold in a share of the runs.
+
+    Attributes:
+        conditions: The conditions; at least one.
+        probability: The share of runs in which all must hold; above 0, below 1.
+        tolerance: A configuration is refuted when its share is shown to be below probability +
+            tolerance; above 0, at most 1 - probability.
+    """
+
+    conditions: tuple[Condition, ...]
+    probability: float
+    tolerance: float
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns that `met` needs."""
+        names = (name for condition in self.conditions for name in condition.columns)
+        return tuple(dict.fromkeys(names))
+
+    def met(self, columns: Mapping[str, Floats]) -> Floats:
+        """Return 1 for each run that meets all conditions, else 0; NaN for one with a NaN."""
+        met = np.logical_and.reduce([each.holds(columns) for each in self.conditions])
+        is_unknown = np.logical_or.reduce([np.isnan(columns[name]) for name in self.columns])
+        return np.where(is_unknown, np.nan, met.astype(np.float64))
+
+    def __str__(self) -> str:
+        """Return the requirement in one line."""
+        conditions = " and ".join(condition.text for condition in self.conditions)
+        return f"{conditions} in {self.probability:g} of runs, tolerance {self.tolerance:g}"

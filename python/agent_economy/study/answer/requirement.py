@@ -1,0 +1,76 @@
+"""The answer to the question of the cheapest configuration that meets a requirement."""
+
+from dataclasses import dataclass
+
+from agent_economy.scenario import Requirement, Scenario
+from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.requirement_results import (
+    RequirementEnding,
+    RequirementResult,
+    results,
+)
+from agent_economy.study.answer.requirement_words import guarantee, sentence
+from agent_economy.study.plan import Plan
+from agent_economy.study.question import Cheapest
+
+
+@dataclass(frozen=True)
+class RequirementAnswer:
+    """The answer of a study of a requirement.
+
+    Attributes:
+        scenario: The scenario.
+        seed: Seed of all random numbers.
+        sentence: The answer in words.
+        guarantee: Its promise in words.
+        is_guaranteed: Whether the study ended by itself, so that no cheaper configuration meets the
+            requirement with tolerance to spare.
+        confidence: Confidence of the promise; and, as a statement of its own, of all intervals.
+        requirement: The requirement.
+        minimize: What a configuration costs, as an expression.
+        selected: Index of the cheapest certified configuration; None if none is certified.
+        results: Result of each configuration.
+    """
+
+    scenario: Scenario
+    seed: int
+    sentence: str
+    guarantee: str
+    is_guaranteed: bool
+    confidence: float
+    requirement: Requirement
+    minimize: str
+    selected: int | None
+    results: tuple[RequirementResult, ...]
+
+    @property
+    def runs(self) -> int:
+        """Number of runs of all configurations together."""
+        return sum(result.runs for result in self.results)
+
+
+def conclude_requirement(
+    plan: Plan, evidence: Evidence, ending: RequirementEnding
+) -> RequirementAnswer:
+    """Return the answer that follows from the runs of a study of a requirement.
+
+    Raises:
+        TypeError: If the plan asks another question.
+    """
+    question = plan.question
+    if not isinstance(question, Cheapest):
+        message = "the question is not about a requirement"
+        raise TypeError(message)
+    found = results(plan, question.requirement, evidence, ending)
+    return RequirementAnswer(
+        scenario=plan.scenario,
+        seed=plan.seed,
+        sentence=sentence(question, found, plan.confidence, ending.obstacle),
+        guarantee=guarantee(question, found, plan.confidence, is_over=ending.is_over),
+        is_guaranteed=ending.is_over,
+        confidence=plan.confidence,
+        requirement=question.requirement,
+        minimize=question.minimize,
+        selected=ending.selected,
+        results=found,
+    )

@@ -1,0 +1,126 @@
+"""Arithmetic on the robots of a team, as `minimize` and `where` of a study contain it.
+
+Names are kinds of robots, which are their numbers, `robots`, the number of all, and `price`. There are
+numbers, + - * /, comparisons, `and`, `or`, `not` and parentheses, as in Python.
+"""
+
+import ast
+import operator
+from collections.abc import Callable, Mapping
+from difflib import get_close_matches
+
+from agent_economy._core import InputError
+
+BINARY: dict[type, Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+COMPARED: dict[type, Callable[[float, float], bool]] = {
+    ast.LtE: operator.le,
+    ast.GtE: operator.ge,
+    ast.Lt: operator.lt,
+    ast.Gt: operator.gt,
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+}
+
+MAX_LENGTH = 1000
+"""Maximum number of characters of an expression."""
+
+ALLOWED = "numbers, kinds of robots, robots, price, + - * / and comparisons, and, or, not"
+
+
+class Expression:
+    """An expression that has been checked."""
+
+    def __init__(self, path: str, text: str, names: tuple[str, ...]) -> None:
+        """Read an expression; `path` is its key in error messages.
+
+        Raises:
+            InputError: If it is not an expression of these names.
+        """
+        self._path, self._text, self._names = path, text, names
+        try:
+            self._tree = ast.parse(text.strip(), mode="eval").body
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            raise self._refused(f"must be an expression of {ALLOWED}") from None
+        if len(text) > MAX_LENGTH:
+            raise self._refused(f"must have at most {MAX_LENGTH} characters")
+        self._check(self._tree)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The names that occur."""
+        return frozenset(each.id for each in ast.walk(self._tree) if isinstance(each, ast.Name))
+
+    def value(self, values: Mapping[str, float]) -> float:
+        """Return its value; a comparison is 1 or 0.
+
+        Raises:
+            InputError: If it divides by zero.
+        """
+        try:
+            return float(evaluate(self._tree, values))
+        except (ZeroDivisionError, OverflowError):
+            raise self._refused("must not divide by zero or overflow for any team") from None
+
+    def _check(self, node: ast.expr) -> None:
+        match node:
+            case ast.Constant(value=int() | float()):
+                return
+            case ast.Name(id=name):
+                self._check_name(name)
+            case ast.BinOp(left=left, op=op, right=right) if type(op) in BINARY:
+                self._check_all(left, right)
+            case ast.UnaryOp(op=ast.USub() | ast.Not(), operand=operand):
+                self._check(operand)
+            case ast.BoolOp(values=values):
+                self._check_all(*values)
+            case ast.Compare(left=left, ops=ops, comparators=others) if all(
+                type(op) in COMPARED for op in ops
+            ):
+                self._check_all(left, *others)
+            case _:
+                piece = ast.get_source_segment(self._text.strip(), node) or self._text
+                raise self._refused(f"{piece!r} is not allowed: must be of {ALLOWED}")
+
+    def _check_all(self, *nodes: ast.expr) -> None:
+        for node in nodes:
+            self._check(node)
+
+    def _check_name(self, name: str) -> None:
+        if name not in self._names:
+            close = get_close_matches(name, self._names, 1)
+            suggestion = f"; did you mean {close[0]!r}?" if close else ""
+            raise self._refused(
+                f"{name!r} is unknown: must be one of {', '.join(self._names)}{suggestion}"
+            )
+
+    def _refused(self, why: str) -> InputError:
+        return InputError(f"{self._path} = {self._text!r}: {why}")
+
+
+def evaluate(node: ast.expr, values: Mapping[str, float]) -> float:
+    """Return the value of a checked expression."""
+    match node:
+        case ast.Constant(value=int() | float() as number):
+            return number
+        case ast.Name(id=name):
+            return values[name]
+        case ast.BinOp(left=left, op=op, right=right):
+            return BINARY[type(op)](evaluate(left, values), evaluate(right, values))
+        case ast.UnaryOp(op=op, operand=operand):
+            value = evaluate(operand, values)
+            return -value if isinstance(op, ast.USub) else not value
+        case ast.BoolOp(op=op, values=nodes):
+            each = (bool(evaluate(node, values)) for node in nodes)
+            return all(each) if isinstance(op, ast.And) else any(each)
+        case ast.Compare(left=left, ops=ops, comparators=others):
+            numbers = [evaluate(each, values) for each in (left, *others)]
+            pairs = zip(ops, numbers, numbers[1:], strict=False)
+            return all(COMPARED[type(op)](one, other) for op, one, other in pairs)
+        case _:
+            message = f"not an expression: {node!r}"
+            raise TypeError(message)

@@ -1,0 +1,103 @@
+"""The sections of a report about a requirement: notes, charts and tables."""
+
+from collections.abc import Iterator
+
+from agent_economy.study.report.formatting import NOTHING, brief, percent
+from agent_economy.study.report.requirement_view import RequirementView
+from agent_economy.study.report.sections import Picture, Section
+from agent_economy.study.report.tables import Cell, Row, Table, shares, words
+from agent_economy.study.report.view import MAX_SHOWN
+from agent_economy.study.selection import percentage
+
+
+def requirement_sections(view: RequirementView) -> Iterator[Section]:
+    """Return the sections that the answer has data for."""
+    yield share(view)
+    yield failing(view)
+    if view.compared_distributions:
+        yield distribution(view)
+    if view.has_prices:
+        yield Section("Price", (), (Picture("price", "Price and share of missions that meet it"),))
+
+
+def share(view: RequirementView) -> Section:
+    """Return the section on the share of missions that meet the requirement."""
+    requirement = view.answer.requirement
+    low, high = percentage(requirement.probability), spare(view)
+    notes = [
+        f"The line is the required share, {low}; the band above it is the tolerance, up to {high}. "
+        f"A team is certified when its share is shown to be at least {low}, and refuted when it is "
+        f"shown to be below {high}.",
+        "Two statements with their own confidence: certified and refuted belong to the promise above; "
+        f"the intervals hold simultaneously for all teams, with "
+        f"{percentage(view.answer.confidence)} confidence, and do not decide.",
+    ]
+    if len(view.known) > MAX_SHOWN:
+        notes.append(
+            f"{MAX_SHOWN} of {len(view.known):,} teams with runs are shown; answer.json contains all."
+        )
+    picture = Picture("share", "Share of missions that meet the requirement, with its interval")
+    return Section(
+        "Missions that meet the requirement", tuple(notes), (picture,), (table(view),), is_folded=False
+    )
+
+
+def spare(view: RequirementView) -> str:
+    """Return the required share with the tolerance."""
+    requirement = view.answer.requirement
+    return percentage(round(requirement.probability + requirement.tolerance, 12))
+
+
+def table(view: RequirementView) -> Table:
+    """Return the table of all shown teams, and of those of the same cost as the selected one."""
+
+    def row(index: int) -> Row:
+        result = view.result(index)
+        met = shares(result.met, 1) if result.met else Cell(NOTHING)
+        cells = (Cell(brief(result.cost)), words(result.status), met, Cell(f"{result.runs:,}"))
+        return Row((words(view.names[index]), *cells), row_style(result.status), index)
+
+    shown = dict.fromkeys((*view.shown, *others(view)))
+    heads = ("team", view.answer.minimize, "status", "share that meets it", "runs")
+    return Table("Share of missions that meet the requirement", heads, tuple(map(row, shown)))
+
+
+def row_style(status: str) -> str:
+    """Return the CSS class of a row."""
+    return {"selected": "best", "refuted": "worse", "impossible": "impossible"}.get(status, "")
+
+
+def others(view: RequirementView) -> tuple[int, ...]:
+    """Return the teams of the same cost as the selected one, and those that cannot be run."""
+    selected = view.answer.selected
+    cost = None if selected is None else view.result(selected).cost
+    results = enumerate(view.answer.results)
+    found = (at for at, each in results if each.cost == cost or not each.is_possible)
+    return tuple(found)[:MAX_SHOWN]
+
+
+def failing(view: RequirementView) -> Section:
+    """Return the section on why missions did not meet the requirement."""
+    conditions = [each.text for each in view.answer.requirement.conditions]
+
+    def row(index: int) -> Row:
+        parts = (Cell(percent(each, 1)) for each in view.result(index).failing)
+        return Row((words(view.names[index]), *parts), "", index)
+
+    rows = tuple(map(row, view.shown))
+    note = "A mission may fail several conditions. A time of a mission without success is infinite."
+    found = Table("Share of missions in which a condition does not hold", ("team", *conditions), rows)
+    picture = Picture("failing", "Share of missions in which each condition does not hold")
+    return Section("Why missions failed", (note,), (picture,), (found,))
+
+
+def distribution(view: RequirementView) -> Section:
+    """Return the section on the distribution of the deciding column."""
+    condition = view.deciding_condition
+    teams = " and ".join(view.names[index] for index in view.compared_distributions)
+    note = (
+        f"{condition.text} is the condition that fails most often. The band around each distribution "
+        f"is valid at any time; both together with {percentage(view.answer.confidence)} confidence."
+    )
+    picture = Picture("distribution", f"Distribution of {condition.column}: {teams}")
+    return Section("The deciding condition", (note,), (picture,))

@@ -1,0 +1,93 @@
+"""The teams of a study's configurations: which are compared, and what they cost."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from agent_economy._core import InputError
+from agent_economy.scenario import Scenario
+from agent_economy.study.arguments import Floats
+from agent_economy.study.design import Values
+from agent_economy.study.engine import Engine
+from agent_economy.study.expression import Expression
+from agent_economy.study.paths import robot_kind
+
+
+def compared(scenario: Scenario, configurations: Sequence[Values]) -> tuple[Values, ...]:
+    """Return the configurations that `study.where` of a scenario allows.
+
+    Raises:
+        InputError: If the expression is invalid, or allows none.
+    """
+    if scenario.where is None:
+        return tuple(configurations)
+    expression = Expression("study.where", scenario.where, names(scenario))
+    values = evaluated(expression, Engine(scenario, configurations, 0))
+    allowed = tuple(
+        each for each, value in zip(configurations, values.tolist(), strict=True) if value
+    )
+    if not allowed:
+        message = (
+            f"study.where = {scenario.where!r}: allows none of {len(configurations):,} "
+            "configurations: must allow one or more"
+        )
+        raise InputError(message)
+    return allowed
+
+
+def costs(engine: Engine, minimize: str) -> Floats:
+    """Return the cost of each configuration, shape (configurations,).
+
+    Raises:
+        InputError: If the expression is invalid.
+    """
+    expression = Expression("study.minimize", minimize, names(engine.scenario))
+    found = evaluated(expression, engine)
+    if not np.isfinite(found).all():
+        message = f"study.minimize = {minimize!r}: must be finite for each configuration"
+        raise InputError(message)
+    return found
+
+
+def names(scenario: Scenario) -> tuple[str, ...]:
+    """Return the names that expressions may contain."""
+    return (*scenario.robots, "robots", "price")
+
+
+def evaluated(expression: Expression, engine: Engine) -> Floats:
+    """Return the value of an expression for each configuration."""
+    values = [
+        expression.value(team(engine, index, has_price="price" in expression.names))
+        for index in range(len(engine.configurations))
+    ]
+    return np.array(values)
+
+
+def team(engine: Engine, configuration: int, *, has_price: bool) -> dict[str, float]:
+    """Return the values of the names of an expression for a configuration.
+
+    Raises:
+        InputError: If its team has no price, but needs one.
+    """
+    varied = {
+        kind: float(value)
+        for path, value in engine.configurations[configuration].items()
+        if (kind := robot_kind(path)) is not None
+    }
+    counts = {kind: float(count) for kind, count in engine.scenario.robots.items()} | varied
+    values = counts | {"robots": sum(counts.values())}
+    return values | {"price": price(engine, configuration)} if has_price else values
+
+
+def price(engine: Engine, configuration: int) -> float:
+    """Return the price of a configuration's team.
+
+    Raises:
+        InputError: If it has none.
+    """
+    low, high = engine.limits(configuration).get("price", (np.nan, np.nan))
+    if low == high:
+        # A sum: equal prices must not differ by rounding.
+        return float(f"{low:.12g}")
+    message = "price: the engine of this scenario has no prices: use robots, or kinds of robots"
+    raise InputError(message)
