@@ -1,6 +1,7 @@
 //! The metric engine as studies see it.
 
-use crate::run::{Outcome, State};
+use crate::judge::Outcome;
+use crate::run::State;
 use crate::scenario::{Scenario, ScenarioSpec};
 use crate::step::tick::StepScratch;
 use crate::warnings;
@@ -151,7 +152,7 @@ impl Runs {
         while !state.is_over(scenario) && !options.is_stopped() {
             scratch.step(scenario, &mut state);
         }
-        Outcome::of(scenario, &state)
+        state.outcome(scenario)
     }
 
     /// The outcome of a run, in the order of the columns; `None` if a value is not finite, so that
