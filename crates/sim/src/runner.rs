@@ -7,7 +7,7 @@ use crate::step::tick::StepScratch;
 use crate::warnings;
 use base::document::{Document, Value};
 use base::engine::{BlockOptions, Column, ColumnKind, Runner};
-use base::engine::{Configuration, Engine, Measure, NamedMerit};
+use base::engine::{Configuration, Engine, MeritTerm, NamedMerit};
 use base::error::InputErrors;
 use base::warning::Warning;
 use std::borrow::Cow;
@@ -53,10 +53,10 @@ impl Engine for Metric {
         ScenarioSpec::files(document)
     }
 
-    fn measures(&self, _: &Document) -> Vec<Measure> {
-        let false_alarms = Measure {
+    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
+        let false_alarms = MeritTerm {
             usual_max: Some(100.0),
-            ..Measure::new("false_alarms", "false_alarms")
+            ..MeritTerm::new("false_alarms", "false_alarms")
         };
         let bounded = [
             ("time", "time_s"),
@@ -70,7 +70,7 @@ impl Engine for Metric {
             ("distance", "distance_m"),
             ("stopped", "robots_stopped"),
         ];
-        let bounded = bounded.map(|(name, column)| Measure::new(name, column));
+        let bounded = bounded.map(|(name, column)| MeritTerm::new(name, column));
         bounded.into_iter().chain([false_alarms]).collect()
     }
 

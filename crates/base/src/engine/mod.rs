@@ -51,7 +51,7 @@ pub trait Engine: Sync {
 
     /// The terms that a figure of merit can weigh, in the order of summation. Called on documents
     /// with errors, too.
-    fn measures(&self, document: &Document) -> Vec<Measure>;
+    fn merit_terms(&self, document: &Document) -> Vec<MeritTerm>;
 
     /// The predefined figures of merit.
     fn merits(&self) -> &'static [NamedMerit];
@@ -82,7 +82,7 @@ pub struct Configuration {
 
 /// A term that a figure of merit can weigh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measure {
+pub struct MeritTerm {
     /// Its name in scenarios, such as `time`.
     pub name: Cow<'static, str>,
     /// The outcome column that it reads.
@@ -92,7 +92,7 @@ pub struct Measure {
     pub usual_max: Option<f64>,
 }
 
-impl Measure {
+impl MeritTerm {
     /// A term on `column`, which has natural bounds.
     #[must_use]
     pub fn new(name: impl Into<Cow<'static, str>>, column: impl Into<Cow<'static, str>>) -> Self {

@@ -75,10 +75,10 @@ impl Engine for Shop {
         })
     }
 
-    fn measures(&self, _: &Document) -> Vec<Measure> {
+    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
         vec![
-            Measure::new("time", "time_s"),
-            Measure::new("robots", "robots"),
+            MeritTerm::new("time", "time_s"),
+            MeritTerm::new("robots", "robots"),
         ]
     }
 
@@ -125,7 +125,7 @@ fn the_common_keys_and_the_engines_part_are_read_together() {
         factor.values,
         Values::Listed([1, 2, 3].map(Value::Integer).into())
     );
-    // A named merit omits measures that the engine does not have.
+    // A named merit omits terms that the engine does not have.
     let names: Vec<&str> = scenario
         .merit
         .terms

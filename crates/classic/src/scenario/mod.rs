@@ -35,7 +35,7 @@ use crate::runner::Configuration;
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
-use base::engine::{Engine, MAX_TIME_LIMIT_S, Measure, NamedMerit};
+use base::engine::{Engine, MAX_TIME_LIMIT_S, MeritTerm, NamedMerit};
 use base::error::InputErrors;
 
 /// The worksheet in the thesis's appendix, which does not divide the time by ten.
@@ -70,17 +70,17 @@ impl Engine for Classic {
         })
     }
 
-    fn measures(&self, _: &Document) -> Vec<Measure> {
-        let paints = Measure {
+    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
+        let paints = MeritTerm {
             usual_max: Some(USUAL_PAINTS),
-            ..Measure::new("paints", "paints")
+            ..MeritTerm::new("paints", "paints")
         };
         vec![
-            Measure::new("time", "time_s"),
-            Measure::new("robots", "robots"),
-            Measure::new("failed", "failed"),
-            Measure::new("found", "found"),
-            Measure::new("collisions", "collisions"),
+            MeritTerm::new("time", "time_s"),
+            MeritTerm::new("robots", "robots"),
+            MeritTerm::new("failed", "failed"),
+            MeritTerm::new("found", "found"),
+            MeritTerm::new("collisions", "collisions"),
             paints,
         ]
     }
@@ -384,10 +384,10 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     fn the_terms_that_need_a_max_are_the_columns_without_bound() {
         let document = Document::parse("t.toml", GOOD).unwrap();
         let columns = document.read(configuration).unwrap().columns();
-        for measure in Classic.measures(&document) {
-            let column = columns.iter().find(|each| each.name == measure.column);
+        for term in Classic.merit_terms(&document) {
+            let column = columns.iter().find(|each| each.name == term.column);
             let is_bounded = column.unwrap().max.is_some();
-            assert_eq!(is_bounded, measure.usual_max.is_none());
+            assert_eq!(is_bounded, term.usual_max.is_none());
         }
     }
 }
