@@ -1,5 +1,5 @@
 use super::*;
-use crate::engine::{BlockOptions, Column, ColumnKind, NamedMerit, Runner};
+use crate::engine::{BlockOptions, Bounds, Column, ColumnKind, NamedMerit, Runner};
 use crate::error::InputError;
 use std::ops::Range;
 
@@ -24,8 +24,7 @@ impl Runner for Waiting {
         let column = |name: &str| Column {
             name: name.to_owned().into(),
             kind: ColumnKind::Real,
-            min: Some(0.0),
-            max: Some(1.0),
+            bounds: Bounds::up_to(1.0),
         };
         ["time_s", "failed", "robots"].map(column).into()
     }

@@ -31,7 +31,7 @@ pub use schema::schema;
 
 use crate::clock::{Clock, MAX_TIME_LIMIT_PAINTS, PAINTS_PER_S};
 use crate::contact::Contact;
-use crate::runner::Configuration;
+use crate::runner::{Configuration, columns};
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
@@ -43,9 +43,6 @@ const APPENDIX: NamedMerit = NamedMerit {
     name: "appendix",
     weights: &[("time", -0.3), ("robots", -0.2), ("failed", -5.0)],
 };
-
-/// A typical `max` for paints: the 120 s of the experiment.
-const USUAL_PAINTS: f64 = 6720.0;
 
 /// The classic engine.
 #[derive(Debug, Clone, Copy)]
@@ -71,18 +68,7 @@ impl Engine for Classic {
     }
 
     fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
-        let paints = MeritTerm {
-            usual_max: Some(USUAL_PAINTS),
-            ..MeritTerm::new("paints", "paints")
-        };
-        vec![
-            MeritTerm::new("time", "time_s"),
-            MeritTerm::new("robots", "robots"),
-            MeritTerm::new("failed", "failed"),
-            MeritTerm::new("found", "found"),
-            MeritTerm::new("collisions", "collisions"),
-            paints,
-        ]
+        columns().merit_terms()
     }
 
     fn merits(&self) -> &'static [NamedMerit] {
@@ -386,7 +372,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let columns = document.read(configuration).unwrap().columns();
         for term in Classic.merit_terms(&document) {
             let column = columns.iter().find(|each| each.name == term.column);
-            let is_bounded = column.unwrap().max.is_some();
+            let is_bounded = column.unwrap().bounds.max.is_some();
             assert_eq!(is_bounded, term.usual_max.is_none());
         }
     }
