@@ -36,6 +36,7 @@
 //!
 //! A value above `max` counts as `max`. On the command line: `--merit time=-0.03,robots=-0.2`.
 
+pub mod condition;
 mod factors;
 mod merit;
 mod published;
