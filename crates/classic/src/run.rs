@@ -1,7 +1,7 @@
 //! A run of a scenario that is stepped paint by paint and can be changed while it runs.
 
 use crate::runner::Configuration;
-use crate::search::Search;
+use crate::search::{Outcome, Search};
 use crate::start::random_team;
 use crate::world::ITEMS;
 use std::sync::OnceLock;
@@ -13,8 +13,8 @@ pub struct Run {
     seed: u64,
     number: u64,
     search: Search,
-    /// Cache of [`Run::values`].
-    values: OnceLock<[f64; 6]>,
+    /// Cache of [`Run::outcome`].
+    outcome: OnceLock<Outcome>,
 }
 
 impl Run {
@@ -27,7 +27,7 @@ impl Run {
             seed,
             number,
             search: Search::new(&starts, configuration.task),
-            values: OnceLock::new(),
+            outcome: OnceLock::new(),
         }
     }
 
@@ -53,7 +53,7 @@ impl Run {
     pub fn step(&mut self) {
         if !self.search.is_over() {
             self.search.step();
-            self.values = OnceLock::new();
+            self.outcome = OnceLock::new();
         }
     }
 
@@ -63,21 +63,23 @@ impl Run {
         let starts = random_team(to.robots, self.seed, self.number);
         self.search.change(to.task, &starts);
         self.configuration = to;
-        self.values = OnceLock::new();
+        self.outcome = OnceLock::new();
     }
 
     /// The outcome so far, in the order of the columns of [`Configuration`]; after the run is over, the
     /// outcome that a study stores.
     #[must_use]
-    pub fn values(&self) -> [f64; 6] {
-        *self.values.get_or_init(|| {
-            let is_over = self.search.is_over();
-            let outcome = if is_over {
+    pub fn values(&self) -> Vec<f64> {
+        self.configuration.values(self.outcome())
+    }
+
+    fn outcome(&self) -> Outcome {
+        *self.outcome.get_or_init(|| {
+            if self.search.is_over() {
                 self.search.concluded()
             } else {
                 self.search.outcome()
-            };
-            self.configuration.values(outcome)
+            }
         })
     }
 

@@ -5,8 +5,12 @@ use crate::fast::FastSearch;
 use crate::replicate::run_of;
 use crate::search::{Outcome, Task};
 use crate::world::ITEMS;
-use base::engine::{BlockOptions, Column, ColumnKind, Runner};
+use base::engine::ColumnKind::{Flag, Real, Whole};
+use base::engine::{BlockOptions, Bounds, Column, OutcomeColumn, OutcomeColumns, Runner};
 use std::ops::Range;
+
+/// A typical `max` for paints: the 120 s of the experiment.
+const USUAL_PAINTS: f64 = 6720.0;
 
 /// Everything that a run depends on, apart from its seed and its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,71 +23,104 @@ pub struct Configuration {
     pub clock: Clock,
 }
 
+/// The outcome columns, each defined in one place.
+pub(crate) fn columns() -> OutcomeColumns<Configuration, Outcome> {
+    type Column = OutcomeColumn<Configuration, Outcome>;
+    OutcomeColumns(vec![
+        Column::new(
+            "time_s",
+            Real,
+            |on| Bounds::up_to(on.clock.time_limit_s),
+            time_s,
+        )
+        .with_term("time", 0),
+        Column::new(
+            "failed",
+            Flag,
+            |_| Bounds::up_to(1.0),
+            |on, of| u8::from(on.in_time(of).is_none()).into(),
+        )
+        .with_term("failed", 2),
+        Column::new(
+            "robots",
+            Whole,
+            |on| Bounds::fixed(on.robots.into()),
+            |on, _| on.robots.into(),
+        )
+        .with_term("robots", 1),
+        Column::new(
+            "found",
+            Whole,
+            |_| Bounds::up_to(whole(ITEMS.len() as u64)),
+            |_, of| of.found.into(),
+        )
+        .with_term("found", 3),
+        Column::new(
+            "collisions",
+            Whole,
+            |on| Bounds::up_to(whole(on.max_collisions())),
+            |_, of| whole(of.collisions),
+        )
+        .with_term("collisions", 4),
+        Column::new(
+            "paints",
+            Whole,
+            |_| Bounds::NOT_NEGATIVE,
+            |_, of| of.paints.map_or(f64::INFINITY, whole),
+        )
+        .with_capped_term("paints", 5, USUAL_PAINTS),
+    ])
+}
+
+/// Time until the last item was found; the time limit if it was not.
+fn time_s(configuration: &Configuration, outcome: &Outcome) -> f64 {
+    let Clock {
+        paints_per_s,
+        time_limit_s,
+        ..
+    } = configuration.clock;
+    let in_time = configuration.in_time(outcome);
+    // The last paint within the time limit may exceed it by a rounding error: see `whole_paints`.
+    in_time.map_or(time_limit_s, |at| {
+        (whole(at) / paints_per_s).min(time_limit_s)
+    })
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "collisions are bounded; paints beyond 2^53 take years to compute"
+)]
+fn whole(number: u64) -> f64 {
+    number as f64
+}
+
 impl Runner for Configuration {
-    #[expect(clippy::cast_precision_loss, reason = "whole numbers below 1e8")]
     fn columns(&self) -> Vec<Column> {
-        let robots = f64::from(self.robots);
-        let collisions = u64::from(self.robots) * decisions_until(self.task.time_limit_paints);
-        let column = |name: &'static str, kind, min, max| Column {
-            name: name.into(),
-            kind,
-            min: Some(min),
-            max,
-        };
-        vec![
-            column(
-                "time_s",
-                ColumnKind::Real,
-                0.0,
-                Some(self.clock.time_limit_s),
-            ),
-            column("failed", ColumnKind::Flag, 0.0, Some(1.0)),
-            column("robots", ColumnKind::Whole, robots, Some(robots)),
-            column("found", ColumnKind::Whole, 0.0, Some(ITEMS.len() as f64)),
-            column(
-                "collisions",
-                ColumnKind::Whole,
-                0.0,
-                Some(collisions as f64),
-            ),
-            column("paints", ColumnKind::Whole, 0.0, None),
-        ]
+        columns().of(self)
     }
 
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
-        let mut columns = vec![Vec::new(); self.columns().len()];
         let mut search = FastSearch::new(self.task);
-        for run in runs.take_while(|_| !options.is_stopped()) {
-            let outcome = run_of(&mut search, self.robots, seed, run);
-            for (column, value) in columns.iter_mut().zip(self.values(outcome)) {
-                column.push(value);
-            }
-        }
-        columns
+        let runs = runs.take_while(|_| !options.is_stopped());
+        let outcomes = runs.map(|run| Some(run_of(&mut search, self.robots, seed, run)));
+        columns().table(self, outcomes)
     }
 }
 
 impl Configuration {
     /// The values of an outcome, in the order of the columns.
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "collisions are bounded; paints beyond 2^53 take years to compute"
-    )]
-    pub(crate) fn values(&self, outcome: Outcome) -> [f64; 6] {
-        let in_time = outcome
-            .paints
-            .filter(|at| *at <= self.task.time_limit_paints);
-        // The last paint within the time limit may exceed it by a rounding error: see `whole_paints`.
-        let time_s =
-            in_time.map(|at| (at as f64 / self.clock.paints_per_s).min(self.clock.time_limit_s));
-        [
-            time_s.unwrap_or(self.clock.time_limit_s),
-            f64::from(u8::from(in_time.is_none())),
-            f64::from(self.robots),
-            f64::from(outcome.found),
-            outcome.collisions as f64,
-            outcome.paints.map_or(f64::INFINITY, |paints| paints as f64),
-        ]
+    pub(crate) fn values(&self, outcome: Outcome) -> Vec<f64> {
+        columns().values(self, &outcome)
+    }
+
+    /// The paint at which the last item was found, if that is within the time limit.
+    fn in_time(&self, outcome: &Outcome) -> Option<u64> {
+        let limit = self.task.time_limit_paints;
+        outcome.paints.filter(|at| *at <= limit)
+    }
+
+    fn max_collisions(&self) -> u64 {
+        u64::from(self.robots) * decisions_until(self.task.time_limit_paints)
     }
 }
 
@@ -140,12 +177,12 @@ mod tests {
             let configuration = configuration(robots, Contact::Touch, time_limit_paints);
             let block = configuration.run_block(1, 0..200, BlockOptions::ALONE);
             for (column, values) in configuration.columns().iter().zip(block) {
-                let min = column.min.unwrap_or(f64::NEG_INFINITY);
-                let max = column.max.unwrap_or(f64::INFINITY);
+                let min = column.bounds.min.unwrap_or(f64::NEG_INFINITY);
+                let max = column.bounds.max.unwrap_or(f64::INFINITY);
                 let is_within = |value: &f64| (min..=max).contains(value);
                 assert!(values.iter().all(is_within), "{}", column.name);
                 let is_whole = |value: &f64| value.is_infinite() || value.fract() == 0.0;
-                assert!(column.kind == ColumnKind::Real || values.iter().all(is_whole));
+                assert!(column.kind == Real || values.iter().all(is_whole));
             }
         }
     }
@@ -157,9 +194,7 @@ mod tests {
             found: 3,
             collisions: 8,
         };
-        let never = configuration(2, Contact::Touch, 6000)
-            .values(outcome)
-            .to_vec();
+        let never = configuration(2, Contact::Touch, 6000).values(outcome);
         assert_eq!(never, [120.0, 1.0, 2.0, 3.0, 8.0, f64::INFINITY]);
     }
 
@@ -170,9 +205,7 @@ mod tests {
             found: 3,
             collisions: 8,
         };
-        let late = configuration(2, Contact::Touch, 6000)
-            .values(outcome)
-            .to_vec();
+        let late = configuration(2, Contact::Touch, 6000).values(outcome);
         assert_eq!(late, [120.0, 1.0, 2.0, 3.0, 8.0, 6001.0]);
     }
 
@@ -187,6 +220,16 @@ mod tests {
             collisions: 0,
         };
         assert_eq!(rounded.values(last)[..2], [4.35 - 1e-9, 0.0]);
+    }
+
+    #[test]
+    fn merit_terms_are_summed_in_the_order_of_stored_studies() {
+        let terms = columns().merit_terms();
+        let names: Vec<&str> = terms.iter().map(|term| &*term.name).collect();
+        assert_eq!(
+            names.join(" "),
+            "time robots failed found collisions paints"
+        );
     }
 
     #[test]

@@ -44,7 +44,7 @@ fn a_finished_run_gives_the_measures_of_a_study() {
                 for (run, number) in (0..runs).enumerate() {
                     let values = finished(Run::new(configuration, SEED, number)).values();
                     let expected: Vec<f64> = columns.iter().map(|column| column[run]).collect();
-                    assert_eq!(values.to_vec(), expected, "{configuration:?}, run {number}");
+                    assert_eq!(values, expected, "{configuration:?}, run {number}");
                 }
             }
         }

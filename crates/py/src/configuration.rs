@@ -6,7 +6,7 @@ use crate::error::input_error;
 use crate::long_work::interruptible;
 use crate::scenario::{Source, value};
 use base::document::Value;
-use base::engine::{BlockOptions, Column, ColumnKind, Runner};
+use base::engine::{BlockOptions, Bounds, Column, ColumnKind, Runner};
 use base::scenario::{read_configuration as read_configuration_of, warnings as warnings_of};
 use base::warning::Warning;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
@@ -49,7 +49,8 @@ pub(crate) fn as_tuple(column: &Column) -> ColumnTuple {
         ColumnKind::Real => "real",
         ColumnKind::Flag => "flag",
     };
-    (column.name.to_string(), kind, column.min, column.max)
+    let Bounds { min, max } = column.bounds;
+    (column.name.to_string(), kind, min, max)
 }
 
 /// The configuration of a source, with `values` at the paths of factors. Only the parts that a run depends

@@ -1,15 +1,15 @@
 //! The metric engine as studies see it.
 
-use crate::run::{Outcome, State};
+use crate::judge::{Outcome, columns};
+use crate::run::State;
 use crate::scenario::{Scenario, ScenarioSpec};
 use crate::step::tick::StepScratch;
 use crate::warnings;
 use base::document::{Document, Value};
-use base::engine::{BlockOptions, Column, ColumnKind, Runner};
-use base::engine::{Configuration, Engine, Measure, NamedMerit};
+use base::engine::{BlockOptions, Column, Runner};
+use base::engine::{Configuration, Engine, MeritTerm, NamedMerit};
 use base::error::InputErrors;
 use base::warning::Warning;
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -52,25 +52,8 @@ impl Engine for Metric {
         ScenarioSpec::files(document)
     }
 
-    fn measures(&self, _: &Document) -> Vec<Measure> {
-        let false_alarms = Measure {
-            usual_max: Some(100.0),
-            ..Measure::new("false_alarms", "false_alarms")
-        };
-        let bounded = [
-            ("time", "time_s"),
-            ("robots", "robots"),
-            ("failed", "failed"),
-            ("price", "price"),
-            ("found", "found"),
-            ("missed", "missed"),
-            ("collisions", "collisions"),
-            ("energy", "energy_j"),
-            ("distance", "distance_m"),
-            ("stopped", "robots_stopped"),
-        ];
-        let bounded = bounded.map(|(name, column)| Measure::new(name, column));
-        bounded.into_iter().chain([false_alarms]).collect()
+    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
+        columns::columns(&[]).merit_terms()
     }
 
     fn merits(&self) -> &'static [NamedMerit] {
@@ -92,50 +75,18 @@ impl Engine for Metric {
 
 impl Runner for Runs {
     fn columns(&self) -> Vec<Column> {
-        let scenario = &*self.0;
-        let most = scenario.bounds();
-        let fixed = |name, kind, value| column(name, kind, value, Some(value));
-        let mut columns = vec![
-            up_to("time_s", ColumnKind::Real, scenario.time_limit_s),
-            up_to("failed", ColumnKind::Flag, 1.0),
-            fixed("robots", ColumnKind::Whole, most.robots),
-            fixed("price", ColumnKind::Real, most.price),
-            up_to("found", ColumnKind::Whole, most.targets),
-            up_to("missed", ColumnKind::Whole, most.targets),
-            column("false_alarms", ColumnKind::Whole, 0.0, None),
-            up_to("collisions", ColumnKind::Whole, most.collisions),
-            up_to("energy_j", ColumnKind::Real, most.energy_j),
-            up_to("distance_m", ColumnKind::Real, most.distance_m),
-            up_to("robots_stopped", ColumnKind::Whole, most.robots),
-        ];
-        for kind in &scenario.items {
-            let count = f64::from(kind.count);
-            columns.push(up_to(
-                format!("found_{}", kind.name),
-                ColumnKind::Whole,
-                count,
-            ));
-            columns.push(up_to(
-                format!("missed_{}", kind.name),
-                ColumnKind::Whole,
-                count,
-            ));
-        }
-        columns
+        columns::columns(&self.0.items).of(&self.0)
     }
 
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
-        let mut columns = vec![Vec::new(); self.columns().len()];
         let mut scratch = StepScratch::new(&self.0, options.may_share);
-        for run in runs.take_while(|_| !options.is_stopped()) {
-            let state = State::new(&self.0, seed, run).ok();
-            let outcome = state.map(|state| self.finish(&mut scratch, state, options));
-            let values = outcome.and_then(|outcome| self.values(&outcome));
-            for (number, column) in columns.iter_mut().enumerate() {
-                column.push(values.as_ref().map_or(f64::NAN, |values| values[number]));
-            }
-        }
-        columns
+        let runs = runs.take_while(|_| !options.is_stopped());
+        let outcomes = runs.map(|run| {
+            let state = State::new(&self.0, seed, run).ok()?;
+            let outcome = self.finish(&mut scratch, state, options);
+            outcome.is_finite().then_some(outcome)
+        });
+        columns::columns(&self.0.items).table(&self.0, outcomes)
     }
 }
 
@@ -151,57 +102,15 @@ impl Runs {
         while !state.is_over(scenario) && !options.is_stopped() {
             scratch.step(scenario, &mut state);
         }
-        Outcome::of(scenario, &state)
+        state.outcome(scenario)
     }
 
     /// The outcome of a run, in the order of the columns; `None` if a value is not finite, so that
     /// the run is quarantined.
     #[must_use]
-    #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
     pub fn values(&self, outcome: &Outcome) -> Option<Vec<f64>> {
-        if !outcome.is_finite() {
-            return None;
-        }
-        let scenario = &*self.0;
-        let target = |counts: &[u32]| {
-            let kinds = scenario.items.iter().zip(counts);
-            let target = kinds.filter(|(kind, _)| kind.is_target);
-            f64::from(target.map(|(_, count)| count).sum::<u32>())
-        };
-        let most = scenario.bounds();
-        let mut values = vec![
-            outcome.time_s,
-            f64::from(u8::from(outcome.has_failed)),
-            most.robots,
-            most.price,
-            target(&outcome.found),
-            target(&outcome.missed),
-            outcome.false_alarms as f64,
-            outcome.collisions as f64,
-            outcome.energy_j,
-            outcome.distance_m,
-            f64::from(outcome.robots_stopped),
-        ];
-        let kinds = outcome.found.iter().zip(&outcome.missed);
-        values.extend(kinds.flat_map(|(found, missed)| [f64::from(*found), f64::from(*missed)]));
-        Some(values)
-    }
-}
-
-fn up_to(name: impl Into<Cow<'static, str>>, kind: ColumnKind, most: f64) -> Column {
-    column(name, kind, 0.0, Some(most))
-}
-
-fn column(
-    name: impl Into<Cow<'static, str>>,
-    kind: ColumnKind,
-    min: f64,
-    max: Option<f64>,
-) -> Column {
-    Column {
-        name: name.into(),
-        kind,
-        min: Some(min),
-        max,
+        let columns = columns::columns(&self.0.items);
+        let is_finite = outcome.is_finite();
+        is_finite.then(|| columns.values(&self.0, outcome))
     }
 }

@@ -36,6 +36,7 @@ mod section;
 mod typed;
 mod yaml;
 
+pub(crate) use node::written;
 pub use node::{Node, Table, Value, path_of};
 pub use place::Place;
 pub use root::{CreatedTable, Document, Files, Override};

@@ -4,14 +4,19 @@
 //! what a figure of merit can weigh. It reads a scenario into a [`Configuration`], whose [`Runner`]
 //! computes blocks of runs.
 
+mod column;
+mod merit_term;
+mod outcome_column;
 mod runner;
 
-pub use runner::{BlockOptions, Column, ColumnKind, Runner};
+pub use column::{Bounds, Column, ColumnKind};
+pub use merit_term::{MeritTerm, NamedMerit};
+pub use outcome_column::{OutcomeColumn, OutcomeColumns};
+pub use runner::{BlockOptions, Runner};
 
 use crate::document::{Document, Value};
 use crate::error::InputErrors;
 use crate::warning::Warning;
-use std::borrow::Cow;
 
 /// Largest time limit of a run, in seconds.
 pub const MAX_TIME_LIMIT_S: f64 = 1e6;
@@ -51,7 +56,7 @@ pub trait Engine: Sync {
 
     /// The terms that a figure of merit can weigh, in the order of summation. Called on documents
     /// with errors, too.
-    fn measures(&self, document: &Document) -> Vec<Measure>;
+    fn merit_terms(&self, document: &Document) -> Vec<MeritTerm>;
 
     /// The predefined figures of merit.
     fn merits(&self) -> &'static [NamedMerit];
@@ -78,45 +83,4 @@ pub struct Configuration {
     pub time_limit_s: f64,
     /// Other properties that all runs share, as (name, description) for display.
     pub facts: Vec<(String, String)>,
-}
-
-/// A term that a figure of merit can weigh.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measure {
-    /// Its name in scenarios, such as `time`.
-    pub name: Cow<'static, str>,
-    /// The outcome column that it reads.
-    pub column: Cow<'static, str>,
-    /// For a column without a natural bound, whose terms need a `max`: the `max` that error messages
-    /// propose.
-    pub usual_max: Option<f64>,
-}
-
-impl Measure {
-    /// A term on `column`, which has natural bounds.
-    #[must_use]
-    pub fn new(name: impl Into<Cow<'static, str>>, column: impl Into<Cow<'static, str>>) -> Self {
-        Self {
-            name: name.into(),
-            column: column.into(),
-            usual_max: None,
-        }
-    }
-}
-
-/// A predefined figure of merit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NamedMerit {
-    /// Its name in scenarios.
-    pub name: &'static str,
-    /// Terms and their weights.
-    pub weights: &'static [(&'static str, f64)],
-}
-
-impl NamedMerit {
-    /// Equation 5.2 of Williams 2003: -(0.3 T/10 + 0.2 n + 0.5 failures in ten).
-    pub const EQUATION_5_2: Self = Self {
-        name: "equation-5.2",
-        weights: &[("time", -0.03), ("robots", -0.2), ("failed", -5.0)],
-    };
 }

@@ -1,34 +1,8 @@
 //! Blocks of runs of one configuration.
 
-use std::borrow::Cow;
+use super::column::Column;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// What the values of a column are, so that they can be stored compactly.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColumnKind {
-    /// Whole numbers.
-    Whole,
-    /// Any numbers.
-    Real,
-    /// 0 or 1.
-    Flag,
-}
-
-/// One number that every run of a configuration returns.
-///
-/// The bounds follow from the configuration and hold for each run that is not quarantined.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    /// Its name, with the unit.
-    pub name: Cow<'static, str>,
-    /// What its values are.
-    pub kind: ColumnKind,
-    /// Smallest possible value; `None` without a natural bound.
-    pub min: Option<f64>,
-    /// Largest possible value; `None` without a natural bound, and then a run may return +infinity.
-    pub max: Option<f64>,
-}
 
 /// How a block of runs is computed. None of it changes an outcome.
 #[derive(Debug, Clone, Copy)]
@@ -61,12 +35,12 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 /// One configuration, ready to run.
 ///
 /// ```
-/// use base::engine::{BlockOptions, Column, ColumnKind, Runner};
+/// use base::engine::{BlockOptions, Bounds, Column, ColumnKind, Runner};
 /// struct Coin;
 /// impl Runner for Coin {
 ///     fn columns(&self) -> Vec<Column> {
-///         let (min, max) = (Some(0.0), Some(1.0));
-///         vec![Column { name: "heads".into(), kind: ColumnKind::Flag, min, max }]
+///         let bounds = Bounds::up_to(1.0);
+///         vec![Column { name: "heads".into(), kind: ColumnKind::Flag, bounds }]
 ///     }
 ///     fn run_block(&self, seed: u64, runs: std::ops::Range<u64>, _: BlockOptions) -> Vec<Vec<f64>> {
 ///         let heads = |run| if (seed ^ run) % 2 == 0 { 1.0 } else { 0.0 };

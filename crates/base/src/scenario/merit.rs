@@ -1,7 +1,7 @@
 //! How runs are scored.
 
 use crate::document::{Document, Node, Section, Table, Value};
-use crate::engine::{Measure, NamedMerit};
+use crate::engine::{MeritTerm, NamedMerit};
 use std::borrow::Cow;
 
 /// Maximum absolute weight: no sum overflows, and `1e30` is reported as the typing error that it is.
@@ -15,14 +15,14 @@ pub(super) const MAX_MAX: f64 = 1e12;
 pub struct Merit {
     /// Its name, if it is a predefined one.
     pub name: Option<&'static str>,
-    /// At least one term, in the order of the engine's measures.
+    /// At least one term, in the order of the engine's merit terms.
     pub terms: Vec<Term>,
 }
 
 /// A term of a figure of merit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Term {
-    /// Name of the measure.
+    /// Its name in scenarios.
     pub name: Cow<'static, str>,
     /// The outcome column that it reads.
     pub column: Cow<'static, str>,
@@ -33,10 +33,10 @@ pub struct Term {
 }
 
 impl Term {
-    fn new(measure: &Measure, weight: f64, max: Option<f64>) -> Self {
+    fn new(merit_term: &MeritTerm, weight: f64, max: Option<f64>) -> Self {
         Self {
-            name: measure.name.clone(),
-            column: measure.column.clone(),
+            name: merit_term.name.clone(),
+            column: merit_term.column.clone(),
             weight,
             max,
         }
@@ -44,15 +44,15 @@ impl Term {
 }
 
 /// A predefined figure of merit, reduced to the terms that the engine has.
-fn named(merit: &NamedMerit, measures: &[Measure]) -> Merit {
-    let term = |measure: &Measure| {
+fn named(merit: &NamedMerit, merit_terms: &[MeritTerm]) -> Merit {
+    let term = |merit_term: &MeritTerm| {
         let mut weights = merit.weights.iter();
-        let (_, weight) = weights.find(|(name, _)| *name == measure.name)?;
-        Some(Term::new(measure, *weight, None))
+        let (_, weight) = weights.find(|(name, _)| *name == merit_term.name)?;
+        Some(Term::new(merit_term, *weight, None))
     };
     Merit {
         name: Some(merit.name),
-        terms: measures.iter().filter_map(term).collect(),
+        terms: merit_terms.iter().filter_map(term).collect(),
     }
 }
 
@@ -87,15 +87,19 @@ fn number(text: &str) -> Value {
     number.unwrap_or_else(|_| Value::Text(text.to_owned()))
 }
 
-pub(super) fn merit(root: &Section, measures: &[Measure], known: &[NamedMerit]) -> Option<Merit> {
+pub(super) fn merit(
+    root: &Section,
+    merit_terms: &[MeritTerm],
+    known: &[NamedMerit],
+) -> Option<Merit> {
     if !matches!(root.value("merit"), Some(Value::Table(_))) {
         let names: Vec<_> = known.iter().map(|each| (each.name, each)).collect();
-        return Some(named(root.choice("merit", &names)?, measures));
+        return Some(named(root.choice("merit", &names)?, merit_terms));
     }
     let table = root.section("merit");
-    let names: Vec<&str> = measures.iter().map(|each| &*each.name).collect();
+    let names: Vec<&str> = merit_terms.iter().map(|each| &*each.name).collect();
     table.only(&names);
-    let given = measures.iter().filter(|each| table.has(&each.name));
+    let given = merit_terms.iter().filter(|each| table.has(&each.name));
     let terms: Vec<Option<Term>> = given.map(|each| term(&table, each)).collect();
     let mut terms: Vec<Term> = terms.into_iter().collect::<Option<_>>()?;
     terms.retain(|term| term.weight != 0.0);
@@ -107,13 +111,13 @@ pub(super) fn merit(root: &Section, measures: &[Measure], known: &[NamedMerit]) 
     Some(Merit { name: None, terms })
 }
 
-fn term(table: &Section, measure: &Measure) -> Option<Term> {
-    let name = &measure.name;
+fn term(table: &Section, merit_term: &MeritTerm) -> Option<Term> {
+    let name = &merit_term.name;
     let (weight, max) = match table.value(name) {
         Some(Value::Table(_)) => weight_and_max(&table.section(name))?,
         _ => (table.number(name, -MAX_WEIGHT..=MAX_WEIGHT)?, None),
     };
-    if let Some(usual) = measure.usual_max
+    if let Some(usual) = merit_term.usual_max
         && weight != 0.0
         && max.is_none()
     {
@@ -124,7 +128,7 @@ fn term(table: &Section, measure: &Measure) -> Option<Term> {
         table.error(name, &allowed);
         return None;
     }
-    Some(Term::new(measure, weight, max))
+    Some(Term::new(merit_term, weight, max))
 }
 
 fn weight_and_max(term: &Section) -> Option<(f64, Option<f64>)> {
@@ -141,16 +145,16 @@ fn weight_and_max(term: &Section) -> Option<(f64, Option<f64>)> {
 mod tests {
     use super::*;
 
-    fn measures() -> Vec<Measure> {
-        let paints = Measure {
+    fn merit_terms() -> Vec<MeritTerm> {
+        let paints = MeritTerm {
             usual_max: Some(6720.0),
-            ..Measure::new("paints", "paints")
+            ..MeritTerm::new("paints", "paints")
         };
         vec![
-            Measure::new("time", "time_s"),
-            Measure::new("robots", "robots"),
-            Measure::new("failed", "failed"),
-            Measure::new("found", "found"),
+            MeritTerm::new("time", "time_s"),
+            MeritTerm::new("robots", "robots"),
+            MeritTerm::new("failed", "failed"),
+            MeritTerm::new("found", "found"),
             paints,
         ]
     }
@@ -160,7 +164,7 @@ mod tests {
         let mut document = Document::parse("t.toml", &format!("merit = {text}")).unwrap();
         make_table(&mut document);
         let named = [NamedMerit::EQUATION_5_2];
-        let read = document.read(|root| merit(root, &measures(), &named));
+        let read = document.read(|root| merit(root, &merit_terms(), &named));
         read.map_err(|errors| errors.to_string())
     }
 

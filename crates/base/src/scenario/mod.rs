@@ -36,6 +36,7 @@
 //!
 //! A value above `max` counts as `max`. On the command line: `--merit time=-0.03,robots=-0.2`.
 
+pub mod condition;
 mod factors;
 mod merit;
 mod published;
@@ -53,7 +54,7 @@ pub use study::{Design, Study};
 pub use values::Values;
 
 use crate::document::{Document, Section, Value};
-use crate::engine::{Configuration, Engine, Measure};
+use crate::engine::{Configuration, Engine, MeritTerm};
 use crate::error::{InputError, InputErrors};
 use crate::warning::Warning;
 
@@ -88,8 +89,8 @@ impl Scenario {
         });
         let read = unknown_names::read(engine, &document);
         let configuration = read.map_err(|more| errors.extend(more.0)).ok();
-        let measures = engine.measures(&document);
-        let (common, more) = document.read_all(|root| common(root, engine, &measures));
+        let merit_terms = engine.merit_terms(&document);
+        let (common, more) = document.read_all(|root| common(root, engine, &merit_terms));
         errors.extend(more);
         let base = configuration.as_ref();
         errors.extend(value_checks::errors_of_values(
@@ -162,9 +163,9 @@ struct Common {
     published: Option<Published>,
 }
 
-fn common(root: &Section, engine: &dyn Engine, measures: &[Measure]) -> Option<Common> {
+fn common(root: &Section, engine: &dyn Engine, merit_terms: &[MeritTerm]) -> Option<Common> {
     let summary = root.line("summary");
-    let merit = merit::merit(root, measures, engine.merits());
+    let merit = merit::merit(root, merit_terms, engine.merits());
     let study = study::study(&root.section("study"), engine);
     let published = root.has("published").then(|| {
         let section = root.section("published");

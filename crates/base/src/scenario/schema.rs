@@ -7,7 +7,7 @@ use super::merit::{MAX_MAX, MAX_WEIGHT};
 use super::study::CONFIDENCE;
 use crate::document::Document;
 use crate::document::schema::units::annotate;
-use crate::engine::{Engine, MAX_TIME_LIMIT_S, Measure};
+use crate::engine::{Engine, MAX_TIME_LIMIT_S, MeritTerm};
 use serde_json::{Map, Value as Json, json};
 
 /// The common keys of a scenario of `engine`. The terms of a figure of merit may depend on the
@@ -41,8 +41,8 @@ pub fn schema(engine: &dyn Engine, document: &Document) -> Json {
 fn merit(engine: &dyn Engine, document: &Document) -> Json {
     let names: Vec<&str> = engine.merits().iter().map(|merit| merit.name).collect();
     let to_term = json!({ "$ref": "#/definitions/Term" });
-    let term = |measure: Measure| (measure.name.into_owned(), to_term.clone());
-    let terms: Map<String, Json> = engine.measures(document).into_iter().map(term).collect();
+    let term = |merit_term: MeritTerm| (merit_term.name.into_owned(), to_term.clone());
+    let terms: Map<String, Json> = engine.merit_terms(document).into_iter().map(term).collect();
     json!({
         "description": "Figure of merit of a run; higher is better. A predefined name, or a table of \
                         weights on its outcome, such as \

@@ -1,5 +1,5 @@
 use super::*;
-use crate::engine::{BlockOptions, Column, ColumnKind, NamedMerit, Runner};
+use crate::engine::{BlockOptions, Bounds, Column, ColumnKind, NamedMerit, Runner};
 use crate::error::InputError;
 use std::ops::Range;
 
@@ -24,8 +24,7 @@ impl Runner for Waiting {
         let column = |name: &str| Column {
             name: name.to_owned().into(),
             kind: ColumnKind::Real,
-            min: Some(0.0),
-            max: Some(1.0),
+            bounds: Bounds::up_to(1.0),
         };
         ["time_s", "failed", "robots"].map(column).into()
     }
@@ -75,10 +74,10 @@ impl Engine for Shop {
         })
     }
 
-    fn measures(&self, _: &Document) -> Vec<Measure> {
+    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
         vec![
-            Measure::new("time", "time_s"),
-            Measure::new("robots", "robots"),
+            MeritTerm::new("time", "time_s"),
+            MeritTerm::new("robots", "robots"),
         ]
     }
 
@@ -125,7 +124,7 @@ fn the_common_keys_and_the_engines_part_are_read_together() {
         factor.values,
         Values::Listed([1, 2, 3].map(Value::Integer).into())
     );
-    // A named merit omits measures that the engine does not have.
+    // A named merit omits terms that the engine does not have.
     let names: Vec<&str> = scenario
         .merit
         .terms

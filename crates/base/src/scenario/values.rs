@@ -81,7 +81,7 @@ impl Part {
 }
 
 /// A finite number that begins with a digit or a sign: `.3` comes from the typing error `1...3`.
-fn number(text: &str) -> Option<Value> {
+pub(super) fn number(text: &str) -> Option<Value> {
     let text = text.trim();
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     if !unsigned.starts_with(|c: char| c.is_ascii_digit()) {
@@ -125,7 +125,7 @@ fn in_order(values: Vec<Value>) -> Vec<Value> {
     clippy::cast_precision_loss,
     reason = "numbers that no factor can take are reported when they are checked"
 )]
-fn as_f64(value: &Value) -> Option<f64> {
+pub(super) fn as_f64(value: &Value) -> Option<f64> {
     match value {
         Value::Integer(value) => Some(*value as f64),
         Value::Float(value) => Some(*value),

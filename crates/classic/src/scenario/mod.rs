@@ -31,11 +31,11 @@ pub use schema::schema;
 
 use crate::clock::{Clock, MAX_TIME_LIMIT_PAINTS, PAINTS_PER_S};
 use crate::contact::Contact;
-use crate::runner::Configuration;
+use crate::runner::{Configuration, columns};
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
-use base::engine::{Engine, MAX_TIME_LIMIT_S, Measure, NamedMerit};
+use base::engine::{Engine, MAX_TIME_LIMIT_S, MeritTerm, NamedMerit};
 use base::error::InputErrors;
 
 /// The worksheet in the thesis's appendix, which does not divide the time by ten.
@@ -43,9 +43,6 @@ const APPENDIX: NamedMerit = NamedMerit {
     name: "appendix",
     weights: &[("time", -0.3), ("robots", -0.2), ("failed", -5.0)],
 };
-
-/// A typical `max` for paints: the 120 s of the experiment.
-const USUAL_PAINTS: f64 = 6720.0;
 
 /// The classic engine.
 #[derive(Debug, Clone, Copy)]
@@ -70,19 +67,8 @@ impl Engine for Classic {
         })
     }
 
-    fn measures(&self, _: &Document) -> Vec<Measure> {
-        let paints = Measure {
-            usual_max: Some(USUAL_PAINTS),
-            ..Measure::new("paints", "paints")
-        };
-        vec![
-            Measure::new("time", "time_s"),
-            Measure::new("robots", "robots"),
-            Measure::new("failed", "failed"),
-            Measure::new("found", "found"),
-            Measure::new("collisions", "collisions"),
-            paints,
-        ]
+    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
+        columns().merit_terms()
     }
 
     fn merits(&self) -> &'static [NamedMerit] {
@@ -384,10 +370,10 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     fn the_terms_that_need_a_max_are_the_columns_without_bound() {
         let document = Document::parse("t.toml", GOOD).unwrap();
         let columns = document.read(configuration).unwrap().columns();
-        for measure in Classic.measures(&document) {
-            let column = columns.iter().find(|each| each.name == measure.column);
-            let is_bounded = column.unwrap().max.is_some();
-            assert_eq!(is_bounded, measure.usual_max.is_none());
+        for term in Classic.merit_terms(&document) {
+            let column = columns.iter().find(|each| each.name == term.column);
+            let is_bounded = column.unwrap().bounds.max.is_some();
+            assert_eq!(is_bounded, term.usual_max.is_none());
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The bodies of robots: how they move, what they collide with, and their energy.
 
 pub mod battery;
+pub(crate) mod body_state;
 pub mod collision;
 pub(crate) mod contact;
 pub mod drive;

@@ -1,6 +1,7 @@
 //! Which robots stay when a run continues with another scenario, and their new numbers.
 
-use super::state::{BodyState, State};
+use super::state::State;
+use crate::bodies::body_state::BodyState;
 use crate::scenario::Scenario;
 use brain::{About, ReceivedMessage, RobotId};
 use std::collections::BTreeMap;

@@ -2,8 +2,9 @@
 
 use super::agent::Agent;
 use super::carry_over::{is_same_team, new_ids, previous_numbers, removed, renumber_message};
-use super::state::{BodyState, NoRoom, State, Status, draws};
+use super::state::{NoRoom, State, draws};
 use crate::bodies::Layer;
+use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;
 use crate::scenario::Scenario;
 use crate::world::items::Item;
@@ -44,10 +45,9 @@ impl State {
             agent.renumber_robots(&ids);
         }
         next.make_room(to, &starts)?;
-        next.keep_items(self, from, to)?;
-        next.tally = self.tally;
-        next.tally.gone = self.tally.gone.and(removed(self, &old).iter());
-        next.count_targets(to);
+        let kept = next.keep_items(self, from, to)?;
+        let removed = removed(self, &old);
+        next.tally = self.tally.continued((to, &next.items), &kept, &removed);
         if is_same_team(self, &old) {
             // Kinds are sorted by name, so that receivers keep their numbers.
             next.channel = self.channel.clone();
@@ -133,8 +133,13 @@ impl State {
         crowd
     }
 
-    /// Takes over items that stay, and the detections of them in transit.
-    fn keep_items(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Result<(), NoRoom> {
+    /// Takes over items that stay, and the detections of them in transit; returns their numbers now and before.
+    fn keep_items(
+        &mut self,
+        before: &Self,
+        from: &Scenario,
+        to: &Scenario,
+    ) -> Result<Vec<(usize, usize)>, NoRoom> {
         let old: BTreeMap<_, _> = before.items.named(&from.items).collect();
         let named = self.items.named(&to.items);
         let kept = named.filter_map(|(name, item)| Some((item.number, *old.get(&name)?)));
@@ -143,12 +148,13 @@ impl State {
         if from.solids() != to.solids() {
             self.check_items(to)?;
         }
-        let numbers: BTreeMap<usize, usize> =
-            kept.iter().map(|(now, item)| (item.number, *now)).collect();
+        let numbers = kept.iter().map(|(now, item)| (*now, item.number));
+        let numbers: Vec<(usize, usize)> = numbers.collect();
+        let new_numbers = numbers.iter().map(|(now, was)| (*was, *now)).collect();
         for agent in &mut self.agents {
-            agent.renumber_items(&numbers);
+            agent.renumber_items(&new_numbers);
         }
-        Ok(())
+        Ok(numbers)
     }
 
     /// Items lie where something else is now.
@@ -159,18 +165,6 @@ impl State {
         taken.map_or(Ok(()), |((name, index), _)| {
             Err(no_room(scenario, name, index))
         })
-    }
-
-    /// Counts the targets that are left.
-    fn count_targets(&mut self, scenario: &Scenario) {
-        let is_target = |kind: u16| scenario.items[usize::from(kind)].is_target;
-        let target = self.items.each().filter(|(kind, _)| is_target(*kind));
-        let found: Vec<Option<u64>> = target.map(|(_, found)| found).collect();
-        let left = found.iter().filter(|found| found.is_none()).count();
-        self.tally.targets_left = u32::try_from(left).unwrap_or(u32::MAX);
-        // Removing targets can complete a run, and adding some can reopen it.
-        let last = found.into_iter().flatten().max();
-        self.tally.complete_at = last.filter(|_| left == 0);
     }
 }
 

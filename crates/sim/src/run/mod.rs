@@ -1,12 +1,11 @@
-//! A run: its state between two steps, what it yields, and how it continues with another scenario.
+//! A run: its state between two steps, and how it continues with another scenario.
 
 pub(crate) mod agent;
 mod carry_over;
 mod change;
-pub(crate) mod outcome;
 pub(crate) mod snapshot;
 pub(crate) mod state;
 
-pub use outcome::Outcome;
+pub use crate::bodies::body_state::Status;
 pub use snapshot::{Item, Robot};
-pub use state::{NoRoom, State, Status};
+pub use state::{NoRoom, State};

@@ -1,7 +1,8 @@
 //! What can be observed of a run: poses, items and states.
 
-use super::state::{State, Status};
+use super::state::State;
 use crate::bodies::Layer;
+use crate::bodies::body_state::Status;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
@@ -109,10 +110,12 @@ impl State {
 
     /// All items, in the order of their kinds and indices.
     pub fn each_item(&self, scenario: &Scenario) -> impl Iterator<Item = Item> {
-        self.items.each_place().map(move |(kind, at, found)| Item {
+        let items = self.items.kinds().zip(self.items.places());
+        let items = items.zip(self.tally.found_at());
+        items.map(|((kind, at), found_at)| Item {
             kind,
             at,
-            found_s: found.map(|tick| seconds(tick, scenario.step_s)),
+            found_s: found_at.map(|tick| seconds(tick, scenario.step_s)),
         })
     }
 }

@@ -2,9 +2,11 @@
 
 use super::agent::Agent;
 use crate::bodies::Layer;
-use crate::bodies::kind::Kind;
+use crate::bodies::body_state::BodyState;
 use crate::bodies::path::Orientation;
-use crate::bodies::source::BodySource;
+use crate::judge::Outcome;
+use crate::judge::moment::Moment;
+use crate::judge::tally::Tally;
 use crate::radio::channel::RadioChannel;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
@@ -35,82 +37,6 @@ pub struct State {
     pub(crate) items: Items,
     pub(crate) channel: RadioChannel,
     pub(crate) tally: Tally,
-}
-
-/// The state of a body, besides its pose.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct BodyState {
-    pub(crate) speed_m_s: f64,
-    pub(crate) turn_rate_rad_s: f64,
-    /// Energy taken from the battery so far.
-    pub(crate) energy_j: f64,
-    pub(crate) distance_m: f64,
-    /// It is stopped until this step, because of a collision.
-    pub(crate) held_until: u64,
-    pub(crate) collisions: u32,
-    pub(crate) status: Status,
-    pub(crate) source: BodySource,
-    /// It touched something in the last step, or it has not moved freely since.
-    pub(crate) is_touching: bool,
-    /// Something stopped it in the last step.
-    pub(crate) is_pressed: bool,
-}
-
-impl BodyState {
-    pub(crate) fn is_external(&self) -> bool {
-        self.source == BodySource::External
-    }
-
-    /// Remaining fraction of its battery, 0 to 1; `None` if it never runs empty.
-    pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
-        let capacity_j = kind.battery?.capacity_j;
-        let left = (1.0 - self.energy_j / capacity_j).max(0.0);
-        capacity_j.is_finite().then_some(left)
-    }
-}
-
-/// Whether a robot can still move.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Status {
-    /// It can.
-    #[default]
-    Active,
-    /// Its battery is empty.
-    Empty,
-    /// It has collided too often.
-    Broken,
-}
-
-/// Counts of a run, besides those of each robot.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Tally {
-    pub(crate) false_alarms: u64,
-    pub(crate) collisions: u64,
-    /// Targets that are not found.
-    pub(crate) targets_left: u32,
-    /// The step in which the last target was found.
-    pub(crate) complete_at: Option<u64>,
-    /// The cost of robots that were removed.
-    pub(crate) gone: Cost,
-}
-
-/// The total cost of some robots.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Cost {
-    pub(crate) energy_j: f64,
-    pub(crate) distance_m: f64,
-    pub(crate) stopped: u32,
-}
-
-impl Cost {
-    /// Adds the cost of other robots.
-    pub(crate) fn and<'a>(self, body_states: impl Iterator<Item = &'a BodyState>) -> Self {
-        body_states.fold(self, |all, body_state| Self {
-            energy_j: all.energy_j + body_state.energy_j,
-            distance_m: all.distance_m + body_state.distance_m,
-            stopped: all.stopped + u32::from(body_state.status != Status::Active),
-        })
-    }
 }
 
 /// A robot or an item for which a run has no room.
@@ -148,12 +74,11 @@ impl State {
             body_states: Vec::new(),
             noises: Vec::new(),
             agents: Vec::new(),
+            tally: Tally::new(scenario, &items),
             items,
             channel: RadioChannel::default(),
-            tally: Tally::default(),
         };
         state.place_robots(scenario)?;
-        state.tally.targets_left = scenario.targets();
         Ok(state)
     }
 
@@ -187,24 +112,28 @@ impl State {
         self.agents.push(Agent::new(kind));
     }
 
-    /// Notes that a robot detected an item.
-    pub(crate) fn find(&mut self, scenario: &Scenario, item: u32) {
-        let kind = &scenario.items[usize::from(self.items.kind(item))];
-        if self.items.find(item, self.tick) && kind.is_target {
-            self.tally.targets_left -= 1;
-            if self.tally.targets_left == 0 {
-                self.tally.complete_at = Some(self.tick);
-            }
-        }
-    }
-
     /// Whether the run is over: all targets are found, time is up, or no robot can move.
     #[must_use]
     pub fn is_over(&self, scenario: &Scenario) -> bool {
-        let can_go_on = |body_state: &BodyState| body_state.status == Status::Active;
-        self.tally.complete_at.is_some()
-            || self.tick >= scenario.steps
-            || !self.body_states.iter().any(can_go_on)
+        self.moment(scenario).is_over()
+    }
+
+    /// The outcome so far.
+    #[must_use]
+    pub fn outcome(&self, scenario: &Scenario) -> Outcome {
+        Outcome::of(&self.moment(scenario))
+    }
+
+    fn moment<'a>(&'a self, scenario: &'a Scenario) -> Moment<'a> {
+        Moment {
+            scenario,
+            tick: self.tick,
+            items: &self.items,
+            tally: &self.tally,
+            discs: &self.discs,
+            orientations: &self.orientations,
+            body_states: &self.body_states,
+        }
     }
 
     /// A hash that differs between runs that differ in anything observable.
@@ -242,17 +171,7 @@ impl State {
             let status = is_external << 7 | body_state.status as u64;
             hash.add(u64::from(body_state.collisions) << 8 | status);
         }
-        for (kind, found) in self.items.each() {
-            hash.add(u64::from(kind) << 48 | found.map_or(0, |tick| tick + 1));
-        }
-        hash.add(self.tally.false_alarms);
-        hash.add(self.tally.collisions);
-        let gone = self.tally.gone;
-        if gone != Cost::default() {
-            hash.add(gone.energy_j.to_bits());
-            hash.add(gone.distance_m.to_bits());
-            hash.add(gone.stopped.into());
-        }
+        self.tally.add_to(&mut hash, &self.items);
         hash.value()
     }
 

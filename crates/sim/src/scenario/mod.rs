@@ -1,8 +1,8 @@
 //! A scenario of the metric engine, gathered from the modules that own its parts.
 
-mod bounds;
 mod checked;
 mod checks;
+mod facts;
 mod reading;
 mod ready;
 mod spec;

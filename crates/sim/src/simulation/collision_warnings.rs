@@ -1,8 +1,8 @@
 //! Warnings of imminent collisions, for display only: no brain uses them.
 
 use super::Simulation;
+use crate::bodies::body_state::BodyState;
 use crate::bodies::path::Orientation;
-use crate::run::state::BodyState;
 use base::geometry::Point;
 
 /// A warning is given for a contact within this time, in seconds.

@@ -5,7 +5,7 @@
 
 use super::Simulation;
 use super::probe::{Last, Probe};
-use crate::run::state::Status;
+use crate::bodies::body_state::Status;
 use brain::{Decision, Percept, RobotId};
 
 /// A percept of a robot, and the decision of its brain.

@@ -10,12 +10,13 @@ pub use footprints::{Footprint, Sensors};
 pub use inspect::Inspected;
 pub use links::Link;
 
+use crate::bodies::body_state::Status;
 use crate::bodies::path::Orientation;
 use crate::bodies::source::BodySource;
 use crate::clock::seconds;
+use crate::judge::Outcome;
 use crate::run::agent::Agent;
-use crate::run::outcome::Outcome;
-use crate::run::state::{NoRoom, State, Status};
+use crate::run::state::{NoRoom, State};
 use crate::scenario::Scenario;
 use crate::step::external::ExternalInputs;
 use crate::step::neighbours::Neighbours;
@@ -160,7 +161,7 @@ impl Simulation {
     /// The outcome so far.
     #[must_use]
     pub fn outcome(&self) -> Outcome {
-        Outcome::of(&self.scenario, &self.state)
+        self.state.outcome(&self.scenario)
     }
 
     /// Simulated time.

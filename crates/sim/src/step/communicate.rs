@@ -3,9 +3,10 @@
 use super::decide::WorkerScratch;
 use super::neighbours::Neighbours;
 use super::view::View;
+use crate::bodies::body_state::Status;
 use crate::radio::Radio;
 use crate::radio::channel::Outgoing;
-use crate::run::state::{State, Status};
+use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::noise::share;

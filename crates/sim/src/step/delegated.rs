@@ -5,7 +5,7 @@
 
 use super::decide::WorkerScratch;
 use super::external::ExternalInputs;
-use super::pending_decisions::{PendingDecision, PendingDecisions};
+use super::pending_decisions::PendingDecision;
 use super::tick::StepScratch;
 use super::view::View;
 use crate::run::agent::Agent;
@@ -52,7 +52,10 @@ impl StepScratch {
                 .zip(decisions.robots.chunks_mut(size))
                 .for_each(request);
         }
-        note(&mut decisions, &self.workers);
+        decisions.detections.clear();
+        for worker in &self.workers {
+            decisions.detections.add(&worker.sensing.detections);
+        }
         external.decisions = decisions;
     }
 }
@@ -81,17 +84,4 @@ impl WorkerScratch {
         decision.command.requests.clear();
         decision.command.outbox.clear();
     }
-}
-
-/// Notes what the judge counts of these robots' percepts.
-fn note(decisions: &mut PendingDecisions, workers: &[WorkerScratch]) {
-    decisions.sightings.clear();
-    let seen = workers
-        .iter()
-        .flat_map(|worker| &worker.sensing.detections.sightings);
-    decisions.sightings.extend(seen);
-    decisions.false_alarms = workers
-        .iter()
-        .map(|worker| worker.sensing.detections.false_alarms)
-        .sum();
 }

@@ -1,32 +1,9 @@
 //! Where the results of measurements go.
 
+use crate::judge::detections::Detections;
 use crate::sensors::backlog::Backlog;
 use crate::sensors::pending::{Pending, PendingQueue};
 use brain::{Contact, Neighbour, Observation, Percept};
-
-/// What the judge counts of the percepts of robots.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Detections {
-    /// Items that robots detected, in the order of the robots.
-    pub(crate) sightings: Vec<u32>,
-    /// False alarms in the percepts of robots.
-    pub(crate) false_alarms: u64,
-}
-
-impl Detections {
-    pub(crate) fn clear(&mut self) {
-        self.sightings.clear();
-        self.false_alarms = 0;
-    }
-
-    /// Notes the item of a contact in a percept, or none for a false alarm.
-    pub(crate) fn note(&mut self, item: Option<u32>) {
-        match item {
-            Some(item) => self.sightings.push(item),
-            None => self.false_alarms += 1,
-        }
-    }
-}
 
 /// Where the results of one measurement go.
 pub(super) enum Destination<'a> {

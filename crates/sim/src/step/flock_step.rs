@@ -6,9 +6,10 @@
 use super::act::Moved;
 use super::flocks::{AT_ONCE, Flocks, PER_TASK};
 use super::plan::{Body, planned};
+use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
 use crate::run::agent::Agent;
-use crate::run::state::{BodyState, State, Status};
+use crate::run::state::State;
 use crate::scenario::Scenario;
 use base::geometry::Disc;
 use base::noise::Noise;

@@ -10,7 +10,6 @@ pub(crate) mod external;
 mod flock_step;
 mod flock_sums;
 mod flocks;
-mod judge;
 pub(crate) mod measurement;
 pub(crate) mod neighbours;
 mod parallel;

@@ -1,5 +1,6 @@
 //! Robots whose decisions are made outside their brains: what they perceive, and what is decided.
 
+use crate::judge::detections::Detections;
 use crate::run::agent::Agent;
 use crate::sensors::backlog::Backlog;
 use brain::{Command, Percept, RobotId};
@@ -23,8 +24,7 @@ pub struct PendingDecision {
 pub(crate) struct PendingDecisions {
     /// In the order of the robots.
     pub(crate) robots: Vec<PendingDecision>,
-    pub(crate) sightings: Vec<u32>,
-    pub(crate) false_alarms: u64,
+    pub(crate) detections: Detections,
 }
 
 impl PendingDecisions {

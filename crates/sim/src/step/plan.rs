@@ -1,12 +1,12 @@
 //! What each robot is about to do, as if no other robot were in its way.
 
 use super::view::View;
+use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::contact::meets_still;
 use crate::bodies::drive::Driven;
 use crate::bodies::kind::Kind;
 use crate::bodies::path::{Orientation, Path};
 use crate::run::agent::Agent;
-use crate::run::state::{BodyState, Status};
 use crate::scenario::Scenario;
 use crate::world::terrain::TerrainFactors;
 use base::geometry::Disc;

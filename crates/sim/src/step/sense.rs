@@ -3,9 +3,10 @@
 //! When the brain steps, sensors without latency write directly into the percept, and measurements
 //! from the backlog that have arrived are added. All other measurements go into the backlog.
 
-use super::destination::{Destination, Detections};
+use super::destination::Destination;
 use super::measurement::{Buffers, Measurement, write};
 use super::view::View;
+use crate::judge::detections::Detections;
 use crate::run::agent::{Agent, is_on};
 use crate::sensors::backlog::{Backlog, age_s};
 use crate::sensors::{Measure, Sensor};

@@ -6,7 +6,6 @@ use super::decide::{StepInputs, WorkerScratch};
 use super::external::ExternalInputs;
 use super::flock_step::flock_step;
 use super::flocks::Flocks;
-use super::judge::judge;
 use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
@@ -16,6 +15,7 @@ use crate::run::state::State;
 use crate::scenario::Scenario;
 use brain::{Command, Percept};
 use rayon::prelude::*;
+use std::iter;
 
 /// Buffers and lists that steps use besides the state of the run; none of them changes an outcome.
 /// They are kept from step to step, so that only the first steps allocate.
@@ -76,8 +76,8 @@ impl StepScratch {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
-            judge(scenario, state, &external.decisions, &self.workers);
-            self.act(scenario, state);
+            let collisions = self.act(scenario, state);
+            self.judge(scenario, state, external, collisions);
         }
         state.tick += 1;
         communicate::deliver(scenario, state);
@@ -186,10 +186,30 @@ impl StepScratch {
             .flat_map(|worker| worker.external_commands.drain(..))
     }
 
-    fn act(&mut self, scenario: &Scenario, state: &mut State) {
+    /// Moves all bodies; returns the number of collisions.
+    fn act(&mut self, scenario: &Scenario, state: &mut State) -> u64 {
         let is_shared = self.is_shared(state);
         let moved = self.moves.act(scenario, state, &self.neighbours, is_shared);
         self.neighbours.note(moved.farthest_m);
-        state.tally.collisions += moved.collisions;
+        moved.collisions
+    }
+
+    /// Reports to the judge what robots detected in this step, and their collisions.
+    fn judge(
+        &self,
+        scenario: &Scenario,
+        state: &mut State,
+        external: &ExternalInputs,
+        collisions: u64,
+    ) {
+        let State {
+            tick, items, tally, ..
+        } = state;
+        let is_target = |item| scenario.items[usize::from(items.kind(item))].is_target;
+        let here = self.workers.iter().map(|worker| &worker.sensing.detections);
+        for detections in iter::once(&external.decisions.detections).chain(here) {
+            tally.detected(detections, *tick, is_target);
+        }
+        tally.collided(collisions);
     }
 }

@@ -2,10 +2,11 @@
 
 use super::neighbours::Neighbours;
 use crate::bodies::Layer;
+use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;
 use crate::bodies::path::Orientation;
 use crate::run::agent::Agent;
-use crate::run::state::{BodyState, State, Status};
+use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::SensorFrame;
 use crate::world::items::Items;

@@ -58,7 +58,6 @@ impl ItemKind {
 pub(crate) struct Item {
     pub(crate) number: usize,
     pub(crate) place: Point,
-    found: Option<u64>,
 }
 
 /// The items of a run.
@@ -68,8 +67,6 @@ pub(crate) struct Items {
     kinds: Vec<u16>,
     /// The key of each item in random streams.
     things: Vec<Entity>,
-    /// The step in which it was found.
-    found: Vec<Option<u64>>,
     buckets: Buckets,
 }
 
@@ -84,7 +81,6 @@ impl Items {
         let mut buckets = Buckets::new(size_m, reach_m).on(torus, farthest_m);
         buckets.fill(each.iter().map(|(.., place)| *place));
         Self {
-            found: vec![None; each.len()],
             things: each.iter().map(|(thing, ..)| *thing).collect(),
             places: each.iter().map(|(.., place)| *place).collect(),
             kinds: each.iter().map(|(_, kind, _)| *kind).collect(),
@@ -109,39 +105,32 @@ impl Items {
             let item = Item {
                 number,
                 place: self.places[number],
-                found: self.found[number],
             };
             ((name, self.things[number].index), item)
         })
     }
 
-    /// Replaces the place and the find of items, by their numbers.
+    /// Replaces the place of items, by their numbers.
     pub(crate) fn keep(&mut self, kept: &[(usize, Item)]) {
         for (number, item) in kept {
             self.places[*number] = item.place;
-            self.found[*number] = item.found;
         }
         self.buckets.fill(self.places.iter().copied());
     }
 
-    /// The kind of each item, and the step in which it was found.
-    pub(crate) fn each(&self) -> impl Iterator<Item = (u16, Option<u64>)> {
-        self.kinds.iter().copied().zip(self.found.iter().copied())
+    /// Number of items.
+    pub(crate) fn len(&self) -> usize {
+        self.places.len()
     }
 
-    /// The kind and the place of each item, and the step in which it was found.
-    pub(crate) fn each_place(&self) -> impl Iterator<Item = (u16, Point, Option<u64>)> {
-        self.each()
-            .zip(&self.places)
-            .map(|((kind, found), at)| (kind, *at, found))
+    /// The kind of each item.
+    pub(crate) fn kinds(&self) -> impl Iterator<Item = u16> {
+        self.kinds.iter().copied()
     }
 
-    /// Marks an item as found; returns whether it was not found before.
-    pub(crate) fn find(&mut self, number: u32, tick: u64) -> bool {
-        let found = &mut self.found[number as usize];
-        let is_new = found.is_none();
-        found.get_or_insert(tick);
-        is_new
+    /// The place of each item.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Point> {
+        self.places.iter().copied()
     }
 
     /// The random-stream key of an item: independent of the items of other kinds.

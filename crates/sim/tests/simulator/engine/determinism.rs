@@ -6,7 +6,7 @@ use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
 use brain::{About, Command, Message, Percept, Provenance, RobotId};
 use rayon::ThreadPoolBuilder;
-use sim::run::Outcome;
+use sim::judge::Outcome;
 use sim::runner::Runs;
 use sim::scenario::Scenario;
 use sim::simulation::Simulation;

@@ -2,7 +2,7 @@
 
 use crate::common::{go, id, scenario, start, step_with};
 use base::engine::{BlockOptions, Runner};
-use sim::run::Outcome;
+use sim::judge::Outcome;
 use sim::runner::Runs;
 use sim::simulation::Simulation;
 

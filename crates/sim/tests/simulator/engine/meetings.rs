@@ -245,5 +245,5 @@ fn a_step_has_at_most_one_contact_per_robot() {
         .position(|column| column.name == "collisions")
         .unwrap();
     assert_eq!(runs.run_block(1, 0..1, BlockOptions::ALONE)[place], [7.0]);
-    assert_eq!(columns[place].max, Some(7.0));
+    assert_eq!(columns[place].bounds.max, Some(7.0));
 }

@@ -121,8 +121,8 @@ fn every_outcome_is_within_the_bounds_of_its_columns() {
                     assert!(value.is_nan());
                     continue;
                 }
-                let is_within = column.min.is_none_or(|min| *value >= min)
-                    && column.max.is_none_or(|max| *value <= max);
+                let is_within = column.bounds.min.is_none_or(|min| *value >= min)
+                    && column.bounds.max.is_none_or(|max| *value <= max);
                 assert!(is_within, "{seed}: {value} {column:?}");
                 let is_kind = match column.kind {
                     ColumnKind::Whole => value.fract() == 0.0,

@@ -84,10 +84,10 @@ fn the_errors_in_the_tutorial_are_the_actual_ones() {
 }
 
 #[test]
-fn every_measure_is_in_the_tutorial() {
+fn every_merit_term_is_in_the_tutorial() {
     let page = fs::read_to_string(path(PAGE)).unwrap();
-    for measure in Metric.measures(&Document::parse("", "").unwrap()) {
-        let row = format!("| `{}` | ", measure.name);
+    for term in Metric.merit_terms(&Document::parse("", "").unwrap()) {
+        let row = format!("| `{}` | ", term.name);
         assert!(page.contains(&row), "{row}");
     }
 }

@@ -1,8 +1,7 @@
 //! The outcome of a run.
 
-use super::state::State;
+use super::moment::Moment;
 use crate::clock::seconds;
-use crate::scenario::Scenario;
 
 /// The outcome of a run, named like the columns of results.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,23 +31,22 @@ pub struct Outcome {
 
 impl Outcome {
     /// The outcome so far.
-    #[must_use]
-    pub fn of(scenario: &Scenario, state: &State) -> Self {
+    pub(crate) fn of(moment: &Moment) -> Self {
+        let Moment {
+            scenario, tally, ..
+        } = *moment;
         let mut found = vec![0; scenario.items.len()];
         let mut missed = vec![0; scenario.items.len()];
-        for (kind, when) in state.items.each() {
-            let counts = if when.is_some() {
+        for (kind, found_at) in moment.items.kinds().zip(tally.found_at()) {
+            let counts = if found_at.is_some() {
                 &mut found
             } else {
                 &mut missed
             };
             counts[usize::from(kind)] += 1;
         }
-        let complete_s = state
-            .tally
-            .complete_at
-            .map(|tick| seconds(tick, scenario.step_s));
-        let cost = state.tally.gone.and(state.body_states.iter());
+        let complete_s = tally.complete_at.map(|tick| seconds(tick, scenario.step_s));
+        let cost = tally.removed.and(moment.body_states.iter());
         Self {
             // The step of the last find may exceed the time limit by a rounding error.
             time_s: complete_s.map_or(scenario.time_limit_s, |time_s| {
@@ -57,12 +55,12 @@ impl Outcome {
             has_failed: complete_s.is_none() && scenario.targets() > 0,
             found,
             missed,
-            false_alarms: state.tally.false_alarms,
-            collisions: state.tally.collisions,
+            false_alarms: tally.false_alarms,
+            collisions: tally.collisions,
             energy_j: cost.energy_j,
             distance_m: cost.distance_m,
             robots_stopped: cost.stopped,
-            is_placed: is_placed(state),
+            is_placed: is_placed(moment),
         }
     }
 
@@ -74,16 +72,16 @@ impl Outcome {
     }
 }
 
-fn is_placed(state: &State) -> bool {
-    let places = state.discs.iter().map(|disc| disc.centre);
+fn is_placed(moment: &Moment) -> bool {
+    let places = moment.discs.iter().map(|disc| disc.centre);
     let places = places.map(|at| at.x + at.y);
-    let headings = state.orientations.iter().map(|course| course.heading_rad);
+    let headings = moment.orientations.iter().map(|course| course.heading_rad);
     places.chain(headings).all(f64::is_finite)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::run::State;
     use crate::scenario::ScenarioSpec;
     use base::document::Document;
 
@@ -101,7 +99,7 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
         let document = Document::parse("t.toml", ROVERS).unwrap();
         let scenario = ScenarioSpec::read(&document).unwrap().scenario;
         let state = State::new(&scenario, 1, 0).unwrap();
-        let is_finite = |state: &State| Outcome::of(&scenario, state).is_finite();
+        let is_finite = |state: &State| state.outcome(&scenario).is_finite();
         assert!(is_finite(&state));
         for nowhere in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let mut lost = state.clone();

@@ -1,0 +1,48 @@
+//! What changes of a body in a run, besides its pose.
+
+use super::kind::Kind;
+use super::source::BodySource;
+
+/// The state of a body, besides its pose.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct BodyState {
+    pub(crate) speed_m_s: f64,
+    pub(crate) turn_rate_rad_s: f64,
+    /// Energy taken from the battery so far.
+    pub(crate) energy_j: f64,
+    pub(crate) distance_m: f64,
+    /// It is stopped until this step, because of a collision.
+    pub(crate) held_until: u64,
+    pub(crate) collisions: u32,
+    pub(crate) status: Status,
+    pub(crate) source: BodySource,
+    /// It touched something in the last step, or it has not moved freely since.
+    pub(crate) is_touching: bool,
+    /// Something stopped it in the last step.
+    pub(crate) is_pressed: bool,
+}
+
+impl BodyState {
+    pub(crate) fn is_external(&self) -> bool {
+        self.source == BodySource::External
+    }
+
+    /// Remaining fraction of its battery, 0 to 1; `None` if it never runs empty.
+    pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
+        let capacity_j = kind.battery?.capacity_j;
+        let left = (1.0 - self.energy_j / capacity_j).max(0.0);
+        capacity_j.is_finite().then_some(left)
+    }
+}
+
+/// Whether a robot can still move.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Status {
+    /// It can.
+    #[default]
+    Active,
+    /// Its battery is empty.
+    Empty,
+    /// It has collided too often.
+    Broken,
+}

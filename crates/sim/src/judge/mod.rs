@@ -1,0 +1,16 @@
+//! Judging a run: what is counted, when the run is over, and its outcome. Robots perceive none of it.
+//!
+//! A step reports events to the [`tally`]: what robots detected, and how often they collided. From the tally
+//! and the bodies of a [`moment`] follow the rules of the [`end`] and the [`outcome`], whose numbers are
+//! the [`columns`] of results.
+
+mod bounds;
+pub(crate) mod columns;
+pub(crate) mod cost;
+pub(crate) mod detections;
+mod end;
+pub(crate) mod moment;
+mod outcome;
+pub(crate) mod tally;
+
+pub use outcome::Outcome;

@@ -1,0 +1,21 @@
+//! What a run is judged by.
+
+use super::tally::Tally;
+use crate::bodies::body_state::BodyState;
+use crate::bodies::path::Orientation;
+use crate::scenario::Scenario;
+use crate::world::items::Items;
+use base::geometry::Disc;
+
+/// A run between two steps, as the judge sees it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment<'a> {
+    pub(crate) scenario: &'a Scenario,
+    /// Number of steps taken.
+    pub(crate) tick: u64,
+    pub(crate) items: &'a Items,
+    pub(crate) tally: &'a Tally,
+    pub(crate) discs: &'a [Disc],
+    pub(crate) orientations: &'a [Orientation],
+    pub(crate) body_states: &'a [BodyState],
+}

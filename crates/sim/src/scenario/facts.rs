@@ -1,0 +1,35 @@
+//! What is the same in all runs of a scenario.
+
+use super::ready::Scenario;
+
+impl Scenario {
+    /// Number of robots of each kind, in the order in which ids count them.
+    #[must_use]
+    pub fn team(&self) -> Vec<(String, u32)> {
+        self.kinds
+            .iter()
+            .map(|kind| (kind.name.clone(), kind.count))
+            .collect()
+    }
+
+    /// What is the same in all runs, as text.
+    pub(crate) fn facts(&self) -> Vec<(String, String)> {
+        let size = self.world.size();
+        let world = format!(
+            "{} m by {} m, {} obstacles",
+            size.x,
+            size.y,
+            self.solids().len()
+        );
+        let clock = format!("step {} s, time limit {} s", self.step_s, self.time_limit_s);
+        let items = self.items.iter().map(|kind| {
+            let clutter = if kind.is_target { "" } else { " (not target)" };
+            (
+                format!("items {}", kind.name),
+                format!("{}{clutter}", kind.count),
+            )
+        });
+        let facts = [("world".to_owned(), world), ("clock".to_owned(), clock)];
+        facts.into_iter().chain(items).collect()
+    }
+}
