@@ -49,9 +49,7 @@ class Description:
 
     def __str__(self) -> str:
         """Return it in one line."""
-        asked = (
-            f"{self.runs:,} runs per configuration" if self.runs is not None else self.question
-        )
+        asked = f"{self.runs:,} runs per configuration" if self.runs is not None else self.question
         return f"{design.describe(self.design, self.configurations)}; {asked}"
 
 

@@ -179,8 +179,8 @@ def make(  # noqa: PLR0913  (keywords with defaults)
 ) -> Plan:
     """Return the plan of a scenario's study; None selects the scenario's value or the default.
 
-    The question of a scenario with a requirement is the cheapest configuration that meets it, unless
-    `delta`, `guarantee` or `runs` asks for the best by merit.
+    The question of a scenario with a requirement is the cheapest configuration that meets it,
+    unless `delta`, `guarantee` or `runs` asks for the best by merit.
 
     Raises:
         InputError: If an argument or a configuration is invalid.
@@ -225,7 +225,7 @@ def draft(  # noqa: PLR0913  (as in make)
     delta: float | None = None,
     guarantee: Guarantee | None = None,
 ) -> Plan:
-    """Return a plan whose configurations are not checked yet; without a guarantee, of a requirement.
+    """Return a plan whose configurations are not checked; without `guarantee`, of a requirement.
 
     Raises:
         InputError: If an argument is invalid.

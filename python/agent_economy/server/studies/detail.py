@@ -4,6 +4,7 @@ import hashlib
 import re
 import threading
 from collections import OrderedDict
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +50,7 @@ class AnswerCache:
 
 def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
     """Return an answer with the sections and charts of the report."""
+    results: Sequence[Result | RequirementResult] = answer.results
     shown = report.parts(answer, evidence)
     return {
         "sentence": answer.sentence,
@@ -57,7 +59,7 @@ def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
         "quarantined": shown.quarantined,
         "sections": [section(each) for each in shown.sections],
         "charts": shown.charts,
-        "results": [result(index, each) for index, each in enumerate(answer.results)],
+        "results": [result(*each) for each in enumerate(results)],
     }
 
 
@@ -89,6 +91,7 @@ def table(given: Table) -> Detail:
 
 def result(index: int, given: Result | RequirementResult) -> Detail:
     """Return what the page takes of the results of a configuration."""
+    verdict: str
     if isinstance(given, RequirementResult):
         verdict = "best" if given.status == "selected" else given.status
     else:
