@@ -203,7 +203,7 @@ fn as_dict<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyD
     dict.set_item("design", study.design.to_string())?;
     dict.set_item("delta", study.delta)?;
     dict.set_item("confidence", study.confidence)?;
-    dict.set_item("minimize", &study.minimize)?;
+    dict.set_item("cost", &study.minimize)?;
     dict.set_item("where", study.filter.as_ref())?;
     let requirement = scenario.requirement.as_ref();
     let requirement = requirement.map(|requirement| requirement_dict(py, scenario, requirement));

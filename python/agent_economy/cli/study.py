@@ -112,7 +112,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     minimize: Annotated[
         str | None,
         typer.Option(
-            help="With a requirement, what is minimized: robots, price, or an expression of team "
+            help="With a requirement, what is minimised: robots, price, or an expression of team "
             "sizes, such as rover_a + 2 * rover_b.",
             show_default="the scenario's, or robots",
             rich_help_panel=QUESTION,

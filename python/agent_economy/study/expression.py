@@ -48,9 +48,9 @@ class Expression:
         try:
             self._tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError, MemoryError):
-            raise self._refused(MUST_BE) from None
+            raise self.error(MUST_BE) from None
         if len(text) > MAX_LENGTH:
-            raise self._refused(TOO_LONG)
+            raise self.error(TOO_LONG)
         self._check(self._tree)
 
     @property
@@ -67,7 +67,7 @@ class Expression:
         try:
             return float(evaluate(self._tree, values))
         except (ZeroDivisionError, OverflowError):
-            raise self._refused(NOT_FINITE) from None
+            raise self.error(NOT_FINITE) from None
 
     def _check(self, node: ast.expr) -> None:
         match node:
@@ -88,7 +88,7 @@ class Expression:
             case _:
                 piece = ast.get_source_segment(self._text.strip(), node) or self._text
                 why = f"{piece!r} is not allowed: must be of {ALLOWED}"
-                raise self._refused(why)
+                raise self.error(why)
 
     def _check_all(self, *nodes: ast.expr) -> None:
         for node in nodes:
@@ -100,9 +100,10 @@ class Expression:
             suggestion = f"; did you mean {close[0]!r}?" if close else ""
             known = ", ".join(self._names)
             why = f"{name!r} is unknown: must be one of {known}{suggestion}"
-            raise self._refused(why)
+            raise self.error(why)
 
-    def _refused(self, why: str) -> InputError:
+    def error(self, why: str) -> InputError:
+        """Return the error that the expression is wrong, with the reason."""
         return InputError(f"{self._path} = {self._text!r}: {why}")
 
 

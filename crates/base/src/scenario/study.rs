@@ -11,7 +11,7 @@ const MAX_POINTS: u32 = 100_000;
 /// Default probability that the answer of a study is right.
 pub(super) const CONFIDENCE: f64 = 0.95;
 
-/// What a study with a requirement minimizes by default: the number of robots.
+/// What a study with a requirement minimises by default: the number of robots.
 pub(super) const MINIMIZE: &str = "robots";
 
 /// Settings of a study.
@@ -25,7 +25,7 @@ pub struct Study {
     pub delta: Option<f64>,
     /// Probability that the answer is right; above 0.5 and below 1.
     pub confidence: f64,
-    /// What a study with a requirement minimizes, as an expression.
+    /// What a study with a requirement minimises, as an expression.
     pub minimize: String,
     /// Which configurations it compares, as an expression; `None` for all.
     pub filter: Option<String>,

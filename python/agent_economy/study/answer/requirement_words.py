@@ -8,6 +8,8 @@ from agent_economy.study.answer.requirement_results import RequirementResult, St
 from agent_economy.study.question import Cheapest
 from agent_economy.study.selection import percentage
 
+MINUTE_S = 60
+
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
 
@@ -97,8 +99,9 @@ def in_words(condition: Condition) -> str:
 
 def duration(seconds: float) -> str:
     """Return a duration as people write it: "90 s", "20 minutes"."""
-    minutes = seconds / 60
-    return f"{minutes:g} minutes" if minutes >= 2 and minutes.is_integer() else f"{seconds:,.10g} s"
+    minutes = seconds / MINUTE_S
+    is_written = minutes > 1 and minutes.is_integer()
+    return f"{minutes:g} minutes" if is_written else f"{seconds:,.10g} s"
 
 
 def guarantee(
@@ -117,7 +120,7 @@ def guarantee(
     meets = f"the selected team meets the requirement in at least {share} of missions"
     if is_over and is_certified:
         return (
-            f"{confidently}, {meets}, and no team with less {question.minimize} meets it in "
+            f"{confidently}, {meets}, and no team with less {question.cost} meets it in "
             f"{spare} or more."
         )
     if is_over:

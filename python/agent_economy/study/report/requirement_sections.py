@@ -65,7 +65,7 @@ def table(view: RequirementView) -> Table:
         return Row((words(view.names[index]), *cells), row_style(result.status), index)
 
     shown = dict.fromkeys((*view.shown, *others(view)))
-    heads = ("team", view.answer.minimize, "status", "share that meets it", "runs")
+    heads = ("team", view.answer.cost, "status", "share that meets it", "runs")
     return Table("Share of missions that meet the requirement", heads, tuple(map(row, shown)))
 
 
