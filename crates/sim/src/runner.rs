@@ -9,6 +9,7 @@ use base::document::{Document, Value};
 use base::engine::{BlockOptions, Column, Runner};
 use base::engine::{Configuration, Engine, MeritTerm, NamedMerit};
 use base::error::InputErrors;
+use base::scenario::condition::ConditionColumns;
 use base::warning::Warning;
 use std::ops::Range;
 use std::sync::Arc;
@@ -53,7 +54,16 @@ impl Engine for Metric {
     }
 
     fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
-        columns::columns(&[]).merit_terms()
+        columns::columns([]).merit_terms()
+    }
+
+    fn condition_columns(&self, document: &Document) -> ConditionColumns {
+        let items = self.names(document, &["items"]).unwrap_or_default();
+        let columns = columns::columns(items.iter().map(String::as_str));
+        ConditionColumns {
+            names: columns.names(),
+            times: Vec::new(),
+        }
     }
 
     fn merits(&self) -> &'static [NamedMerit] {
@@ -75,7 +85,7 @@ impl Engine for Metric {
 
 impl Runner for Runs {
     fn columns(&self) -> Vec<Column> {
-        columns::columns(&self.0.items).of(&self.0)
+        columns::columns(self.0.item_kinds()).of(&self.0)
     }
 
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
@@ -86,7 +96,7 @@ impl Runner for Runs {
             let outcome = self.finish(&mut scratch, state, options);
             outcome.is_finite().then_some(outcome)
         });
-        columns::columns(&self.0.items).table(&self.0, outcomes)
+        columns::columns(self.0.item_kinds()).table(&self.0, outcomes)
     }
 }
 
@@ -109,7 +119,7 @@ impl Runs {
     /// the run is quarantined.
     #[must_use]
     pub fn values(&self, outcome: &Outcome) -> Option<Vec<f64>> {
-        let columns = columns::columns(&self.0.items);
+        let columns = columns::columns(self.0.item_kinds());
         let is_finite = outcome.is_finite();
         is_finite.then(|| columns.values(&self.0, outcome))
     }

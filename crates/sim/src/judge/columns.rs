@@ -2,15 +2,16 @@
 
 use super::outcome::Outcome;
 use crate::scenario::Scenario;
-use crate::world::items::ItemKind;
 use base::engine::ColumnKind::{Flag, Real, Whole};
 use base::engine::{Bounds, OutcomeColumn, OutcomeColumns};
 
 type Column = OutcomeColumn<Scenario, Outcome>;
 
-/// The outcome columns of scenarios with these kinds of items.
-pub(crate) fn columns(items: &[ItemKind]) -> OutcomeColumns<Scenario, Outcome> {
-    let per_kind = items.iter().enumerate().flat_map(of_items);
+/// The outcome columns of scenarios with kinds of items of these names.
+pub(crate) fn columns<'n>(
+    items: impl IntoIterator<Item = &'n str>,
+) -> OutcomeColumns<Scenario, Outcome> {
+    let per_kind = items.into_iter().enumerate().flat_map(of_items);
     let columns = [time_and_team(), finds(), costs()].into_iter().flatten();
     OutcomeColumns(columns.chain(per_kind).collect())
 }
@@ -108,13 +109,13 @@ fn costs() -> Vec<Column> {
 }
 
 /// The columns of one kind of items, by its number.
-fn of_items((number, kind): (usize, &ItemKind)) -> [Column; 2] {
+fn of_items((number, kind): (usize, &str)) -> [Column; 2] {
     let of_all = move |on: &Scenario| Bounds::up_to(on.items[number].count.into());
     let found = move |_: &Scenario, of: &Outcome| of.found[number].into();
     let missed = move |_: &Scenario, of: &Outcome| of.missed[number].into();
     [
-        Column::new(format!("found_{}", kind.name), Whole, of_all, found),
-        Column::new(format!("missed_{}", kind.name), Whole, of_all, missed),
+        Column::new(format!("found_{kind}"), Whole, of_all, found),
+        Column::new(format!("missed_{kind}"), Whole, of_all, missed),
     ]
 }
 
@@ -136,7 +137,7 @@ mod tests {
 
     #[test]
     fn merit_terms_are_summed_in_the_order_of_stored_studies() {
-        let terms = columns(&[]).merit_terms();
+        let terms = columns([]).merit_terms();
         let names: Vec<&str> = terms.iter().map(|term| &*term.name).collect();
         let expected = "time robots failed price found missed collisions energy distance stopped \
                         false_alarms";
