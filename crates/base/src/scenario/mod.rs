@@ -46,7 +46,7 @@ mod unknown_names;
 mod value_checks;
 mod values;
 
-pub use factors::Factor;
+pub use factors::{Factor, largest};
 pub use merit::{Merit, Term};
 pub use published::Published;
 pub use schema::schema;
