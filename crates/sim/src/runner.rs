@@ -6,9 +6,10 @@ use crate::scenario::{Scenario, ScenarioSpec};
 use crate::step::tick::StepScratch;
 use crate::warnings;
 use base::document::{Document, Value};
-use base::engine::{BlockOptions, Column, Runner};
+use base::engine::{BlockOptions, Column, OutcomeColumns, Runner};
 use base::engine::{Configuration, Engine, MeritTerm, NamedMerit};
 use base::error::InputErrors;
+use base::scenario::condition::ConditionColumns;
 use base::warning::Warning;
 use std::ops::Range;
 use std::sync::Arc;
@@ -56,6 +57,12 @@ impl Engine for Metric {
         columns::columns(&[]).merit_terms()
     }
 
+    fn condition_columns(&self, document: &Document) -> ConditionColumns {
+        let items = ScenarioSpec::max_counts(document);
+        let items = items.iter().map(|(name, count)| (name.as_str(), *count));
+        columns::condition_columns(&items.collect::<Vec<_>>())
+    }
+
     fn merits(&self) -> &'static [NamedMerit] {
         &[NamedMerit::EQUATION_5_2]
     }
@@ -75,7 +82,7 @@ impl Engine for Metric {
 
 impl Runner for Runs {
     fn columns(&self) -> Vec<Column> {
-        columns::columns(&self.0.items).of(&self.0)
+        self.outcome_columns().of(&self.0)
     }
 
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
@@ -86,11 +93,15 @@ impl Runner for Runs {
             let outcome = self.finish(&mut scratch, state, options);
             outcome.is_finite().then_some(outcome)
         });
-        columns::columns(&self.0.items).table(&self.0, outcomes)
+        self.outcome_columns().table(&self.0, outcomes)
     }
 }
 
 impl Runs {
+    fn outcome_columns(&self) -> OutcomeColumns<Scenario, Outcome> {
+        columns::columns(&self.0.max_item_counts())
+    }
+
     fn finish(
         &self,
         scratch: &mut StepScratch,
@@ -105,12 +116,11 @@ impl Runs {
         state.outcome(scenario)
     }
 
-    /// The outcome of a run, in the order of the columns; `None` if a value is not finite, so that
-    /// the run is quarantined.
+    /// The outcome of a run, in the order of the columns; `None` if the run is quarantined. The times of finds that
+    /// did not happen are +infinity.
     #[must_use]
     pub fn values(&self, outcome: &Outcome) -> Option<Vec<f64>> {
-        let columns = columns::columns(&self.0.items);
         let is_finite = outcome.is_finite();
-        is_finite.then(|| columns.values(&self.0, outcome))
+        is_finite.then(|| self.outcome_columns().values(&self.0, outcome))
     }
 }

@@ -24,6 +24,8 @@ pub struct Document {
     pub(super) root: Node,
     files: Files,
     created_tables: Vec<CreatedTable>,
+    /// What [`Document::vary`] replaced first, by path.
+    varied: BTreeMap<Vec<String>, Option<Value>>,
 }
 
 /// A table that was created for a value in it.
@@ -73,6 +75,7 @@ impl Document {
             root,
             files: Files::new(),
             created_tables: Vec::new(),
+            varied: BTreeMap::new(),
         }
     }
 
@@ -120,6 +123,24 @@ impl Document {
             value,
             origin: origin.to_owned(),
         };
+    }
+
+    /// As [`Document::set`], for a value of a configuration: the document keeps its [own](Document::own).
+    pub fn vary(&mut self, path: &[&str], value: Value, origin: &str) {
+        let keys = path.iter().map(|key| (*key).to_owned()).collect();
+        let current = self.get(path).map(|node| node.value.clone());
+        self.varied.entry(keys).or_insert(current);
+        self.set(path, value, origin);
+    }
+
+    /// The value at `path`, or the one there before [`Document::vary`] replaced it.
+    #[must_use]
+    pub fn own(&self, path: &[&str]) -> Option<&Value> {
+        let keys: Vec<String> = path.iter().map(|key| (*key).to_owned()).collect();
+        match self.varied.get(&keys) {
+            Some(own) => own.as_ref(),
+            None => self.get(path).map(|node| &node.value),
+        }
     }
 
     /// The outermost table that is missing on a path.

@@ -149,6 +149,25 @@ fn tables_are_known_that_were_made_for_a_value_in_them() {
 }
 
 #[test]
+fn a_value_that_is_varied_keeps_the_documents_own() {
+    let mut document = Document::parse("job.toml", "[items.mine]\ncount = 12").unwrap();
+    let path = ["items", "mine", "count"];
+    for value in 1..3 {
+        document.vary(&path, Value::Integer(value), "study.vary");
+        document.vary(
+            &["items", "mine", "target"],
+            Value::Bool(true),
+            "study.vary",
+        );
+        assert_eq!(document.get(&path).unwrap().value, Value::Integer(value));
+    }
+    assert_eq!(document.own(&path), Some(&Value::Integer(12)));
+    assert_eq!(document.own(&["items", "mine", "target"]), None);
+    document.set(&["clock"], Value::Integer(1), "--set");
+    assert_eq!(document.own(&["clock"]), Some(&Value::Integer(1)));
+}
+
+#[test]
 fn what_stands_at_a_path_is_found_with_its_line() {
     let document = Document::parse("job.toml", "[a]\n\"b.c\" = 3\nd = 1").unwrap();
     let node = document.get(&["a", "b.c"]).unwrap();

@@ -16,6 +16,7 @@ pub use runner::{BlockOptions, Runner};
 
 use crate::document::{Document, Value};
 use crate::error::InputErrors;
+use crate::scenario::condition::ConditionColumns;
 use crate::warning::Warning;
 
 /// Largest time limit of a run, in seconds.
@@ -57,6 +58,11 @@ pub trait Engine: Sync {
     /// The terms that a figure of merit can weigh, in the order of summation. Called on documents
     /// with errors, too.
     fn merit_terms(&self, document: &Document) -> Vec<MeritTerm>;
+
+    /// The outcome columns that conditions can refer to: the names of [`Runner::columns`], and those of them that
+    /// are times until a count reached a number. They are the same for every configuration of a study. Called on
+    /// documents with errors, too.
+    fn condition_columns(&self, document: &Document) -> ConditionColumns;
 
     /// The predefined figures of merit.
     fn merits(&self) -> &'static [NamedMerit];

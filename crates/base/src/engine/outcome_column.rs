@@ -91,6 +91,15 @@ impl<C, O> OutcomeColumns<C, O> {
         self.0.iter().map(column).collect()
     }
 
+    /// Their names.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.0
+            .iter()
+            .map(|column| column.name.to_string())
+            .collect()
+    }
+
     /// The values of an outcome, in the order of the columns.
     #[must_use]
     pub fn values(&self, configuration: &C, outcome: &O) -> Vec<f64> {

@@ -1,6 +1,6 @@
 //! What a study varies: paths in a scenario, each with its values.
 
-use super::values::{ALLOWED, Values, values};
+use super::values::{ALLOWED, Values, as_f64, largest_of, values};
 use crate::document::{Document, Section, Value, renamed};
 use crate::engine::Engine;
 use crate::error::{InputError, nearest};
@@ -49,7 +49,21 @@ fn can_be_varied(engine: &dyn Engine, path: &str) -> bool {
 /// Puts `value` at the keys of `path`.
 pub(super) fn put(document: &mut Document, path: &str, value: &Value, origin: &str) {
     let keys: Vec<&str> = path.split('.').collect();
-    document.set(&keys, value.clone(), origin);
+    document.vary(&keys, value.clone(), origin);
+}
+
+/// The largest number at a path in any configuration of a document: its own, those that `study.vary` lists, and one
+/// that was put there.
+#[must_use]
+pub fn largest(document: &Document, path: &[&str]) -> Option<f64> {
+    let varied = ["study", "vary", &path.join(".")];
+    let listed = match document.get(&varied).map(|node| &node.value) {
+        Some(Value::Text(text)) => largest_of(text),
+        _ => None,
+    };
+    let current = document.get(path).map(|node| &node.value);
+    let numbers = [document.own(path), current].into_iter().flatten();
+    numbers.filter_map(as_f64).chain(listed).reduce(f64::max)
 }
 
 /// The factors of a study, in the engine's order.

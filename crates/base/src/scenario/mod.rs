@@ -50,7 +50,7 @@ mod unknown_names;
 mod value_checks;
 mod values;
 
-pub use factors::Factor;
+pub use factors::{Factor, largest};
 pub use merit::{Merit, Term};
 pub use published::Published;
 pub use require::Requirement;

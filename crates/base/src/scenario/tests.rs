@@ -1,6 +1,7 @@
 use super::*;
 use crate::engine::{BlockOptions, Bounds, Column, ColumnKind, NamedMerit, Runner};
 use crate::error::InputError;
+use condition::ConditionColumns;
 use std::ops::Range;
 
 const EXAMPLE: &str = r#"
@@ -79,6 +80,13 @@ impl Engine for Shop {
             MeritTerm::new("time", "time_s"),
             MeritTerm::new("robots", "robots"),
         ]
+    }
+
+    fn condition_columns(&self, _: &Document) -> ConditionColumns {
+        ConditionColumns {
+            names: ["time_s", "failed", "robots"].map(str::to_owned).into(),
+            times: Vec::new(),
+        }
     }
 
     fn merits(&self) -> &'static [NamedMerit] {

@@ -36,6 +36,19 @@ pub(super) fn values(text: &str) -> Result<Values, String> {
     Ok(Values::Listed(in_order(values)))
 }
 
+/// The largest number that a string of values lists, without the list.
+pub(super) fn largest_of(text: &str) -> Option<f64> {
+    if let Some(Values::Between(_, high)) = between(text) {
+        return Some(high);
+    }
+    let parts = text.split(',').filter_map(Part::of);
+    let numbers = parts.filter_map(|part| match part {
+        Part::One(value) => as_f64(&value),
+        Part::Run(_, high) => as_f64(&Value::Integer(high)),
+    });
+    numbers.reduce(f64::max)
+}
+
 /// A range with a decimal point at either end.
 fn between(text: &str) -> Option<Values> {
     let (low, high) = text.split_once("..")?;
@@ -165,6 +178,21 @@ mod tests {
             ("false, true", "false true"),
         ] {
             assert_eq!(shown(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_largest_number_of_a_text_is_that_of_its_values() {
+        for (text, expected) in [
+            ("1..3", Some(3.0)),
+            ("9,1..4", Some(9.0)),
+            ("-2,0.5", Some(0.5)),
+            ("41.0..57.5", Some(57.5)),
+            ("1..10000000", Some(1e7)),
+            ("touch,ahead", None),
+            ("", None),
+        ] {
+            assert_eq!(largest_of(text), expected, "{text}");
         }
     }
 

@@ -37,6 +37,7 @@ use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
 use base::engine::{Engine, MAX_TIME_LIMIT_S, MeritTerm, NamedMerit};
 use base::error::InputErrors;
+use base::scenario::condition::ConditionColumns;
 
 /// The worksheet in the thesis's appendix, which does not divide the time by ten.
 const APPENDIX: NamedMerit = NamedMerit {
@@ -69,6 +70,13 @@ impl Engine for Classic {
 
     fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
         columns().merit_terms()
+    }
+
+    fn condition_columns(&self, _: &Document) -> ConditionColumns {
+        ConditionColumns {
+            names: columns().names(),
+            times: Vec::new(),
+        }
     }
 
     fn merits(&self) -> &'static [NamedMerit] {

@@ -2,17 +2,39 @@
 
 use super::outcome::Outcome;
 use crate::scenario::Scenario;
-use crate::world::items::ItemKind;
 use base::engine::ColumnKind::{Flag, Real, Whole};
 use base::engine::{Bounds, OutcomeColumn, OutcomeColumns};
+use base::scenario::condition::{ConditionColumns, TimesUntil};
 
 type Column = OutcomeColumn<Scenario, Outcome>;
 
-/// The outcome columns of scenarios with these kinds of items.
-pub(crate) fn columns(items: &[ItemKind]) -> OutcomeColumns<Scenario, Outcome> {
-    let per_kind = items.iter().enumerate().flat_map(of_items);
+/// Maximum number of finds per kind of items whose times have columns.
+const MAX_FIND_TIMES: u32 = 64;
+
+/// The outcome columns of scenarios with these kinds of items, each with the largest number of items in any
+/// configuration of the study: all configurations have the same columns.
+pub(crate) fn columns(items: &[(&str, u32)]) -> OutcomeColumns<Scenario, Outcome> {
+    let items = items.iter().copied().enumerate();
+    let counts = items.clone().flat_map(counts_of);
+    let times = items.flat_map(find_times_of);
     let columns = [time_and_team(), finds(), costs()].into_iter().flatten();
-    OutcomeColumns(columns.chain(per_kind).collect())
+    OutcomeColumns(columns.chain(counts).chain(times).collect())
+}
+
+/// What conditions can refer to of these columns.
+pub(crate) fn condition_columns(items: &[(&str, u32)]) -> ConditionColumns {
+    let names = columns(items).names();
+    let lengths = items.iter().map(|(_, count)| find_times(*count) as usize);
+    let mut start = names.len() - lengths.clone().sum::<usize>();
+    let mut times = Vec::new();
+    for ((kind, _), length) in items.iter().zip(lengths).filter(|(_, length)| *length > 0) {
+        times.push(TimesUntil {
+            count: format!("found_{kind}"),
+            places: start..start + length,
+        });
+        start += length;
+    }
+    ConditionColumns { names, times }
 }
 
 fn time_and_team() -> Vec<Column> {
@@ -107,15 +129,35 @@ fn costs() -> Vec<Column> {
     ]
 }
 
-/// The columns of one kind of items, by its number.
-fn of_items((number, kind): (usize, &ItemKind)) -> [Column; 2] {
+/// The columns of the counts of one kind of items, by its number.
+fn counts_of((number, (kind, _)): (usize, (&str, u32))) -> [Column; 2] {
     let of_all = move |on: &Scenario| Bounds::up_to(on.items[number].count.into());
     let found = move |_: &Scenario, of: &Outcome| of.found[number].into();
     let missed = move |_: &Scenario, of: &Outcome| of.missed[number].into();
     [
-        Column::new(format!("found_{}", kind.name), Whole, of_all, found),
-        Column::new(format!("missed_{}", kind.name), Whole, of_all, missed),
+        Column::new(format!("found_{kind}"), Whole, of_all, found),
+        Column::new(format!("missed_{kind}"), Whole, of_all, missed),
     ]
+}
+
+/// The columns of the times of the finds of one kind of items, by its number; the time of what was not found is
+/// +infinity.
+fn find_times_of(
+    (number, (kind, max_count)): (usize, (&str, u32)),
+) -> impl Iterator<Item = Column> {
+    (0..find_times(max_count)).map(move |find| {
+        let name = format!("found_{kind}_{}_s", find + 1);
+        let time_s = move |_: &Scenario, of: &Outcome| {
+            let found_s = of.found_s[number].get(find as usize);
+            found_s.copied().unwrap_or(f64::INFINITY)
+        };
+        Column::new(name, Real, |_| Bounds::NOT_NEGATIVE, time_s)
+    })
+}
+
+/// Number of columns of times for a kind with this largest number of items.
+fn find_times(max_count: u32) -> u32 {
+    max_count.min(MAX_FIND_TIMES)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]

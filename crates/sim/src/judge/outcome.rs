@@ -14,6 +14,8 @@ pub struct Outcome {
     pub found: Vec<u32>,
     /// Items not found, by kind.
     pub missed: Vec<u32>,
+    /// The time of each find, by kind, in ascending order.
+    pub found_s: Vec<Vec<f64>>,
     /// Contacts that are no item.
     pub false_alarms: u64,
     /// New contacts of two robots, or of a robot with static geometry; per step at most as many as
@@ -35,15 +37,20 @@ impl Outcome {
         let Moment {
             scenario, tally, ..
         } = *moment;
-        let mut found = vec![0; scenario.items.len()];
-        let mut missed = vec![0; scenario.items.len()];
+        let kinds = scenario.items.len();
+        let (mut found, mut missed) = (vec![0; kinds], vec![0; kinds]);
+        let mut found_s = vec![Vec::new(); kinds];
         for (kind, found_at) in moment.items.kinds().zip(tally.found_at()) {
-            let counts = if found_at.is_some() {
-                &mut found
+            let kind = usize::from(kind);
+            if let Some(tick) = found_at {
+                found[kind] += 1;
+                found_s[kind].push(seconds(tick, scenario.step_s));
             } else {
-                &mut missed
-            };
-            counts[usize::from(kind)] += 1;
+                missed[kind] += 1;
+            }
+        }
+        for times in &mut found_s {
+            times.sort_unstable_by(f64::total_cmp);
         }
         let complete_s = tally.complete_at.map(|tick| seconds(tick, scenario.step_s));
         let cost = tally.removed.and(moment.body_states.iter());
@@ -55,6 +62,7 @@ impl Outcome {
             has_failed: complete_s.is_none() && scenario.targets() > 0,
             found,
             missed,
+            found_s,
             false_alarms: tally.false_alarms,
             collisions: tally.collisions,
             energy_j: cost.energy_j,

@@ -2,6 +2,7 @@
 
 mod checked;
 mod checks;
+mod counts;
 mod facts;
 mod reading;
 mod ready;

@@ -15,7 +15,7 @@ impl ScenarioSpec {
     pub fn read(document: &Document) -> Result<Checked, InputErrors> {
         let document = Self::filled(document);
         let spec = document.typed(&SCHEMA)?;
-        checks::checked(spec, &document.place(), &|name| document.open(name))
+        checks::checked(spec, &document)
     }
 
     /// The same for a document whose files `open` reads: it returns the bytes of a file by its

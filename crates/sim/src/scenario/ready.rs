@@ -188,6 +188,13 @@ impl Scenario {
         self.items.iter().map(|kind| kind.name.as_str())
     }
 
+    /// Names of the kinds of items, each with the largest number of them in any configuration of the study.
+    pub(crate) fn max_item_counts(&self) -> Vec<(&str, u32)> {
+        let kinds = self.items.iter();
+        let counts = kinds.map(|kind| (kind.name.as_str(), kind.max_count));
+        counts.collect()
+    }
+
     /// The brain with which robots of a kind start.
     #[must_use]
     pub fn brain(&self, kind: u8) -> Option<&Brain> {

@@ -37,6 +37,8 @@ pub(crate) struct ItemKind {
     /// Its name in random streams: [`kind_key`].
     pub(crate) key: u32,
     pub(crate) count: u32,
+    /// The largest number of items of this kind in any configuration of the study.
+    pub(crate) max_count: u32,
     pub(crate) is_target: bool,
     pub(crate) placement: Placement,
 }
@@ -47,6 +49,7 @@ impl ItemKind {
             name: name.clone(),
             key: kind_key(name),
             count: spec.count,
+            max_count: spec.count,
             is_target: spec.target,
             placement: spec.placement.clone(),
         }

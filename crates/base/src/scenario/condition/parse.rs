@@ -49,12 +49,12 @@ fn quantity(
 ) -> Result<(Quantity, usize), ConditionError> {
     let token = cursor.take(is_in_name);
     if token.text == TIME_UNTIL && !columns.times.is_empty() {
-        return time_until(cursor, columns.times);
+        return time_until(cursor, &columns.times);
     }
-    let names = columns.names.iter().copied();
+    let names = columns.names.iter().map(String::as_str);
     let place = names.clone().position(|name| name == token.text);
     let place = place.ok_or_else(|| {
-        let times = match columns.times {
+        let times = match &columns.times[..] {
             [] => String::new(),
             [first, ..] => format!(" or {TIME_UNTIL}({} >= 1)", first.count),
         };
@@ -79,7 +79,7 @@ fn time_until(
     }
     let number = reached(cursor, times)?;
     cursor.expect(')')?;
-    let count = times.count.to_owned();
+    let count = times.count.clone();
     let quantity = Quantity::TimeUntil { count, number };
     Ok((quantity, times.places.start + number - 1))
 }
@@ -87,12 +87,12 @@ fn time_until(
 /// A count for which there are columns of times.
 fn count<'c>(
     cursor: &mut Cursor,
-    times: &'c [TimesUntil<'c>],
-) -> Result<&'c TimesUntil<'c>, ConditionError> {
+    times: &'c [TimesUntil],
+) -> Result<&'c TimesUntil, ConditionError> {
     let token = cursor.take(is_in_name);
     let count = times.iter().find(|each| each.count == token.text);
     count.ok_or_else(|| {
-        let names: Vec<&str> = times.iter().map(|each| each.count).collect();
+        let names: Vec<&str> = times.iter().map(|each| each.count.as_str()).collect();
         let instead = nearest(token.text, names.iter().copied());
         cursor.error_at(token, &format!("one of {}", names.join(", ")), instead)
     })

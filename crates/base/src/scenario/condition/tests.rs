@@ -1,5 +1,6 @@
 use super::*;
 use proptest::prelude::*;
+use std::ops::Range;
 
 const NAMES: [&str; 5] = [
     "time_s",
@@ -9,16 +10,22 @@ const NAMES: [&str; 5] = [
     "missed_half-size",
 ];
 
-fn with_columns<T>(read: impl Fn(&ConditionColumns) -> T) -> T {
-    let times = |count, places| TimesUntil { count, places };
-    read(&ConditionColumns {
-        names: &NAMES,
-        times: &[times("found_parcel", 5..14), times("found", 14..78)],
-    })
+fn columns(times: &[(&str, Range<usize>)]) -> ConditionColumns {
+    let times = times.iter().map(|(count, places)| TimesUntil {
+        count: (*count).to_owned(),
+        places: places.clone(),
+    });
+    ConditionColumns {
+        names: NAMES.map(str::to_owned).into(),
+        times: times.collect(),
+    }
 }
 
 fn read(text: &str) -> Result<Condition, ConditionError> {
-    with_columns(|columns| parse(text, columns))
+    parse(
+        text,
+        &columns(&[("found_parcel", 5..14), ("found", 14..78)]),
+    )
 }
 
 /// What is expected according to the error of an invalid condition, and the suggestion.
@@ -161,11 +168,7 @@ fn what_is_wrong_first_is_reported_with_its_position_and_the_fix() {
 
 #[test]
 fn without_columns_of_times_there_is_no_time_until() {
-    let columns = ConditionColumns {
-        names: &NAMES,
-        times: &[],
-    };
-    let error = parse("time_until(found >= 2) < 1", &columns).unwrap_err();
+    let error = parse("time_until(found >= 2) < 1", &columns(&[])).unwrap_err();
     assert!(error.allowed.ends_with("missed_half-size at character 1"));
 }
 

@@ -11,7 +11,7 @@ use base::map::{self, MapOptions, OccupancyMap, Unknown};
 use std::collections::BTreeMap;
 
 /// Returns the bytes of a file that a scenario names, or the reason why it cannot.
-pub(super) type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
+type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// The valid obstacles; reports those that are invalid, or outside the world.
 pub(super) fn solids(

@@ -18,7 +18,6 @@ use super::ready::Scenario;
 use super::spec::ScenarioSpec;
 use base::document::{Document, Place};
 use base::error::{InputError, InputErrors};
-use ground::Open;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -45,16 +44,18 @@ const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
     reach::errors,
 ];
 
-/// The scenario of `spec`, at the place `at` in a document, if it has no errors.
-pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, InputErrors> {
+/// The scenario of `spec`, which a document contains, if it has no errors.
+pub(super) fn checked(spec: ScenarioSpec, document: &Document) -> Result<Checked, InputErrors> {
+    let at = &document.place();
     let errors: Vec<InputError> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
     let mut of_places = Vec::new();
-    let solids = ground::solids(&spec.world, &at.key("world"), open, &mut of_places);
+    let open = |name: &str| document.open(name);
+    let solids = ground::solids(&spec.world, &at.key("world"), &open, &mut of_places);
     let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut of_places);
     if !errors.is_empty() {
         return Err(InputErrors([errors, of_places].concat()));
     }
-    let scenario = Scenario::new(&spec, solids, areas);
+    let scenario = Scenario::new(&spec, solids, areas).among_those_of(document);
     let checked = Checked { spec, scenario };
     // An error in a world without the invalid obstacles is an error with them too.
     for check in CHECKS_OF_PLACES {

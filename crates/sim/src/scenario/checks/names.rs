@@ -32,6 +32,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     ));
     errors.extend(twins(&names(&spec.robots), &robots));
     errors.extend(twins(&names(&spec.items), &at.key("items")));
+    errors.extend(time_columns(&names(&spec.items), &at.key("items")));
     for (name, robot) in &spec.robots {
         let sensors = robots.key(name).key("sensors");
         errors.extend(errors_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));
@@ -71,6 +72,20 @@ fn twins(names: &[&str], at: &Place) -> Vec<InputError> {
         })
     });
     twins.collect()
+}
+
+/// Kinds of items whose count would have the name of another column.
+fn time_columns(names: &[&str], at: &Place) -> Vec<InputError> {
+    let ambiguous = names.iter().filter_map(|name| {
+        let (other, number) = name.strip_suffix("_s")?.rsplit_once('_')?;
+        let is_number = number.chars().all(|c| c.is_ascii_digit());
+        (is_number && names.contains(&other)).then(|| {
+            at.key(name).error(format!(
+                "a different name: found_{name} is the time of a find of {other}"
+            ))
+        })
+    });
+    ambiguous.collect()
 }
 
 fn is_fine(name: &str) -> bool {

@@ -167,6 +167,24 @@ fn two_kinds_never_have_the_same_random_numbers() {
 }
 
 #[test]
+fn no_kind_of_items_has_the_column_of_a_time_of_another() {
+    assert_eq!(
+        error(
+            "[terrain.mud]",
+            "[items.mine_2_s]\ncount = 0\n[terrain.mud]"
+        ),
+        "items.mine_2_s = {...}: must be a different name: found_mine_2_s is the time of a find of mine"
+    );
+    for name in ["mine_s", "mine_x_s", "cow_2_s", "2_s"] {
+        let items = format!("[items.{name}]\ncount = 0\n[terrain.mud]");
+        assert!(
+            read(&GOOD.replace("[terrain.mud]", &items)).is_ok(),
+            "{name}"
+        );
+    }
+}
+
+#[test]
 fn there_are_one_to_255_kinds_of_robots() {
     let start = GOOD.find("[robots.rover]").unwrap();
     let none = format!("{}[robots]", &GOOD[..start]);

@@ -7,7 +7,7 @@ use sim::runner::Runs;
 use sim::simulation::Simulation;
 
 /// A robot that drives along a line of items, with a sensor range of one metre.
-fn line(time_limit_s: f64, items: &str, sensor: &str) -> String {
+pub(super) fn line(time_limit_s: f64, items: &str, sensor: &str) -> String {
     format!(
         "[clock]\nstep_s = 0.1\ntime_limit_s = {time_limit_s}\n[world]\nsize_m = [50, 10]\n{items}\n\
          [robots.rover]\ncount = 1\nradius_m = 0.5\nprice = 3\n\
@@ -18,7 +18,7 @@ fn line(time_limit_s: f64, items: &str, sensor: &str) -> String {
     )
 }
 
-fn mines(places: &str, count: u32) -> String {
+pub(super) fn mines(places: &str, count: u32) -> String {
     format!("[items.mine]\ncount = {count}\nplacement = {{ kind = \"fixed\", at_m = {places} }}\n")
 }
 

@@ -11,6 +11,7 @@ mod dead_end;
 mod determinism;
 mod external;
 mod external_decisions;
+mod find_times;
 mod flocks;
 mod footprints;
 mod golden;

@@ -1,0 +1,39 @@
+//! The largest numbers of items in the configurations of a study.
+
+use super::ready::Scenario;
+use super::spec::ScenarioSpec;
+use base::document::Document;
+use base::scenario::largest;
+
+impl ScenarioSpec {
+    /// Each kind of items, with the largest number of them in any configuration of a document. Works on documents
+    /// with errors, too.
+    pub(crate) fn max_counts(document: &Document) -> Vec<(String, u32)> {
+        let kinds = Self::names(document, &["items"]).unwrap_or_default();
+        let kinds = kinds.into_iter().map(|name| {
+            let count = max_count(document, "items", &name);
+            (name, count)
+        });
+        kinds.collect()
+    }
+}
+
+impl Scenario {
+    /// The scenario as one of the configurations of a document.
+    pub(super) fn among_those_of(mut self, document: &Document) -> Self {
+        for kind in &mut self.items {
+            kind.max_count = max_count(document, "items", &kind.name);
+        }
+        self
+    }
+}
+
+/// The largest number of items or robots of a kind, by the table of its kinds.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers out of range are errors; here they become the nearest number"
+)]
+fn max_count(document: &Document, table: &str, name: &str) -> u32 {
+    largest(document, &[table, name, "count"]).unwrap_or_default() as u32
+}
