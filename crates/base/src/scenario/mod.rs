@@ -60,7 +60,7 @@ pub use values::Values;
 
 use self::condition::ConditionColumns;
 use crate::document::{Document, Section, Value};
-use crate::engine::{Column, Configuration, Engine, MeritTerm};
+use crate::engine::{Configuration, Engine, MeritTerm};
 use crate::error::{InputError, InputErrors};
 use crate::warning::Warning;
 
@@ -101,8 +101,8 @@ impl Scenario {
         let (common, more) = document.read_all(|root| common(root, engine, &merit_terms));
         errors.extend(more);
         let base = configuration.as_ref();
-        let columns = base.map(|base| base.runner.columns());
-        let (requirement, more) = document.read_all(|root| requirement(root, columns.as_deref()));
+        let columns = engine.condition_columns(&document);
+        let (requirement, more) = document.read_all(|root| requirement(root, &columns));
         errors.extend(more);
         errors.extend(value_checks::errors_of_values(
             engine, &document, base, &errors,
@@ -196,20 +196,11 @@ fn common(root: &Section, engine: &dyn Engine, merit_terms: &[MeritTerm]) -> Opt
 
 /// The requirement of a scenario: `Some(None)` if it has none.
 #[expect(clippy::option_option, reason = "an error, a missing key, and a value")]
-fn requirement(root: &Section, columns: Option<&[Column]>) -> Option<Option<Requirement>> {
+fn requirement(root: &Section, columns: &ConditionColumns) -> Option<Option<Requirement>> {
     if !root.has("require") {
         return Some(None);
     }
-    let names: Vec<&str> = columns
-        .iter()
-        .flat_map(|each| each.iter())
-        .map(|each| &*each.name)
-        .collect();
-    let known = ConditionColumns {
-        names: &names,
-        times: &[],
-    };
-    require::requirement(&root.section("require"), columns.map(|_| &known)).map(Some)
+    require::requirement(&root.section("require"), columns).map(Some)
 }
 
 fn engine_of<'e>(

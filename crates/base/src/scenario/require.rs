@@ -25,12 +25,8 @@ pub struct Requirement {
     pub tolerance: f64,
 }
 
-/// Reads a requirement. Without `columns`, because the configuration has errors, conditions are not
-/// checked.
-pub(super) fn requirement(
-    section: &Section,
-    columns: Option<&ConditionColumns>,
-) -> Option<Requirement> {
+/// Reads a requirement on these columns.
+pub(super) fn requirement(section: &Section, columns: &ConditionColumns) -> Option<Requirement> {
     section.only(&["all", "probability", "tolerance"]);
     let probability = probability(section);
     let rest = 1.0 - probability.unwrap_or(PROBABILITY);
@@ -67,10 +63,7 @@ fn tolerance(section: &Section, usual: f64, rest: f64) -> Option<f64> {
 }
 
 /// The list of conditions; all errors are reported.
-fn conditions(
-    section: &Section,
-    columns: Option<&ConditionColumns>,
-) -> Option<Vec<(String, Condition)>> {
+fn conditions(section: &Section, columns: &ConditionColumns) -> Option<Vec<(String, Condition)>> {
     let Some(Value::List(items)) = section.value("all") else {
         section.error("all", "a list of conditions, such as [\"time_s <= 1200\"]");
         return None;
@@ -80,7 +73,6 @@ fn conditions(
         section.error("all", &allowed);
         return None;
     }
-    let columns = columns?;
     let read = |(index, item): (usize, &Node)| {
         let read = condition(item, columns);
         read.map_err(|error| {
