@@ -1,5 +1,6 @@
 """The answer about a requirement in words."""
 
+import re
 from collections.abc import Sequence
 
 from agent_economy.scenario import Condition
@@ -84,6 +85,8 @@ def refuted(results: Sequence[RequirementResult], words: str) -> list[str]:
 def in_words(condition: Condition) -> str:
     """Return a condition in words, such as "success within 20 minutes" or "no collisions"."""
     name, value = condition.column.replace("_", " "), condition.value
+    if event := re.match(r"time_until\((.*)\)\s*<=", condition.text):
+        return f"{event[1]} within {duration(value)}"
     match condition.comparison, condition.column:
         case "<=", "time_s":
             return f"success within {duration(value)}"
