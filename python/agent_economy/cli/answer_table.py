@@ -42,7 +42,11 @@ def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
     else:
         table, precision = results_table(answer, ranges=is_wide), f"delta {answer.delta:g}, "
     print_whole(table, console, NAME)
-    console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
+    first, *lines, small = answer.verdict
+    console.print(first, style="bold", markup=False, emoji=False)
+    for line in lines:
+        console.print(line, markup=False, emoji=False)
+    console.print(f"{small}\n", style="dim", markup=False, emoji=False)
     console.print(
         f"{answer.guarantee} ({precision}{answer.runs:,} runs)\n",
         markup=False,
@@ -53,6 +57,13 @@ def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
 
 def results_table(answer: Answer, *, ranges: bool) -> Table:
     """Return a table of the best configurations, with ranges or without."""
+
+    def failed(result: Result) -> str:
+        if not result.is_possible:
+            return ""
+        if result.failed.value == 0:
+            return f"none (..{result.failed.high:.2%})" if ranges else "none"
+        return cell(result.failed, "z.2%")
 
     def cell(given: Interval, style: str) -> str:
         value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
@@ -79,7 +90,7 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
             Text(result.label),
             *(f"{count:,}" for count in counts),
             cell(result.time_s, "z.1f") if result.is_possible else "",
-            cell(result.failed, "z.2%") if result.is_possible else "",
+            failed(result),
             cell(result.merit, "z.2f") if result.is_possible else "",
             f"{result.standing.behind.value:z.3f}" if result.standing.behind else "",
             result.standing.verdict,

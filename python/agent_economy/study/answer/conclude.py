@@ -12,6 +12,7 @@ from agent_economy.study.answer.saturation import Saturation, saturations
 from agent_economy.study.answer.sensitivity import Sensitivity, sensitivity
 from agent_economy.study.answer.sentence import sentence
 from agent_economy.study.answer.side_statements import Omission, SideStatements
+from agent_economy.study.answer.verdict import Verdict, verdict
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Best
 
@@ -23,6 +24,7 @@ class Answer:
     Attributes:
         scenario: The scenario of the study.
         seed: Seed of all random numbers.
+        verdict: The answer in four lines.
         sentence: The answer in words.
         guarantee: The guarantee of the selection in words.
         is_guaranteed: Whether there is a guarantee.
@@ -39,6 +41,7 @@ class Answer:
 
     scenario: Scenario
     seed: int
+    verdict: Verdict
     sentence: str
     guarantee: str
     is_guaranteed: bool
@@ -72,6 +75,7 @@ def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
+        verdict=verdict(plan.scenario, best, found, delta, plan.confidence),
         sentence=sentence(plan.scenario, delta, ending, found, has_prices=evidence.has_prices),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,

@@ -9,7 +9,12 @@ from agent_economy.study.answer.requirement_results import (
     RequirementResult,
     results,
 )
-from agent_economy.study.answer.requirement_words import guarantee, sentence
+from agent_economy.study.answer.requirement_words import (
+    guarantee,
+    requirement_verdict,
+    sentence,
+)
+from agent_economy.study.answer.verdict import Verdict
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Cheapest
 
@@ -21,6 +26,7 @@ class RequirementAnswer:
     Attributes:
         scenario: The scenario.
         seed: Seed of all random numbers.
+        verdict: The answer in four lines.
         sentence: The answer in words.
         guarantee: Its promise in words.
         is_guaranteed: Whether the study ended by itself, so that no cheaper configuration meets the
@@ -34,6 +40,7 @@ class RequirementAnswer:
 
     scenario: Scenario
     seed: int
+    verdict: Verdict
     sentence: str
     guarantee: str
     is_guaranteed: bool
@@ -65,6 +72,7 @@ def conclude_requirement(
     return RequirementAnswer(
         scenario=plan.scenario,
         seed=plan.seed,
+        verdict=requirement_verdict(question, found, plan.confidence),
         sentence=sentence(question, found, plan.confidence, ending.obstacle),
         guarantee=guarantee(question, found, plan.confidence, is_over=ending.is_over),
         is_guaranteed=ending.is_over,

@@ -19,12 +19,9 @@ def html(answer: AnyAnswer, evidence: Evidence, javascript: str) -> str:
             that the charts are missing.
     """
     shown = parts(answer, evidence)
-    # Numbers contain periods, but none is followed by a space.
-    advice, _, reasons = f"{answer.sentence} ".partition(". ")
     return template().render(
         answer=answer,
-        advice=f"{advice}.",
-        reasons=f" {reasons}".rstrip(),
+        verdict=answer.verdict,
         facts=shown.facts,
         quarantined=shown.quarantined,
         sections=shown.sections,

@@ -226,8 +226,8 @@ def times(view: View) -> Section:
     shows = "Median (diamond), middle 50% (box) and middle 90% (line) of the runs"
     tail = (
         "The time of success of a failed run is infinite; a mean with a time limit hides these. "
-        "The quantiles of all configurations hold simultaneously, as a statement of their own, with "
-        f"{percentage(view.answer.confidence)} confidence."
+        "The quantiles of all configurations hold simultaneously, as a statement of their own, "
+        f"with {percentage(view.answer.confidence)} confidence."
     )
     found = (tables.success_times(view), tables.times(view))
     return Section("Times", (note.strip(), tail), (Picture("times", shows),), found)
