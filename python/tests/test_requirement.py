@@ -155,7 +155,9 @@ def test_runs_of_a_study_of_merit_serve_one_of_a_requirement_and_the_other_way_r
         fresh = tmp_path / f"fresh-{folder.name}"
         study.run_plan(first, folder)
         assert computed(second, folder) < computed(second, fresh)
-        assert (folder / "answer.json").read_bytes() == (fresh / "answer.json").read_bytes()
+        one, other = (json.loads((each / "answer.json").read_text()) for each in (folder, fresh))
+        assert len(one.pop("questions")) == 2
+        assert one == other
 
 
 def computed(plan: Plan, folder: Path) -> int:

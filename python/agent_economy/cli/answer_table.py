@@ -16,6 +16,7 @@ from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.verdict import repeated
 from agent_economy.study.store.folder import REPORT
 
 WIDE = 118
@@ -52,6 +53,8 @@ def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
         markup=False,
         emoji=False,
     )
+    if (count := len(answer.questions)) > 1:
+        typer.echo(f"{repeated(count, answer.confidence)}\n")
     typer.echo(f"Report: {folder / REPORT}")
 
 

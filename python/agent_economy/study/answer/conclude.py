@@ -37,6 +37,7 @@ class Answer:
         efforts: Predicted runs for smaller deltas.
         published: Published results, scored with the same merit.
         omissions: Those of the preceding four that could not be stated, each with the reason.
+        questions: The questions that were answered from the same runs, this one included.
     """
 
     scenario: Scenario
@@ -54,6 +55,7 @@ class Answer:
     efforts: tuple[Effort, ...]
     published: tuple[PublishedResult, ...]
     omissions: tuple[Omission, ...] = ()
+    questions: tuple[str, ...] = ()
 
     @property
     def runs(self) -> int:

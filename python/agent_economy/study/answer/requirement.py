@@ -36,6 +36,7 @@ class RequirementAnswer:
         cost: What a configuration costs, as an expression.
         selected: Index of the cheapest certified configuration; None if none is certified.
         results: Result of each configuration.
+        questions: The questions that were answered from the same runs, this one included.
     """
 
     scenario: Scenario
@@ -49,6 +50,7 @@ class RequirementAnswer:
     cost: str
     selected: int | None
     results: tuple[RequirementResult, ...]
+    questions: tuple[str, ...] = ()
 
     @property
     def runs(self) -> int:

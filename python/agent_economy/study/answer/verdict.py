@@ -96,3 +96,13 @@ def precision(scenario: Scenario, delta: float, confidence: float) -> str:
         f"{percentage(confidence)} confidence; differences under {delta:g} merit{means} were not "
         "looked for."
     )
+
+
+def repeated(questions: int, confidence: float) -> str:
+    """Return what several questions about the same runs do to the error rate."""
+    error = min(1.0, questions * (1 - confidence))
+    together = percentage(round(1 - error, 12))
+    return (
+        f"{questions} questions were answered from these runs. Each promise holds by itself; all "
+        f"hold together with a probability of at least {together} only."
+    )
