@@ -12,6 +12,9 @@ from agent_economy.study.selection import percentage
 
 MINUTE_S = 60
 
+CHEAPER = {"price": "no cheaper team", "robots": "no team with fewer robots"}
+"""Teams of a lower cost in words."""
+
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
 
@@ -151,10 +154,8 @@ def guarantee(
     is_certified = any(each.status == "selected" for each in results)
     meets = f"the selected team meets the requirement in at least {share} of missions"
     if is_over and is_certified:
-        return (
-            f"{confidently}, {meets}, and no team with less {question.cost} meets it in "
-            f"{spare} or more."
-        )
+        cheaper = CHEAPER.get(question.cost, f"no team with less {question.cost}")
+        return f"{confidently}, {meets}, and {cheaper} meets it in {spare} or more."
     if is_over:
         return (
             f"{confidently}, no compared team meets the requirement in {spare} or more of missions."

@@ -5,6 +5,7 @@ from functools import cache
 import jinja2
 
 from agent_economy.study.answer.any_answer import AnyAnswer
+from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.report.parts import parts
 
@@ -22,6 +23,8 @@ def html(answer: AnyAnswer, evidence: Evidence, javascript: str) -> str:
     return template().render(
         answer=answer,
         verdict=answer.verdict,
+        # The verdict on a requirement contains all of its sentence.
+        details=answer.sentence if isinstance(answer, Answer) else "",
         facts=shown.facts,
         quarantined=shown.quarantined,
         sections=shown.sections,

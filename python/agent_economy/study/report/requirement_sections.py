@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from agent_economy.study.report.formatting import NOTHING, brief, percent, places
+from agent_economy.study.report.formatting import NOTHING, percent, places
 from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.sections import Picture, Section
 from agent_economy.study.report.tables import (
@@ -69,7 +69,7 @@ def table(view: RequirementView) -> Table:
     def row(index: int) -> Row:
         result = view.result(index)
         met = shares(result.met, 1) if result.met else Cell(NOTHING)
-        cells = (Cell(brief(result.cost)), words(result.status), met, Cell(f"{result.runs:,}"))
+        cells = (Cell(f"{result.cost:,.12g}"), words(result.status), met, Cell(f"{result.runs:,}"))
         return Row((words(view.names[index]), *cells), row_style(result.status), index)
 
     shown = dict.fromkeys((*view.shown, *others(view)))
