@@ -12,7 +12,7 @@ from agent_economy.study.answer.saturation import Saturation, saturations
 from agent_economy.study.answer.sensitivity import Sensitivity, sensitivity
 from agent_economy.study.answer.sentence import sentence
 from agent_economy.study.answer.side_statements import Omission, SideStatements
-from agent_economy.study.answer.verdict import Verdict, verdict
+from agent_economy.study.answer.verdict import Verdict, as_html, verdict
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Best
 
@@ -56,6 +56,14 @@ class Answer:
     published: tuple[PublishedResult, ...]
     omissions: tuple[Omission, ...] = ()
     questions: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return the verdict and the number of runs."""
+        return f"Answer({' '.join(self.verdict)!r}, {self.runs:,} runs)"
+
+    def _repr_html_(self) -> str:
+        """Return the verdict for notebooks."""
+        return as_html(self.verdict)
 
     @property
     def runs(self) -> int:

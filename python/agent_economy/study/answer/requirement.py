@@ -14,7 +14,7 @@ from agent_economy.study.answer.requirement_words import (
     requirement_verdict,
     sentence,
 )
-from agent_economy.study.answer.verdict import Verdict
+from agent_economy.study.answer.verdict import Verdict, as_html
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Cheapest
 
@@ -51,6 +51,14 @@ class RequirementAnswer:
     selected: int | None
     results: tuple[RequirementResult, ...]
     questions: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return the verdict and the number of runs."""
+        return f"RequirementAnswer({' '.join(self.verdict)!r}, {self.runs:,} runs)"
+
+    def _repr_html_(self) -> str:
+        """Return the verdict for notebooks."""
+        return as_html(self.verdict)
 
     @property
     def runs(self) -> int:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from html import escape
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer.labels import alternatives, recommendation
@@ -106,3 +107,9 @@ def repeated(questions: int, confidence: float) -> str:
         f"{questions} questions were answered from these runs. Each promise holds by itself; all "
         f"hold together with a probability of at least {together} only."
     )
+
+
+def as_html(verdict: Verdict) -> str:
+    """Return a verdict for notebooks."""
+    first, second, third, fourth = map(escape, verdict)
+    return f"<b>{first}</b><br>{second}<br>{third}<br><small>{fourth}</small>"
