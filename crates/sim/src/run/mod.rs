@@ -6,6 +6,7 @@ mod change;
 pub(crate) mod outcome;
 pub(crate) mod snapshot;
 pub(crate) mod state;
+mod state_hash;
 
 pub use outcome::Outcome;
 pub use snapshot::{Item, Robot};

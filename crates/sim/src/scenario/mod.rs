@@ -6,6 +6,7 @@ mod checks;
 mod reading;
 mod ready;
 mod spec;
+mod world_hash;
 
 pub use checked::Checked;
 pub use ready::Scenario;
