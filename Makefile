@@ -9,7 +9,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 # maturin and the programs that it starts are in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
+.PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection verify-requirement fuzz golden schemas \
 	picture page-pictures bench-page examples replication validation brain-comparison goals web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test clean
 
@@ -108,6 +108,9 @@ bench-store: .venv/released ## Measure a study's store: rows per second, bytes p
 
 verify-selection: ## Verify the guarantee of the race: 20,000 macro-replications per problem
 	cargo run --release --locked -p agent-economy-select --example verify
+
+verify-requirement: ## Verify the promise of requirements: 20,000 macro-replications per problem
+	cargo run --release --locked -p agent-economy-select --example verify_requirement
 
 validation: .venv/installed ## Regenerate docs/validation.md and its charts
 	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation

@@ -15,7 +15,7 @@ from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.sentence import sentence
-from agent_economy.study.selection import Elimination, drive, guarantee_text
+from agent_economy.study.selection import Elimination, drive, guarantee_text, leading
 
 Floats = NDArray[np.float64]
 Values = dict[str, float | str]
@@ -120,7 +120,7 @@ def study(
     if runs is None:
         gone = tuple(Elimination(*each) for each in procedure.eliminations)
         words = guarantee_text(procedure, delta, 0.95, "indifference")
-        ending = Ending(procedure.best, gone, words, is_guaranteed=True)
+        ending = Ending(leading(procedure), gone, words, is_guaranteed=True)
     else:
         best = int(np.argmax([sample.mean("merit") for sample in samples]))
         ending = Ending(

@@ -21,8 +21,9 @@ pub struct BrainSpec {
     #[schemars(range(min = 0.0001, max = 10_000.0))]
     pub rate_hz: Option<f64>,
     /// Whether the speed is limited so that the robot can stop within what its range sensors see to
-    /// be free. It then stops when they see nothing, and can still hit what lies between two
-    /// rays. A robot without a range sensor in its direction of motion is not limited.
+    /// be free. The older the last scan, the slower it drives; without one it stops. It can still
+    /// hit what lies between two rays, or moves. A robot without a range sensor in its direction of
+    /// motion is not limited.
     pub limit_speed_to_stopping_distance: bool,
     /// How one motion results from the behaviours.
     pub arbitration: Arbitration,

@@ -5,7 +5,7 @@ use crate::io::body::{Body, RangeRing, RobotId};
 use crate::io::command::{Command, Motion};
 use crate::io::percept::{Neighbour, Observation, Percept, Reading, Scan};
 use base::geometry::{Point, Segment};
-use base::random::{Entity, Purpose, Stream, stream};
+use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::{sin_cos, wrapped};
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
@@ -75,6 +75,8 @@ pub(crate) struct Wiring {
     pub(crate) scans_apart: usize,
     /// Latency of a scan, in steps.
     pub(crate) latency: usize,
+    /// Probability that a scan is lost.
+    pub(crate) dropout: f64,
     pub(crate) touch: bool,
     pub(crate) compass: bool,
     /// Pose readings, and a measurement without contacts of its first detector in each step.
@@ -102,6 +104,7 @@ pub(crate) struct Walk {
     /// Measured scans with their steps.
     scans: VecDeque<(usize, Vec<f64>)>,
     random: Stream,
+    random_dropouts: Stream,
 }
 
 impl Walk {
@@ -121,6 +124,7 @@ impl Walk {
             steps: 0,
             scans: VecDeque::new(),
             random: stream(1, 0, robot, Purpose::Start),
+            random_dropouts: stream(2, 0, robot, Purpose::Start),
         }
     }
 
@@ -136,7 +140,8 @@ impl Walk {
 
     #[expect(clippy::cast_precision_loss, reason = "few")]
     pub(crate) fn percept(&mut self) -> Percept {
-        if self.steps.is_multiple_of(self.wiring.scans_apart + 1) {
+        let is_due = self.steps.is_multiple_of(self.wiring.scans_apart + 1);
+        if is_due && unit(&mut self.random_dropouts) >= self.wiring.dropout {
             let ring = self.body.rings.first();
             let ranges = ring.map(|ring| self.ranges_m(ring));
             self.scans.extend(ranges.map(|ranges| (self.steps, ranges)));

@@ -75,7 +75,9 @@ mod _core {
     #[pymodule_export]
     use crate::scenario::{missing_files, read_document, read_filled, read_scenario};
     #[pymodule_export]
-    use crate::selection::{Procedure, equal_allocation, mean_bounds, mean_exceeds, selection};
+    use crate::selection::{
+        Procedure, equal_allocation, mean_bounds, mean_exceeds, requirement, selection,
+    };
     #[pymodule_export]
     use crate::simulation::{Simulation, Snapshot};
 

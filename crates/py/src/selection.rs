@@ -4,7 +4,7 @@ use crate::error::InputError;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use select::bounds::{mean_bounds as bounds_of_mean, mean_exceeds as exceeds};
-use select::{Bounds, EqualAllocation, Problem, Race, Strict};
+use select::{Bounds, EqualAllocation, Problem, Race, Requirement, RequirementProblem, Strict};
 use std::sync::{Mutex, PoisonError};
 
 /// Maximum number of configurations of a selection.
@@ -34,18 +34,18 @@ impl Procedure {
         Some((configurations, request.first_run, request.runs))
     }
 
-    /// Records the merits of what `next` requested: shape (configurations, runs).
-    fn record(&self, py: Python, merits: &Bound<PyArray2<f64>>) -> PyResult<()> {
+    /// Records a number for each run that `next` requested: shape (configurations, runs).
+    fn record(&self, py: Python, values: &Bound<PyArray2<f64>>) -> PyResult<()> {
         let request = self.with(|procedure| procedure.next());
         let rows = request.map_or(0, |request| request.configurations.len());
-        let shape = merits.shape();
+        let shape = values.shape();
         if shape[0] != rows || shape[1] == 0 {
-            let message = format!("merits have shape {shape:?}: must be a row for each of {rows}");
+            let message = format!("values have shape {shape:?}: must be a row for each of {rows}");
             return Err(InputError::new_err(message));
         }
         // Copied, so that the procedure can run without holding the interpreter.
-        let merits: Vec<f64> = merits.readonly().as_array().iter().copied().collect();
-        py.detach(|| self.with(|procedure| procedure.record(&merits)));
+        let values: Vec<f64> = values.readonly().as_array().iter().copied().collect();
+        py.detach(|| self.with(|procedure| procedure.record(&values)));
         Ok(())
     }
 
@@ -55,10 +55,16 @@ impl Procedure {
         self.with(|procedure| procedure.exclude(&configurations));
     }
 
-    /// The selected configuration, or the currently leading one.
+    /// The selected configuration, or the currently leading one; None if there is none.
     #[getter]
-    fn best(&self) -> usize {
-        self.with(|procedure| procedure.best())
+    fn selected(&self) -> Option<usize> {
+        self.with(|procedure| procedure.selected())
+    }
+
+    /// Configurations that are shown to meet a requirement, ascending.
+    #[getter]
+    fn certified<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        indices(py, self.with(|procedure| procedure.certified()))
     }
 
     /// Number of runs per configuration.
@@ -75,9 +81,10 @@ impl Procedure {
         indices(py, self.with(|procedure| procedure.survivors()))
     }
 
-    /// The eliminations in order: (configuration, the one that eliminated it, its number of runs).
+    /// The eliminations in order: (configuration, the one that eliminated it if one did, its number of
+    /// runs).
     #[getter]
-    fn eliminations(&self) -> Vec<(usize, usize, u64)> {
+    fn eliminations(&self) -> Vec<(usize, Option<usize>, u64)> {
         let eliminations = self.with(|procedure| procedure.eliminations());
         eliminations
             .into_iter()
@@ -171,6 +178,25 @@ pub(crate) fn mean_exceeds(
     let values = values.readonly().as_array().to_vec();
     let (min, max) = bounds;
     py.detach(|| exceeds(&values, Bounds { min, max }, candidate, alpha))
+}
+
+/// The cheapest configuration that meets a requirement with `probability`; `record` takes 1 for each run
+/// that does, and 0 for each that does not.
+#[pyfunction]
+#[pyo3(signature = (costs, *, probability, tolerance, confidence))]
+pub(crate) fn requirement(
+    costs: &Bound<PyArray1<f64>>,
+    probability: f64,
+    tolerance: f64,
+    confidence: f64,
+) -> Procedure {
+    let procedure = Requirement::new(RequirementProblem {
+        costs: costs.readonly().as_array().to_vec(),
+        probability,
+        tolerance,
+        confidence,
+    });
+    Procedure(Mutex::new(Box::new(procedure)))
 }
 
 /// Equal allocation: `runs` of each configuration, without a guarantee.

@@ -61,15 +61,16 @@ impl Procedure for EqualAllocation {
     }
 
     /// The first of those with the greatest mean.
-    fn best(&self) -> usize {
-        let first = self.configurations.first().copied().unwrap_or_default();
-        self.configurations.iter().fold(first, |best, &each| {
+    fn selected(&self) -> Option<usize> {
+        let mut configurations = self.configurations.iter().copied();
+        let first = configurations.next()?;
+        Some(configurations.fold(first, |best, each| {
             if self.means[each] > self.means[best] {
                 each
             } else {
                 best
             }
-        })
+        }))
     }
 
     fn runs(&self) -> Vec<u64> {
@@ -112,6 +113,6 @@ mod tests {
             equal.record(&merits);
         }
         assert_eq!(equal.runs(), [2_500_000; 3]);
-        assert_eq!(equal.best(), 1);
+        assert_eq!(equal.selected(), Some(1));
     }
 }

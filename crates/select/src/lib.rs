@@ -7,6 +7,8 @@
 //! | evidence that one configuration gathers against another | `betting_test` |
 //! | the default: the best, if it is better than every other by delta | [`race`] |
 //! | the strict one: within delta of the best in every case | [`strict`] |
+//! | the cheapest that meets a requirement | [`requirement`] |
+//! | evidence that a probability is above a limit | `proportion_test` |
 //! | a fixed number of runs per configuration, without a guarantee | [`equal_allocation`] |
 //! | bounds of a mean that are valid at every moment | [`bounds`] |
 
@@ -16,7 +18,9 @@ pub mod equal_allocation;
 pub mod interim_analyses;
 pub mod problem;
 pub mod procedure;
+mod proportion_test;
 pub mod race;
+pub mod requirement;
 mod samples;
 pub mod strict;
 
@@ -24,4 +28,5 @@ pub use equal_allocation::EqualAllocation;
 pub use problem::{Bounds, Problem};
 pub use procedure::{Elimination, Exclude, Procedure, Request};
 pub use race::Race;
+pub use requirement::{Requirement, RequirementProblem};
 pub use strict::Strict;

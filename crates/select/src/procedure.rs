@@ -1,4 +1,4 @@
-//! The interface of selection procedures: they request runs and record their merits.
+//! The interface of selection procedures: they request runs and record a number for each.
 
 /// Runs that a procedure needs next: consecutive runs of some configurations.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,23 +16,24 @@ pub struct Request {
 pub struct Elimination {
     /// Which configuration.
     pub configuration: usize,
-    /// Of the configurations remaining then, the one with the most evidence against it.
-    pub by: usize,
+    /// Of the configurations remaining then, the one with the most evidence against it; `None` if the
+    /// evidence is not of a comparison.
+    pub by: Option<usize>,
     /// How many runs it had by then.
     pub runs: u64,
 }
 
-/// A way to select the best of `k` configurations: compute what `next` requests and pass it to
+/// A way to select one of `k` configurations: compute what `next` requests and pass it to
 /// `record`, until `next` returns `None`.
 pub trait Procedure {
     /// The runs that it needs next; `None` when it has selected.
     fn next(&self) -> Option<Request>;
 
-    /// Records the merits of what `next` requested: a row per configuration.
-    fn record(&mut self, merits: &[f64]);
+    /// Records a number for each run that `next` requested, such as its merit: a row per configuration.
+    fn record(&mut self, values: &[f64]);
 
-    /// The configuration selected, or leading so far.
-    fn best(&self) -> usize;
+    /// The configuration selected, or leading so far; `None` if there is none.
+    fn selected(&self) -> Option<usize>;
 
     /// Number of recorded runs per configuration.
     fn runs(&self) -> Vec<u64>;
@@ -40,13 +41,18 @@ pub trait Procedure {
     /// The configurations that can still be selected, ascending.
     fn survivors(&self) -> Vec<usize>;
 
+    /// Configurations that are shown to meet a requirement, ascending.
+    fn certified(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// The eliminated configurations, in the order of their elimination.
     fn eliminations(&self) -> Vec<Elimination>;
 }
 
 /// A procedure whose first runs may show that some configurations cannot be run.
 pub trait Exclude: Procedure {
-    /// Removes configurations before the first `record`: they are neither requested nor selected. At
-    /// least one configuration must remain.
+    /// Removes configurations before their first `record`: they are neither requested nor selected. Of
+    /// those that are compared, at least one must remain.
     fn exclude(&mut self, configurations: &[usize]);
 }

@@ -113,7 +113,7 @@ impl Race {
             .partition_point(|survivor| *survivor < refuted);
         self.eliminations.push(Elimination {
             configuration: refuted,
-            by: self.strongest_rival(index),
+            by: Some(self.strongest_rival(index)),
             runs: self.samples.runs(refuted) as u64,
         });
         self.survivors.remove(index);
@@ -138,7 +138,7 @@ impl Race {
             .into_iter()
             .rev()
             .max_by(|a, b| evidence(a).total_cmp(&evidence(b)))
-            .unwrap_or_else(|| self.best())
+            .unwrap_or_else(|| self.survivors[0])
     }
 }
 
@@ -156,12 +156,8 @@ impl Procedure for Race {
         self.run(merits);
     }
 
-    fn best(&self) -> usize {
-        self.samples
-            .by_mean(&self.survivors)
-            .first()
-            .copied()
-            .unwrap_or_default()
+    fn selected(&self) -> Option<usize> {
+        self.samples.by_mean(&self.survivors).first().copied()
     }
 
     fn runs(&self) -> Vec<u64> {

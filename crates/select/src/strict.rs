@@ -96,8 +96,8 @@ impl Procedure for Strict {
         }
     }
 
-    fn best(&self) -> usize {
-        self.leader
+    fn selected(&self) -> Option<usize> {
+        Some(self.leader)
     }
 
     fn runs(&self) -> Vec<u64> {
@@ -125,7 +125,7 @@ impl Procedure for Strict {
             .filter(is_refuted)
             .map(|(other, test)| Elimination {
                 configuration: other,
-                by: self.leader,
+                by: Some(self.leader),
                 runs: test.used() as u64,
             })
             .collect();

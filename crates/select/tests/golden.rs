@@ -43,9 +43,15 @@ fn fingerprint(mut procedure: impl Procedure) -> u64 {
     }
     let eliminations = procedure.eliminations().into_iter();
     let mut numbers: Vec<u64> = eliminations
-        .flat_map(|each| [each.configuration as u64, each.by as u64, each.runs])
+        .flat_map(|each| {
+            [
+                each.configuration as u64,
+                each.by.map_or(u64::MAX, |by| by as u64),
+                each.runs,
+            ]
+        })
         .collect();
-    numbers.push(procedure.best() as u64);
+    numbers.push(procedure.selected().map_or(u64::MAX, |each| each as u64));
     numbers.extend(procedure.runs());
     for values in &seen {
         let (low, high) = mean_bounds(values, UNIT, 0.01);

@@ -13,6 +13,7 @@ from rich.text import Text
 
 from agent_economy.cli.run_progress import PAUSE_S, duration
 from agent_economy.study.progress import OnProgress, Progress
+from agent_economy.study.selection import Elimination
 
 ESTIMATE_PERIOD_S = 1.0
 """Time between estimates of the time left."""
@@ -91,10 +92,15 @@ class ProgressDisplay:
             table.add_row(name, f"{leader.runs:,}", f"{leader.merit:.3f}")
         return table
 
+    def _by(self, elimination: Elimination) -> str:
+        """Return which configuration eliminated one, if one did."""
+        by = elimination.by
+        return "" if by is None else f"by {self.names[by]}, "
+
     def _eliminated(self, progress: Progress) -> str:
         """Return the configurations eliminated in a round."""
         words = [
-            f"{self.names[each.configuration]} (by {self.names[each.by]}, {each.runs:,} runs)"
+            f"{self.names[each.configuration]} ({self._by(each)}{each.runs:,} runs)"
             for each in progress.eliminated[:MAX_NAMED]
         ]
         more = len(progress.eliminated) - MAX_NAMED

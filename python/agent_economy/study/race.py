@@ -26,7 +26,14 @@ from agent_economy.study.errors import NoConfigurationError
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
-from agent_economy.study.selection import Elimination, Integers, drive, guarantee_text, within
+from agent_economy.study.selection import (
+    Elimination,
+    Integers,
+    drive,
+    guarantee_text,
+    leading,
+    within,
+)
 from agent_economy.study.store import Store, StoredRuns
 
 REPORTED = ("time_s", "failed", "robots", "price")
@@ -143,7 +150,7 @@ class Race:
         is_over = self._plan.runs is None and procedure.next() is None
         impossible = np.flatnonzero(self._quarantined == self._runs).tolist()
         return Ending(
-            procedure.best,
+            leading(procedure),
             eliminations,
             plan_guarantee(self._plan, procedure, len(impossible)),
             is_over,
@@ -254,7 +261,9 @@ class Race:
             survivors = procedure.survivors.tolist()
             evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
             rivals = len(plan.configurations) - 1
-            missing = remaining_runs(evidence, survivors.index(procedure.best), plan.delta, rivals)
+            missing = remaining_runs(
+                evidence, survivors.index(leading(procedure)), plan.delta, rivals
+            )
         else:
             return None
         return max(0.0, missing - self._store.pending)

@@ -31,10 +31,10 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Elimination:
-    """An elimination: the configuration, the one that eliminated it, and its number of runs."""
+    """An elimination: the configuration, the one that eliminated it if one did, and its runs."""
 
     configuration: int
-    by: int
+    by: int | None
     runs: int
 
 
@@ -147,7 +147,7 @@ def drive(
     Raises:
         NoConfigurationError: If no configuration is left.
     """
-    total = 0
+    total, has_recorded = 0, False
     while request := procedure.next():
         configurations, first_run, runs = request
         total += len(configurations) * runs
@@ -156,12 +156,16 @@ def drive(
         merits, quarantined = sample(configurations, first_run, runs)
         impossible = (quarantined == runs) & (first_run == 0)
         if impossible.all():
+            if has_recorded or len(configurations) < len(procedure.survivors):
+                procedure.exclude(configurations.tolist())
+                continue
             message = f"all of the first {runs} runs of every configuration are quarantined"
             raise NoConfigurationError(message)
         if impossible.any():
             procedure.exclude(configurations[impossible].tolist())
             configurations, merits = configurations[~impossible], merits[~impossible]
         procedure.record(merits)
+        has_recorded = True
         yield Round(configurations, first_run, runs, merits)
 
 
@@ -215,7 +219,7 @@ class Samples:
         lower, upper = np.array(bounds).T
         stopped = procedure.next() is not None
         return Selection(
-            best=procedure.best,
+            best=leading(procedure),
             runs=np.array([len(row) for row in merits]),
             mean=np.array([row.mean() if len(row) else math.nan for row in merits]),
             lower=lower,
@@ -264,6 +268,12 @@ def within(limits: Floats, configurations: Integers, merits: Floats) -> tuple[Fl
         )
         raise InputError(message)
     return np.clip(merits, lowest, highest), bad.sum(axis=1)
+
+
+def leading(procedure: _core.Procedure) -> int:
+    """Return the selected or leading configuration of a procedure that always has one."""
+    selected = procedure.selected
+    return 0 if selected is None else selected
 
 
 def guarantee_text(

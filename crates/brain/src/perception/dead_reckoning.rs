@@ -1,9 +1,11 @@
 //! Dead reckoning: the motion of the body since the previous step, from commands, wheels and
 //! compass.
 
-use crate::io::body::Body;
+use crate::io::body::{Body, RangeRing};
 use crate::io::command::Motion;
 use crate::io::percept::{Percept, Reading};
+use crate::perception::turns::{Headings, Turns};
+use alloc::boxed::Box;
 use base::trig::wrapped;
 use core::f64::consts::TAU;
 
@@ -50,6 +52,8 @@ pub(crate) struct DeadReckoning {
     heading_rad: f32,
     /// Index of the behaviour that decided the command in force, if there is a single one.
     pub(crate) decided_by: Option<u16>,
+    /// Its turns, if a range scan can be older than a step.
+    turns: Option<Box<Turns>>,
 }
 
 impl Default for DeadReckoning {
@@ -62,6 +66,7 @@ impl Default for DeadReckoning {
             straight_s: 0.0,
             heading_rad: f32::NAN,
             decided_by: None,
+            turns: None,
         }
     }
 }
@@ -132,11 +137,20 @@ impl DeadReckoning {
         wheels_m_s(percept, body).unwrap_or(f64::from(self.speed_m_s))
     }
 
-    /// Angle by which the body has turned within the last `age_s`, by its commands.
+    /// Headings of the body within the last `age_s`, by its commands.
     #[inline]
-    pub(crate) fn turned_within_rad(&self, age_s: f64) -> f64 {
-        let turning_s = (age_s - f64::from(self.straight_s)).max(0.0);
-        single(self.turn_rate_rad_s) * turning_s
+    pub(crate) fn headings_within(&self, age_s: f64, body: &Body) -> Headings {
+        let turning_s = age_s - f64::from(self.straight_s);
+        if turning_s <= 0.0 {
+            return Headings::default();
+        }
+        match &self.turns {
+            // The scan is of the last step.
+            None => Headings::turn(single(self.turn_rate_rad_s) * turning_s),
+            Some(turns) => turns
+                .within(age_s)
+                .unwrap_or_else(|| Headings::within(body.max_turn_rate_rad_s * age_s)),
+        }
     }
 
     /// Updates the estimate with a percept, `elapsed_s` after the previous one. Returns the angle by
@@ -148,6 +162,7 @@ impl DeadReckoning {
         reason = "single precision is enough"
     )]
     pub(crate) fn update(&mut self, percept: &Percept, body: &Body, elapsed_s: f64) -> f64 {
+        self.remember_turn(percept, body, elapsed_s);
         self.advance(body, elapsed_s);
         if percept.touch.is_some_and(|touch| touch.value) {
             // A collision has stopped the body, whatever its command.
@@ -172,6 +187,18 @@ impl DeadReckoning {
             turned_rad + TAU * libm::round((rate * elapsed_s - turned_rad) / TAU)
         } else {
             turned_rad
+        }
+    }
+
+    /// Adds the turn since the previous step to the remembered ones, if scans can be older than that.
+    #[inline]
+    fn remember_turn(&mut self, percept: &Percept, body: &Body, elapsed_s: f64) {
+        let rate_rad_s = single(self.commanded_rad_s());
+        if self.turns.is_none() {
+            self.turns = first_turns(percept, body, elapsed_s);
+        }
+        if let Some(turns) = &mut self.turns {
+            turns.add(elapsed_s, rate_rad_s);
         }
     }
 
@@ -225,6 +252,20 @@ impl DeadReckoning {
             self.straight_s = 0.0;
         }
     }
+}
+
+/// The turns to remember from now on; `None` if all scans are of the last step.
+#[inline]
+fn first_turns(percept: &Percept, body: &Body, elapsed_s: f64) -> Option<Box<Turns>> {
+    let max_s = body.period_s * (1.0 + 1e-9);
+    // A scan is replaced one step before it would be a period old.
+    let max_age_s = |ring: &RangeRing| ring.latency_s + ring.period_s - body.period_s;
+    if body.rings.iter().any(|ring| max_age_s(ring) > max_s) {
+        return Some(Box::new(Turns::at_rest()));
+    }
+    let mut ages_s = percept.scans.iter().filter_map(|scan| scan.age_s);
+    // A scan was lost. Earlier turns are unknown.
+    ages_s.any(|age_s| age_s > elapsed_s).then(Box::default)
 }
 
 /// A number in single precision.
@@ -412,10 +453,15 @@ mod tests {
     fn the_time_of_the_most_recent_turn_is_remembered() {
         let (mut odometry, body) = (DeadReckoning::default(), rover());
         odometry.record_command(TURN);
-        assert!((odometry.turned_within_rad(0.3) - 0.3).abs() < 1e-6);
+        let within = |odometry: &DeadReckoning, age_s| {
+            let [low_rad, high_rad] = odometry.headings_within(age_s, &rover()).now_rad;
+            assert!((low_rad - high_rad).abs() < 1e-12);
+            low_rad
+        };
+        assert!((within(&odometry, 0.3) - 0.3).abs() < 1e-6);
         odometry.record_command(Motion::default());
         odometry.update(&Percept::default(), &body, 0.2);
-        assert!((odometry.turned_within_rad(0.3) - 0.1).abs() < 1e-6);
-        assert!(odometry.turned_within_rad(0.1).abs() < 1e-6);
+        assert!((within(&odometry, 0.3) - 0.1).abs() < 1e-6);
+        assert!(within(&odometry, 0.1).abs() < 1e-6);
     }
 }

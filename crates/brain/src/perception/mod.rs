@@ -6,3 +6,4 @@ mod chords;
 pub(crate) mod dead_reckoning;
 pub(crate) mod rays;
 pub(crate) mod sector;
+pub(crate) mod turns;

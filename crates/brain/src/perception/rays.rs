@@ -121,11 +121,24 @@ impl Ring {
     /// Age and ranges of a scan, if it is complete and not expired.
     #[inline]
     pub(crate) fn fresh<'p>(&self, scan: Option<&'p Scan>) -> Option<(f64, &'p [f64])> {
+        self.complete(scan)
+            .filter(|(age_s, _)| self.is_fresh(*age_s))
+    }
+
+    /// Whether a scan of an age is not expired.
+    #[inline]
+    pub(crate) fn is_fresh(&self, age_s: f64) -> bool {
+        age_s <= self.fresh_s
+    }
+
+    /// Age and ranges of a scan, if it is complete; it may be of any age.
+    #[inline]
+    pub(crate) fn complete<'p>(&self, scan: Option<&'p Scan>) -> Option<(f64, &'p [f64])> {
         let scan = scan?;
         let age_s = scan.age_s.filter(|age_s| *age_s >= 0.0)?;
         let age_s = age_s.max(self.latency_s);
         let is_complete = scan.ranges_m.len() == self.bearings_rad.len();
-        (is_complete && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
+        is_complete.then_some((age_s, &scan.ranges_m))
     }
 
     /// All rays, limited to the range of the sensor.

@@ -102,7 +102,7 @@ pub(crate) fn select(case: &dyn Case, right: &[bool], setup: Setup, start: Place
         procedure.record(&merits);
     }
     Outcome {
-        correct: right[procedure.best()],
+        correct: procedure.selected().is_some_and(|selected| right[selected]),
         runs: procedure.runs().iter().sum(),
     }
 }

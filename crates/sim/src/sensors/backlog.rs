@@ -18,7 +18,7 @@ pub(crate) struct Backlog {
 /// A measurement that the next one replaces.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StoredMeasurement {
-    /// `None` before the first measurement, and for a dropout.
+    /// `None` before the first measurement.
     taken: Option<u64>,
     values: Vec<f64>,
 }
@@ -31,18 +31,14 @@ impl Backlog {
         }
     }
 
-    /// Keeps the result of the `measurement`-th measurement of a sensor, if there was one.
-    pub(crate) fn keep(
-        &mut self,
-        sensor: usize,
-        measurement: u64,
-        taken: Option<u64>,
-    ) -> &mut Vec<f64> {
-        let slots = &mut self.kept[sensor];
-        #[expect(clippy::cast_possible_truncation, reason = "below the number of slots")]
-        let slot = (measurement % slots.len() as u64) as usize;
-        slots[slot].taken = taken;
-        &mut slots[slot].values
+    /// The place of the values of a new measurement of a sensor; it replaces the oldest one, which is
+    /// neither in transit nor the newest that has arrived.
+    pub(crate) fn keep(&mut self, sensor: usize, taken: u64) -> Option<&mut Vec<f64>> {
+        let slots = self.kept[sensor].iter_mut();
+        // `None` is less than any other.
+        let oldest = slots.min_by_key(|slot| slot.taken)?;
+        oldest.taken = Some(taken);
+        Some(&mut oldest.values)
     }
 
     /// The newest measurement of a sensor that has arrived by now, and when it was taken.

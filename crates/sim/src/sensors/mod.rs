@@ -35,7 +35,8 @@ pub struct SensorSpec {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub latency_s: f64,
-    /// Probability that a measurement yields nothing at all.
+    /// Probability that a measurement yields nothing at all. The robot keeps the values of the last
+    /// successful one.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub dropout_probability: f64,
@@ -92,14 +93,16 @@ impl Sensor {
         self.detects() || !self.is_immediate()
     }
 
-    /// Whether each measurement is of the step in which the robot has it.
+    /// Whether each measurement is of the step in which the robot has it. After a dropout, the robot
+    /// still has the values of an earlier step.
     pub(crate) fn is_immediate(&self) -> bool {
-        self.latency_steps == 0 && self.schedule.is_every_step()
+        let repeats = self.dropout_probability > 0.0 && !self.detects();
+        self.latency_steps == 0 && self.schedule.is_every_step() && !repeats
     }
 
     /// Whether the robot has a measurement in the step in which it is taken.
     pub(crate) fn delivers_at_once(&self) -> bool {
-        self.latency_steps == 0 && (self.detects() || self.schedule.is_every_step())
+        self.is_immediate() || (self.latency_steps == 0 && self.detects())
     }
 
     /// Whether it detects things, instead of measuring values that the next measurement replaces.

@@ -49,7 +49,7 @@ impl Measurement<'_> {
     #[inline]
     pub(super) fn take(&self, buffers: &mut Buffers, mut destination: Destination) {
         match &self.sensor.measure {
-            Measure::Items(_) | Measure::Robots(_) if self.is_dropped() => {}
+            _ if self.is_dropped() => {}
             Measure::Items(detector) => self.find_items(detector, &mut destination),
             Measure::Robots(detector) => {
                 self.find_robots(detector, &mut buffers.others, &mut destination);
@@ -74,23 +74,19 @@ impl Measurement<'_> {
         probability > 0.0 && share(self.frame.words(NoisePurpose::DropOut, 0)[0]) < probability
     }
 
-    /// Takes a measurement of values; a dropout replaces an older measurement in the backlog.
+    /// Takes a measurement of values, which the next one replaces.
     #[inline]
     fn store_values(&self, buffers: &mut Buffers, destination: Destination) {
-        let is_dropped = self.is_dropped();
-        if !is_dropped {
-            self.measure(buffers);
-        }
+        self.measure(buffers);
+        let values = &mut buffers.values;
         match destination {
-            Destination::Percept { .. } if is_dropped => {}
             Destination::Percept { percept, .. } => {
-                let values = &mut buffers.values;
                 write(percept, &self.sensor.measure, self.ring, 0.0, values);
             }
             Destination::Backlog { backlog, taken, .. } => {
-                let taken = (!is_dropped).then_some(taken);
-                let stored = backlog.keep(self.number, self.frame.measurement, taken);
-                std::mem::swap(stored, &mut buffers.values);
+                if let Some(stored) = backlog.keep(self.number, taken) {
+                    std::mem::swap(stored, values);
+                }
             }
         }
     }

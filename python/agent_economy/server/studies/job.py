@@ -169,7 +169,7 @@ class ProgressReporter:
     def __init__(self, line: Connection) -> None:
         """Begin with nothing reported."""
         self._line = line
-        self._new: list[list[int]] = []
+        self._new: list[list[int | None]] = []
         self._eliminated: set[int] = set()
         self._estimates: dict[str, Any] = {}
         self._report_at_s = self._estimate_at_s = 0.0

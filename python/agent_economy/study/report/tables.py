@@ -186,7 +186,7 @@ def history(view: View) -> Table:
         yield Cell(f"{view.result(index).runs:,}")
         if out:
             yield words(f"eliminated after {out.runs:,} runs")
-            yield words(view.names[out.by])
+            yield words(NOTHING if out.by is None else view.names[out.by])
         else:
             yield words(state(view, index))
             yield words(NOTHING)

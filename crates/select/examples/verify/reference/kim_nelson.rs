@@ -76,7 +76,7 @@ impl KimNelson {
             self.survivors.retain(|&each| each != configuration);
             self.eliminations.push(Elimination {
                 configuration,
-                by,
+                by: Some(by),
                 runs: self.runs[configuration],
             });
         }
@@ -136,7 +136,7 @@ impl Procedure for KimNelson {
     }
 
     /// The survivor with the greatest mean; the first of equals.
-    fn best(&self) -> usize {
+    fn selected(&self) -> Option<usize> {
         let ahead = |best: usize, each: usize| {
             if self.sums[each] > self.sums[best] {
                 each
@@ -145,7 +145,7 @@ impl Procedure for KimNelson {
             }
         };
         let all = self.survivors.iter().copied();
-        all.reduce(ahead).unwrap_or_default()
+        all.reduce(ahead)
     }
 
     fn runs(&self) -> Vec<u64> {
@@ -181,21 +181,24 @@ mod tests {
     #[test]
     fn merits_without_noise_are_decided_after_the_first_stage() {
         let procedure = decide(|configuration, _| [1.0, 3.0, 2.0][configuration], 3);
-        assert_eq!(procedure.best(), 1);
+        assert_eq!(procedure.selected(), Some(1));
         assert_eq!(procedure.runs(), [10; 3]);
         assert_eq!(procedure.eliminations().len(), 2);
     }
 
     #[test]
     fn equals_without_noise_end_with_the_first() {
-        assert_eq!(decide(|_, _| 1.0, 4).best(), 0);
+        assert_eq!(decide(|_, _| 1.0, 4).selected(), Some(0));
     }
 
     #[test]
     fn noise_that_configurations_share_costs_no_runs() {
         let noise = |run: u64| [0.0, 5.0, 1.0, 4.0][usize::try_from(run % 4).unwrap()];
         let procedure = decide(|each, run| [0.2, 0.1][each] + noise(run), 2);
-        assert_eq!((procedure.best(), procedure.runs()), (0, vec![10, 10]));
+        assert_eq!(
+            (procedure.selected(), procedure.runs()),
+            (Some(0), vec![10, 10])
+        );
     }
 
     #[test]

@@ -87,8 +87,8 @@ impl Procedure for Rinott {
         }
     }
 
-    fn best(&self) -> usize {
-        self.tally.best()
+    fn selected(&self) -> Option<usize> {
+        Some(self.tally.best())
     }
 
     fn runs(&self) -> Vec<u64> {

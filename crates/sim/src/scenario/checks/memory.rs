@@ -134,7 +134,8 @@ struct MeasurementCounts {
 impl MeasurementCounts {
     /// Of a sensor of which the newest measurement replaces the others.
     fn bytes_kept(&self, values: f64, sensor: &SensorSpec) -> f64 {
-        if sensor.latency_s == 0.0 && sensor.rate_hz.is_none() {
+        let never_waits = sensor.latency_s == 0.0 && sensor.dropout_probability == 0.0;
+        if never_waits && sensor.rate_hz.is_none() {
             return values * VALUE_BYTES;
         }
         let list_bytes = LIST_BYTES + values.max(MIN_VALUES) * VALUE_BYTES;

@@ -149,9 +149,9 @@ fn measurements_drop_out_with_the_configured_probability() {
     let all = standing(&room(&sensors, more), 20_000);
     let count = |has: &dyn Fn(&Percept) -> bool| all.iter().filter(|percept| has(percept)).count();
     let has: [&dyn Fn(&Percept) -> bool; 5] = [
-        &|percept| percept.heading_rad.is_some(),
-        &|percept| percept.position.is_some(),
-        &|percept| percept.scans[0].age_s.is_some(),
+        &|percept| percept.heading_rad.is_some_and(|read| read.age_s == 0.0),
+        &|percept| percept.position.is_some_and(|read| read.age_s == 0.0),
+        &|percept| percept.scans[0].age_s == Some(0.0),
         &|percept| percept.contacts.len() == 1,
         &|percept| percept.neighbours.len() == 1,
     ];
@@ -164,7 +164,7 @@ fn measurements_drop_out_with_the_configured_probability() {
 }
 
 #[test]
-fn a_dropped_measurement_keeps_the_previous_value() {
+fn a_dropped_measurement_keeps_the_previous_value_however_many_follow() {
     let sensors = sensor(
         "gps",
         "kind = \"position\"\nrate_hz = 2\ndropout_probability = 0.5",
@@ -178,8 +178,36 @@ fn a_dropped_measurement_keeps_the_previous_value() {
         .clone()
         .filter(|percept| percept.position.is_some_and(|read| read.age_s == 0.0));
     assert_share(fresh.count(), steps.count(), 0.5);
-    assert!(ages.clone().all(|age_s| age_s < 3.0 / 2.0 + 1e-9));
-    assert!(ages.filter(|age_s| *age_s > 0.5).count() > 500);
+    // From the first value on. Of all steps, a share 0.5^n is at least n periods after the last value.
+    assert!(ages.clone().count() > 3900);
+    for (periods, share) in [(1, 0.5), (2, 0.25), (4, 0.0625)] {
+        let after_s = 0.5 * f64::from(periods) - 1e-9;
+        let older = ages.clone().filter(|age_s| *age_s >= after_s).count();
+        let off = older as f64 / ages.clone().count() as f64 - share;
+        assert!(off.abs() < 0.05, "{periods} periods: {off}");
+    }
+}
+
+#[test]
+fn a_late_measurement_arrives_although_others_drop_out() {
+    for rate in ["", "rate_hz = 4"] {
+        let timing =
+            format!("kind = \"position\"\nlatency_s = 0.7\ndropout_probability = 0.6\n{rate}");
+        let all = standing(&room(&sensor("gps", &timing), ""), 4000);
+        let ages: Vec<f64> = all
+            .iter()
+            .filter_map(|percept| percept.position.map(|read| read.age_s))
+            .collect();
+        assert!(ages.len() > 3900 && ages.iter().all(|age_s| *age_s > 0.7 - 1e-9));
+        // Once it has arrived, a value grows older until the next one arrives, and is never lost.
+        for pair in ages.windows(2) {
+            let grown_s = pair[1] - pair[0];
+            assert!(
+                (grown_s - STEP_S).abs() < 1e-9 || grown_s < 1e-9,
+                "{pair:?}"
+            );
+        }
+    }
 }
 
 #[test]
