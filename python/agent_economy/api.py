@@ -80,7 +80,8 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
         found), `complete` (whether all targets were found), the other columns of the engine, and
         `merit`. The metric engine has `robots`, `price`, `found` and `missed` (of the targets),
         `false_alarms`, `collisions`, `energy_j` (null if no robot has a battery), `distance_m`,
-        `robots_stopped`, and `found_KIND` and `missed_KIND` for each item kind. Counts are int64,
+        `robots_stopped`, for each item kind `found_KIND` and `missed_KIND`, and `found_KIND_1_s`,
+        `found_KIND_2_s` and so on: the times of its first finds, at most 64. Counts are int64,
         `complete` is a bool. In a quarantined run (see `Outcome.status`), all columns but `run` are
         null; a time of something that never happened is null.
 
