@@ -110,7 +110,7 @@ verify-selection: ## Verify the guarantee of the race: 20,000 macro-replications
 	cargo run --release --locked -p agent-economy-select --example verify
 
 verify-requirement: ## Verify the promise of requirements: 20,000 macro-replications per problem
-	cargo run --release --locked -p agent-economy-select --example verify_requirement
+	cargo run --release --locked -p agent-economy-select --example verify -- requirement
 
 validation: .venv/installed ## Regenerate docs/validation.md and its charts
 	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation

@@ -27,6 +27,7 @@ from plots import Z95, Axes, Row, Spec, line, page_of, panel, points, side_by_si
 
 import agent_economy as ae
 from agent_economy.study import select_best
+from agent_economy.study.answer.any_answer import expect_best
 
 PAGE = Page("brain-comparison")
 
@@ -171,7 +172,7 @@ def step(name: str, robots: int, given: dict[SearchBrain, dict[int, Runs]]) -> S
 def answered(brain: SearchBrain, seed: int) -> Answered:
     """Return how many robots with a brain to send."""
     print(f"{brain.name} {brain.radio}: study {seed}", flush=True)
-    answer = ae.study.run(brain.scenario, seed=seed, delta=STUDY_DELTA)
+    answer = expect_best(ae.study.run(brain.scenario, seed=seed, delta=STUDY_DELTA))
     best = answer.results[answer.best]
     return Answered(
         brain=brain.name,

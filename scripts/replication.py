@@ -20,6 +20,7 @@ from scipy import stats
 import agent_economy as ae
 from agent_economy._core import CONTACTS
 from agent_economy.study.answer import published as theirs
+from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.race import run_race
 
@@ -239,7 +240,8 @@ def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
 def studied(scenario: ae.Scenario) -> tuple[ae.study.Answer, Evidence]:
     """Return the answer from a number of runs per team."""
     with tempfile.TemporaryDirectory() as folder:
-        return run_race(ae.study.make_plan(scenario, runs=RUNS), Path(folder))
+        answer, evidence = run_race(ae.study.make_plan(scenario, runs=RUNS), Path(folder))
+        return expect_best(answer), evidence
 
 
 def size(team: ae.study.Result) -> int:

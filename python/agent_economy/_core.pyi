@@ -52,6 +52,7 @@ __all__ = [
     "recorded_setting",
     "refusal",
     "replicate",
+    "requirement",
     "run_block",
     "run_one",
     "scenario_warnings",

@@ -25,7 +25,7 @@ def recording(**arguments: Any) -> ae.Recording:
     return ae.Recording(**given | arguments)
 
 
-def answer(**arguments: Any) -> study.Answer:
+def answer(**arguments: Any) -> study.AnyAnswer:
     given: dict[str, Any] = {"scenario": loads(), "delta": 2.0}
     return study.run(**given | arguments)
 

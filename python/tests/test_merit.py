@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from agent_economy import InputError, Scenario, study
 from agent_economy.scenario.merit import Merit, Term
+from agent_economy.study.answer.any_answer import expect_best
 
 numbers = st.floats(-1e9, 1e9)
 
@@ -97,7 +98,7 @@ def test_a_study_scores_with_weights_of_any_column(classic_toml: Path, tmp_path:
     weights = {"collisions": -1, "paints": {"weight": -1, "max": 9}}
     scenario = Scenario.load(classic_toml).replace("merit", weights)
     team = {"robots.wanderer.count": [2, 3]}
-    answer = study.run(scenario, vary=team, runs=50, out=tmp_path)
+    answer = expect_best(study.run(scenario, vary=team, runs=50, out=tmp_path))
     expected = "avg(-collisions - least(coalesce(paints, 9), 9))"
     means = study.open(tmp_path).runs().aggregate(f"configuration, {expected}").fetchall()
     for configuration, mean in means:

@@ -24,6 +24,7 @@ from agent_economy.server import Workspace, app
 from agent_economy.server.studies import job
 from agent_economy.server.studies.factors import factors
 from agent_economy.study import report
+from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
 from agent_economy.study.report import View
 
@@ -139,7 +140,8 @@ def test_a_page_that_connects_late_gets_the_current_progress(answered: Folder) -
 
 
 def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Folder) -> None:
-    found, evidence = study.load_answer(answered.path / "studies" / "classic")
+    loaded, evidence = study.load_answer(answered.path / "studies" / "classic")
+    found = expect_best(loaded)
     shown = answered.get("/api/study", id="studies/classic")["answer"]
     sections = list(report.sections(View(found, evidence)))
     assert [each["title"] for each in shown["sections"]] == [each.heading for each in sections]

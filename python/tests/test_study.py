@@ -13,7 +13,9 @@ import agent_economy as ae
 from agent_economy import InputError, Scenario, study
 from agent_economy.build import own_build
 from agent_economy.study import files, race
+from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.chunks import MIN_ROWS, in_chunks
+from agent_economy.study.question import Best
 from agent_economy.study.run_block import RunBlock
 
 TEAM = "robots.wanderer.count"
@@ -26,7 +28,7 @@ def scenario(classic_toml: Path) -> Scenario:
 
 
 def test_forty_teams_are_decided_in_a_few_thousand_runs(scenario: Scenario) -> None:
-    answer = study.run(scenario, vary={TEAM: ["1..40"]}, delta=0.1)
+    answer = expect_best(study.run(scenario, vary={TEAM: ["1..40"]}, delta=0.1))
     assert answer.results[answer.best].values[TEAM] in {4, 5}
     assert answer.runs < 8000
     assert "with 95% confidence" in answer.guarantee
@@ -35,10 +37,12 @@ def test_forty_teams_are_decided_in_a_few_thousand_runs(scenario: Scenario) -> N
 
 def test_the_default_delta_is_two_percent_of_the_range_of_merits(scenario: Scenario) -> None:
     plan = study.make_plan(scenario.replace("study.delta", 0.3))
-    assert plan.delta == 0.3
+    assert plan.question == Best(0.3, "indifference")
     text = scenario.source.text.replace("delta = 0.01", "")
     # From -0.2 (one robot, immediately) to -10.2 (eight robots, 120 s, failed).
-    assert study.make_plan(Scenario.loads(text)).delta == pytest.approx(0.02 * 10)
+    question = study.make_plan(Scenario.loads(text)).question
+    assert isinstance(question, Best)
+    assert question.delta == pytest.approx(0.02 * 10)
 
 
 def test_the_same_question_again_computes_nothing(scenario: Scenario, tmp_path: Path) -> None:
@@ -92,7 +96,7 @@ def test_another_merit_uses_the_stored_runs(scenario: Scenario, tmp_path: Path) 
     study.run(scenario, delta=0.1, out=tmp_path)
     seen: list[study.Progress] = []
     scenario = scenario.replace("merit", {"time": -0.03, "robots": -0.2, "failed": -4})
-    other = study.run(scenario, delta=0.4, out=tmp_path, on_progress=seen.append)
+    other = expect_best(study.run(scenario, delta=0.4, out=tmp_path, on_progress=seen.append))
     assert seen[-1].computed == 0
     assert other.results[0].merit.value > -4.5
 
@@ -100,7 +104,7 @@ def test_another_merit_uses_the_stored_runs(scenario: Scenario, tmp_path: Path) 
 def test_the_strict_guarantee_can_be_selected_and_is_stated(
     scenario: Scenario, tmp_path: Path
 ) -> None:
-    answer = study.run(scenario, delta=0.2, guarantee="pgs", out=tmp_path)
+    answer = expect_best(study.run(scenario, delta=0.2, guarantee="pgs", out=tmp_path))
     assert answer.guarantee == (
         "The selected configuration is within 0.2 of the best with 95% confidence."
     )
@@ -110,7 +114,7 @@ def test_the_strict_guarantee_can_be_selected_and_is_stated(
 def test_a_study_that_reaches_its_budget_has_no_guarantee(
     scenario: Scenario, tmp_path: Path
 ) -> None:
-    answer = study.run(scenario, delta=0.001, max_runs=900, out=tmp_path)
+    answer = expect_best(study.run(scenario, delta=0.001, max_runs=900, out=tmp_path))
     assert answer.runs <= 900
     assert not answer.is_guaranteed
     assert answer.guarantee.startswith("No guarantee")
@@ -193,7 +197,7 @@ def test_invalid_questions_are_named(
 
 
 def test_the_runs_can_be_queried_in_sql(scenario: Scenario, tmp_path: Path) -> None:
-    answer = study.run(scenario, delta=0.3, out=tmp_path)
+    answer = expect_best(study.run(scenario, delta=0.3, out=tmp_path))
     runs = study.open(tmp_path).runs()
     assert runs.count("*").fetchall() == [(answer.runs,)]
     means = runs.aggregate("configuration, avg(time_s) AS s").order("configuration").fetchall()
@@ -223,7 +227,7 @@ def test_an_answer_contains_no_time_path_host_or_thread_count(
 
 
 def test_a_single_configuration_has_no_comparisons(scenario: Scenario) -> None:
-    answer = study.run(scenario, vary={TEAM: [4]}, runs=50)
+    answer = expect_best(study.run(scenario, vary={TEAM: [4]}, runs=50))
     assert answer.best == 0
     assert answer.results[0].standing.verdict == "best"
     assert answer.results[0].standing.behind is None
@@ -235,7 +239,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
         "contact": ["touch", "ahead", "within-2"],
         "clock.time_limit_s": [60, 120],
     }
-    answer = study.run(scenario, vary=vary, delta=0.5)
+    answer = expect_best(study.run(scenario, vary=vary, delta=0.5))
     assert len(answer.results) == 36
     assert answer.sensitivity is not None
     assert answer.omissions == ()
@@ -248,7 +252,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
 
 def test_space_filling_points_are_compared(scenario: Scenario) -> None:
     vary = {TEAM: ["1..20"], "clock.paints_per_s": ["41.0..57.0"]}
-    answer = study.run(scenario, vary=vary, design="lhs:40", delta=0.5)
+    answer = expect_best(study.run(scenario, vary=vary, design="lhs:40", delta=0.5))
     assert 30 < len(answer.results) <= 40
     rates = [result.values["clock.paints_per_s"] for result in answer.results]
     assert len(set(rates)) > 30
@@ -256,7 +260,7 @@ def test_space_filling_points_are_compared(scenario: Scenario) -> None:
 
 def test_merit_weights_decide_the_answer(scenario: Scenario) -> None:
     def best(merit: dict[str, Any]) -> object:
-        answer = study.run(scenario.replace("merit", merit), delta=0.2)
+        answer = expect_best(study.run(scenario.replace("merit", merit), delta=0.2))
         return answer.results[answer.best].values[TEAM]
 
     assert best({"robots": -1}) == 1
@@ -276,7 +280,7 @@ def test_a_quarantined_run_counts_as_the_worst_and_is_reported(
                     values[row] = float("nan")
         return columns
 
-    answer = study.run_plan(plan, tmp_path, compute=compute)
+    answer = expect_best(study.run_plan(plan, tmp_path, compute=compute))
     four = answer.results[1]
     assert answer.best != 1
     assert four.quarantined == four.runs > 0
@@ -287,7 +291,7 @@ def test_a_quarantined_run_counts_as_the_worst_and_is_reported(
 
 def test_the_last_ranges_of_the_progress_are_those_of_the_answer(scenario: Scenario) -> None:
     seen: list[study.Progress] = []
-    answer = study.run(scenario, delta=0.5, on_progress=seen.append)
+    answer = expect_best(study.run(scenario, delta=0.5, on_progress=seen.append))
     ranged = seen[-1].intervals()
     assert len(ranged) == seen[-1].survivors
     for leader, merit in ranged:
@@ -306,7 +310,7 @@ def test_a_long_round_reports_its_progress(monkeypatch: pytest.MonkeyPatch) -> N
 
     search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2"}
-    answer = study.run(search, vary=vary, runs=60, on_progress=look)
+    answer = expect_best(study.run(search, vary=vary, runs=60, on_progress=look))
     assert [each.round for each in seen] == [0] * (len(seen) - 1) + [1]
     assert len(seen) > 1
     runs = [each.runs for each in seen]
@@ -348,7 +352,7 @@ def written(folder: Path) -> dict[Path, int]:
 def test_loading_the_answer_of_a_finished_study_writes_nothing(
     scenario: Scenario, tmp_path: Path
 ) -> None:
-    answer = study.run(scenario, delta=0.5, out=tmp_path)
+    answer = expect_best(study.run(scenario, delta=0.5, out=tmp_path))
     before = written(tmp_path)
     found, evidence = study.load_answer(tmp_path)
     assert files.as_json(found) == files.as_json(answer)

@@ -7,6 +7,7 @@ import command_line
 import pytest
 
 from agent_economy import InputError, Scenario, study
+from agent_economy.study.answer.any_answer import expect_best
 
 TEAM = "robots.rover.count"
 
@@ -68,7 +69,7 @@ def test_a_study_of_teams_without_room_has_no_answer(strip: Path) -> None:
 
 
 def test_the_only_team_with_room_is_selected(strip: Path) -> None:
-    answer = study.run(Scenario.load(strip), vary={TEAM: [150, 1]})
+    answer = expect_best(study.run(Scenario.load(strip), vary={TEAM: [150, 1]}))
     assert answer.results[answer.best].values[TEAM] == 1
     assert answer.guarantee.startswith("Only one configuration can be run")
     assert answer.runs == 20
@@ -82,28 +83,28 @@ def test_a_design_whose_influences_are_undefined_is_answered(
         "robots.wanderer.count": range(1, rows + 1),
         "clock.time_limit_s": [60 + 20 * step for step in range(columns)],
     }
-    answer = study.run(Scenario.load("classic"), vary=vary, delta=0.8, out=tmp_path)
+    answer = expect_best(study.run(Scenario.load("classic"), vary=vary, delta=0.8, out=tmp_path))
     assert answer.is_guaranteed
     assert answer.sensitivity is None
     (omission,) = answer.omissions
     text = (tmp_path / "answer.json").read_text()
     assert json.loads(text, parse_constant=pytest.fail)["omissions"][0]["reason"] == omission.reason
     assert "Left out" in (tmp_path / "report.html").read_text()
-    assert study.rebuild(tmp_path).omissions == answer.omissions
+    assert expect_best(study.rebuild(tmp_path)).omissions == answer.omissions
 
 
 def test_the_answer_names_the_price_of_the_team(strip: Path) -> None:
     scenario = Scenario.load(strip)
     assert "price" not in study.run(scenario, vary={TEAM: [1, 2]}).sentence
     priced = scenario.replace("robots.rover.price", 12500.25)
-    answer = study.run(priced, vary={TEAM: [1, 2]}, out=strip.parent / "priced")
+    answer = expect_best(study.run(priced, vary={TEAM: [1, 2]}, out=strip.parent / "priced"))
     assert answer.sentence.startswith("Send 2 rovers. The price of the team is 25,000.5. A run")
     assert [result.place.price for result in answer.results] == [12500.25, 25000.5]
 
 
 def test_a_merit_of_nothing_is_zero_without_a_sign(strip: Path) -> None:
     scenario = Scenario.load(strip).replace("merit", {"price": -1})
-    answer = study.run(scenario, vary={TEAM: [1, 2]}, out=strip.parent / "zero")
+    answer = expect_best(study.run(scenario, vary={TEAM: [1, 2]}, out=strip.parent / "zero"))
     assert "the figure of merit is 0.00 (0.00 to 0.00)" in answer.sentence
     assert "-0.0" not in (strip.parent / "zero/answer.json").read_text()
 

@@ -76,7 +76,7 @@ pub(crate) struct Wiring {
     /// Latency of a scan, in steps.
     pub(crate) latency: usize,
     /// Probability that a scan is lost.
-    pub(crate) dropout: f64,
+    pub(crate) lost_share: f64,
     pub(crate) touch: bool,
     pub(crate) compass: bool,
     /// Pose readings, and a measurement without contacts of its first detector in each step.
@@ -141,7 +141,7 @@ impl Walk {
     #[expect(clippy::cast_precision_loss, reason = "few")]
     pub(crate) fn percept(&mut self) -> Percept {
         let is_due = self.steps.is_multiple_of(self.wiring.scans_apart + 1);
-        if is_due && unit(&mut self.random_dropouts) >= self.wiring.dropout {
+        if is_due && unit(&mut self.random_dropouts) >= self.wiring.lost_share {
             let ring = self.body.rings.first();
             let ranges = ring.map(|ring| self.ranges_m(ring));
             self.scans.extend(ranges.map(|ranges| (self.steps, ranges)));

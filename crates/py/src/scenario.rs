@@ -5,7 +5,7 @@ use crate::engines::ENGINES;
 use crate::error::input_error;
 use base::document::{Document, Node, Override, Table, Value};
 use base::error::{InputError, InputErrors};
-use base::scenario::{Factor, Merit, Published, Scenario, Values};
+use base::scenario::{Factor, Merit, Published, Requirement, Scenario, Values};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
@@ -203,7 +203,33 @@ fn as_dict<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyD
     dict.set_item("design", study.design.to_string())?;
     dict.set_item("delta", study.delta)?;
     dict.set_item("confidence", study.confidence)?;
+    dict.set_item("cost", &study.minimize)?;
+    dict.set_item("where", study.filter.as_ref())?;
+    let requirement = scenario.requirement.as_ref();
+    let requirement = requirement.map(|requirement| requirement_dict(py, scenario, requirement));
+    dict.set_item("requirement", requirement.transpose()?)?;
     dict.set_item("published", published.transpose()?)?;
+    Ok(dict)
+}
+
+/// `conditions` are (text, column, operator, number).
+fn requirement_dict<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    requirement: &Requirement,
+) -> PyResult<Bound<'py, PyDict>> {
+    let columns = scenario.configuration.runner.columns();
+    let conditions = requirement.conditions.iter().map(|(text, condition)| {
+        let column = columns
+            .get(condition.place)
+            .map(|column| column.name.to_string());
+        let operator = condition.operator.to_string();
+        (text.clone(), column, operator, condition.number)
+    });
+    let dict = PyDict::new(py);
+    dict.set_item("conditions", conditions.collect::<Vec<_>>())?;
+    dict.set_item("probability", requirement.probability)?;
+    dict.set_item("tolerance", requirement.tolerance)?;
     Ok(dict)
 }
 

@@ -73,7 +73,7 @@ pub struct Requirement {
     /// By exchanging successes and failures, a test against a high probability.
     refute: ProportionTest,
     refuted_at: f64,
-    /// Runs of each configuration that met the requirement, and that did not.
+    /// By configuration, the number of runs that met the requirement, and of those that did not.
     met: Vec<u64>,
     missed: Vec<u64>,
     statuses: Vec<Status>,

@@ -29,7 +29,7 @@ def requirement_table(answer: RequirementAnswer, *, ranges: bool) -> Table:
         box=box.SIMPLE_HEAD,
     )
     table.add_column("configuration", overflow="fold", min_width=NAME)
-    for name in (answer.minimize, "runs", "met", "most frequent failure", ""):
+    for name in (answer.cost, "runs", "met", "most frequent failure", ""):
         table.add_column(name, justify="right", no_wrap=name != "most frequent failure")
     for result in shown:
         table.add_row(

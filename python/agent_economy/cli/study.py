@@ -103,8 +103,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         list[str] | None,
         typer.Option(
             metavar="CONDITION",
-            help="What a mission must meet, such as 'time_s <= 1200'; may be repeated. The study then "
-            "selects the cheapest team that meets all.",
+            help="What a mission must meet, such as 'time_s <= 1200'; may be repeated. The study "
+            "then selects the cheapest team that meets all.",
             show_default="the scenario's",
             rich_help_panel=QUESTION,
         ),
@@ -112,7 +112,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     minimize: Annotated[
         str | None,
         typer.Option(
-            help="With a requirement, what is minimized: robots, price, or an expression of team "
+            help="With a requirement, what is minimised: robots, price, or an expression of team "
             "sizes, such as rover_a + 2 * rover_b.",
             show_default="the scenario's, or robots",
             rich_help_panel=QUESTION,
@@ -156,8 +156,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     tolerance: Annotated[
         float | None,
         typer.Option(
-            help="With a requirement, the share above --probability that is not told apart from it.",
-            show_default="the scenario's, or 0.02",
+            help="With a requirement, the share above --probability that need not be found.",
+            show_default="the scenario's, or 40% of 1 - probability",
             rich_help_panel=PRECISION,
         ),
     ] = None,

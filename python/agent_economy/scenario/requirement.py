@@ -1,7 +1,7 @@
 """What a mission must meet, and in which share of missions."""
 
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,6 +49,24 @@ class Condition:
         if self.column == "time_s":
             values = np.where(columns["failed"] > 0, np.inf, values)
         return COMPARISONS[self.comparison](values, self.value) & ~np.isnan(values)
+
+    def triviality(self, limits: Sequence[tuple[float, float]]) -> str:
+        """Return why it always or never holds, given the range of its column in each configuration.
+
+        It is empty if the condition can hold and can fail. The time of success can be infinite.
+        """
+        ends = np.array(limits, dtype=np.float64)
+        if self.column == "time_s":
+            ends[:, 1] = np.inf
+        low, high = float(ends[:, 0].min()), float(ends[:, 1].max())
+        compare = COMPARISONS[self.comparison]
+        at_ends = compare(np.array([low, high]), self.value)
+        # Between two ends at which they are the same, only equality may differ.
+        is_inside = self.comparison in {"==", "!="} and low <= self.value <= high
+        if (is_inside and low < high) or at_ends[0] != at_ends[1]:
+            return ""
+        verb = "always" if at_ends[0] else "never"
+        return f"{verb} holds, because {self.column} is from {low:g} to {high:g}"
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,7 @@ class Scenario:
         confidence: Probability with which the answer is right: from 0.5 to below 1.
         requirement: What a mission must meet, and in which share of missions; None if the file has
             no requirement.
-        minimize: What a study with a requirement minimizes, as an expression.
+        cost: What a study with a requirement minimises: the cost of a team, as an expression.
         where: Which combinations of values a study compares, as an expression; None for all.
         published: Results from the literature, if the file has them.
     """
@@ -95,7 +95,7 @@ class Scenario:
     delta: float | None
     confidence: float
     requirement: Requirement | None
-    minimize: str
+    cost: str
     where: str | None
     published: Published | None
 

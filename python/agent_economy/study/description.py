@@ -20,7 +20,7 @@ class Description:
     Attributes:
         design: As in `Scenario.design`.
         configurations: Number of configurations.
-        question: What is asked of them, in words.
+        question: The question in words.
         confidence: Confidence of the answer.
         delta: Indifference zone; None if the question has none.
         runs: Fixed number of runs per configuration; None to stop when the answer is settled.
@@ -49,10 +49,8 @@ class Description:
 
     def __str__(self) -> str:
         """Return it in one line."""
-        asked = (
-            f"{self.runs:,} runs per configuration" if self.runs is not None else self.question
-        )
-        return f"{design.describe(self.design, self.configurations)}; {asked}"
+        wanted = f"{self.runs:,} runs per configuration" if self.runs is not None else self.question
+        return f"{design.describe(self.design, self.configurations)}; {wanted}"
 
 
 def in_words(question: Mapping[str, Any]) -> str:
@@ -60,7 +58,7 @@ def in_words(question: Mapping[str, Any]) -> str:
     confidence = f"confidence {question['confidence']:g}"
     if "delta" in question:
         return f"delta {question['delta']:g}, {confidence}, {question['guarantee']}"
-    return f"least {question['minimize']} with {question['requirement']}; {confidence}"
+    return f"least {question['cost']} with {question['requirement']}; {confidence}"
 
 
 def usual_folder(plan: Plan, below: Path = Path()) -> Path:

@@ -1,7 +1,7 @@
 """Arithmetic on the robots of a team, as `minimize` and `where` of a study contain it.
 
-Names are kinds of robots, which are their numbers, `robots`, the number of all, and `price`. There are
-numbers, + - * /, comparisons, `and`, `or`, `not` and parentheses, as in Python.
+Names are kinds of robots, which are their numbers, `robots`, the number of all, and `price`. There
+are numbers, + - * /, comparisons, `and`, `or`, `not` and parentheses, as in Python.
 """
 
 import ast
@@ -30,6 +30,9 @@ MAX_LENGTH = 1000
 """Maximum number of characters of an expression."""
 
 ALLOWED = "numbers, kinds of robots, robots, price, + - * / and comparisons, and, or, not"
+MUST_BE = f"must be an expression of {ALLOWED}"
+TOO_LONG = f"must have at most {MAX_LENGTH} characters"
+NOT_FINITE = "must not divide by zero or overflow for any team"
 
 
 class Expression:
@@ -45,9 +48,9 @@ class Expression:
         try:
             self._tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError, MemoryError):
-            raise self._refused(f"must be an expression of {ALLOWED}") from None
+            raise self.error(MUST_BE) from None
         if len(text) > MAX_LENGTH:
-            raise self._refused(f"must have at most {MAX_LENGTH} characters")
+            raise self.error(TOO_LONG)
         self._check(self._tree)
 
     @property
@@ -64,7 +67,7 @@ class Expression:
         try:
             return float(evaluate(self._tree, values))
         except (ZeroDivisionError, OverflowError):
-            raise self._refused("must not divide by zero or overflow for any team") from None
+            raise self.error(NOT_FINITE) from None
 
     def _check(self, node: ast.expr) -> None:
         match node:
@@ -84,7 +87,8 @@ class Expression:
                 self._check_all(left, *others)
             case _:
                 piece = ast.get_source_segment(self._text.strip(), node) or self._text
-                raise self._refused(f"{piece!r} is not allowed: must be of {ALLOWED}")
+                why = f"{piece!r} is not allowed: must be of {ALLOWED}"
+                raise self.error(why)
 
     def _check_all(self, *nodes: ast.expr) -> None:
         for node in nodes:
@@ -94,11 +98,12 @@ class Expression:
         if name not in self._names:
             close = get_close_matches(name, self._names, 1)
             suggestion = f"; did you mean {close[0]!r}?" if close else ""
-            raise self._refused(
-                f"{name!r} is unknown: must be one of {', '.join(self._names)}{suggestion}"
-            )
+            known = ", ".join(self._names)
+            why = f"{name!r} is unknown: must be one of {known}{suggestion}"
+            raise self.error(why)
 
-    def _refused(self, why: str) -> InputError:
+    def error(self, why: str) -> InputError:
+        """Return the error that the expression is wrong, with the reason."""
         return InputError(f"{self._path} = {self._text!r}: {why}")
 
 

@@ -59,7 +59,7 @@ class Plan:
     Attributes:
         scenario: The scenario that is varied.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
-        question: What is asked of the configurations.
+        question: The question about the configurations.
         confidence: Confidence of the guarantee, and of all intervals together.
         runs: Fixed number of runs per configuration; None to stop when the answer is settled.
         max_runs: Run budget of all configurations together; None for no limit.
@@ -133,10 +133,10 @@ class Plan:
         """The cost of each configuration, if the question is about the cheapest.
 
         Raises:
-            InputError: If a configuration is invalid, or what is minimized.
+            InputError: If a configuration is invalid, or what is minimised.
         """
-        minimize = self.question.minimize if isinstance(self.question, Cheapest) else "robots"
-        return teams.costs(self.engine, minimize)
+        cost = self.question.cost if isinstance(self.question, Cheapest) else "robots"
+        return teams.costs(self.engine, cost)
 
     @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:
@@ -179,35 +179,44 @@ def make(  # noqa: PLR0913  (keywords with defaults)
 ) -> Plan:
     """Return the plan of a scenario's study; None selects the scenario's value or the default.
 
-    The question of a scenario with a requirement is the cheapest configuration that meets it, unless
-    `delta`, `guarantee` or `runs` asks for the best by merit.
+    The question of a scenario with a requirement is the cheapest configuration that meets it,
+    unless `delta`, `guarantee` or `runs` select the best by merit.
 
     Raises:
         InputError: If an argument or a configuration is invalid.
     """
     of_type("scenario", scenario, Scenario, "a Scenario")
     question: dict[str, Any] = {"confidence": confidence, "max_runs": max_runs}
-    asks_for_best = (delta, guarantee, runs) != (None, None, None)
-    if scenario.requirement is None or asks_for_best:
+    is_about_merit = (delta, guarantee, runs) != (None, None, None)
+    if scenario.requirement is None or is_about_merit:
         question |= {"delta": delta, "guarantee": guarantee or "indifference"}
     plan = draft(scenario, seed=seed, runs=runs, **question)
     limits = plan.limits
     if isinstance(plan.question, Cheapest):
-        check_costs(plan)
+        check_requirement(plan)
     elif delta is None and scenario.delta is None:
         return replace(plan, question=replace(plan.question, delta=default_delta(limits)))
     return plan
 
 
-def check_costs(plan: Plan) -> None:
-    """Check that every configuration of a plan can be compiled, and has a cost.
+def check_requirement(plan: Plan) -> None:
+    """Check that every configuration of a plan can be compiled and has a cost, and all conditions.
 
     Raises:
-        InputError: If not.
+        InputError: If not; or if a condition always or never holds in all configurations.
     """
-    for configuration in range(len(plan.configurations)):
-        plan.engine.limits(configuration)
+    if not isinstance(plan.question, Cheapest):
+        return
+    limits = [plan.engine.limits(each) for each in range(len(plan.configurations))]
     plan.costs  # noqa: B018  (computed and checked once)
+    fix = "must be a condition that can hold and can fail"
+    found = [
+        f"require.all[{number}] = {condition.text!r}: {fault}: {fix}"
+        for number, condition in enumerate(plan.question.requirement.conditions)
+        if (fault := condition.triviality([each[condition.column] for each in limits]))
+    ]
+    if found:
+        raise InputError("\n".join(found))
 
 
 def default_delta(limits: Floats) -> float:
@@ -225,7 +234,7 @@ def draft(  # noqa: PLR0913  (as in make)
     delta: float | None = None,
     guarantee: Guarantee | None = None,
 ) -> Plan:
-    """Return a plan whose configurations are not checked yet; without a guarantee, of a requirement.
+    """Return a plan whose configurations are not checked; without `guarantee`, of a requirement.
 
     Raises:
         InputError: If an argument is invalid.
@@ -236,7 +245,7 @@ def draft(  # noqa: PLR0913  (as in make)
     configurations = compared(scenario, design.points(scenario.factors, scenario.design, seed))
     question: Question
     if guarantee is None and scenario.requirement is not None:
-        question = Cheapest(scenario.requirement, scenario.minimize)
+        question = Cheapest(scenario.requirement, scenario.cost)
         min_runs = FIRST_ANALYSIS_RUNS
     else:
         delta = delta if delta is not None else scenario.delta

@@ -44,11 +44,11 @@ class Cheapest:
 
     Attributes:
         requirement: What a run must meet, and in which share of runs.
-        minimize: What the configuration costs, as an expression.
+        cost: What the configuration costs, as an expression.
     """
 
     requirement: Requirement
-    minimize: str
+    cost: str
 
     quantity = "met"
     """The column of what is recorded of each run."""
@@ -68,7 +68,7 @@ class Cheapest:
 
     def as_dict(self, confidence: float) -> dict[str, Any]:
         """Return the question as study.toml stores it."""
-        words = {"requirement": str(self.requirement), "minimize": self.minimize}
+        words = {"requirement": str(self.requirement), "cost": self.cost}
         return {**words, "confidence": confidence}
 
 

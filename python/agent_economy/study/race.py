@@ -193,7 +193,7 @@ class Race:
     def evidence(self) -> Evidence:
         """Return the runs until now."""
         samples = [self._sample(index) for index in range(len(self._columns))]
-        return Evidence(tuple(samples), self._plan.confidence, self._part)
+        return Evidence(tuple(samples), self._plan.confidence, self._plan.question.part)
 
     def _values(
         self, configurations: Integers, first_run: int, runs: int

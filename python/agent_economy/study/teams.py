@@ -9,7 +9,7 @@ from agent_economy.scenario import Scenario
 from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
-from agent_economy.study.expression import Expression
+from agent_economy.study.expression import NOT_FINITE, Expression
 from agent_economy.study.paths import robot_kind
 
 
@@ -27,25 +27,21 @@ def compared(scenario: Scenario, configurations: Sequence[Values]) -> tuple[Valu
         each for each, value in zip(configurations, values.tolist(), strict=True) if value
     )
     if not allowed:
-        message = (
-            f"study.where = {scenario.where!r}: allows none of {len(configurations):,} "
-            "configurations: must allow one or more"
-        )
-        raise InputError(message)
+        why = f"allows none of {len(configurations):,} configurations: must allow one or more"
+        raise expression.error(why)
     return allowed
 
 
-def costs(engine: Engine, minimize: str) -> Floats:
+def costs(engine: Engine, cost: str) -> Floats:
     """Return the cost of each configuration, shape (configurations,).
 
     Raises:
         InputError: If the expression is invalid.
     """
-    expression = Expression("study.minimize", minimize, names(engine.scenario))
+    expression = Expression("study.minimize", cost, names(engine.scenario))
     found = evaluated(expression, engine)
     if not np.isfinite(found).all():
-        message = f"study.minimize = {minimize!r}: must be finite for each configuration"
-        raise InputError(message)
+        raise expression.error(NOT_FINITE)
     return found
 
 

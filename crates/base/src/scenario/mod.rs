@@ -12,6 +12,9 @@
 //! delta = 0.05                            # optional: the smallest difference in merit that matters
 //! confidence = 0.95                       # above 0.5, below 1; probability that the answer is right
 //!
+//! [require]                               # optional: a study then selects the least `minimize` that meets it
+//! all = ["time_s <= 120"]
+//!
 //! [published]                             # optional: results to show beside those of a study
 //! source = "Williams 2003"
 //! choice = 3
@@ -40,6 +43,7 @@ pub mod condition;
 mod factors;
 mod merit;
 mod published;
+mod require;
 mod schema;
 mod study;
 mod unknown_names;
@@ -49,10 +53,12 @@ mod values;
 pub use factors::{Factor, largest};
 pub use merit::{Merit, Term};
 pub use published::Published;
+pub use require::Requirement;
 pub use schema::schema;
 pub use study::{Design, Study};
 pub use values::Values;
 
+use self::condition::ConditionColumns;
 use crate::document::{Document, Section, Value};
 use crate::engine::{Configuration, Engine, MeritTerm};
 use crate::error::{InputError, InputErrors};
@@ -70,6 +76,8 @@ pub struct Scenario {
     pub configuration: Configuration,
     /// Settings of a study.
     pub study: Study,
+    /// What a mission must meet; `None` to compare merits.
+    pub requirement: Option<Requirement>,
     /// Published results for comparison.
     pub published: Option<Published>,
 }
@@ -93,19 +101,23 @@ impl Scenario {
         let (common, more) = document.read_all(|root| common(root, engine, &merit_terms));
         errors.extend(more);
         let base = configuration.as_ref();
+        let columns = engine.condition_columns(&document);
+        let (requirement, more) = document.read_all(|root| requirement(root, &columns));
+        errors.extend(more);
         errors.extend(value_checks::errors_of_values(
             engine, &document, base, &errors,
         ));
-        let scenario = common
-            .zip(configuration)
-            .map(|(common, configuration)| Self {
+        let scenario = common.zip(configuration).zip(requirement).map(
+            |((common, configuration), requirement)| Self {
                 engine: engine.name(),
                 summary: common.summary,
                 merit: common.merit,
                 configuration,
                 study: common.study,
+                requirement,
                 published: common.published,
-            });
+            },
+        );
         InputErrors::or(errors, scenario)
     }
 }
@@ -182,6 +194,15 @@ fn common(root: &Section, engine: &dyn Engine, merit_terms: &[MeritTerm]) -> Opt
     })
 }
 
+/// The requirement of a scenario: `Some(None)` if it has none.
+#[expect(clippy::option_option, reason = "an error, a missing key, and a value")]
+fn requirement(root: &Section, columns: &ConditionColumns) -> Option<Option<Requirement>> {
+    if !root.has("require") {
+        return Some(None);
+    }
+    require::requirement(&root.section("require"), columns).map(Some)
+}
+
 fn engine_of<'e>(
     engines: &[&'e dyn Engine],
     document: &Document,
@@ -191,7 +212,10 @@ fn engine_of<'e>(
 }
 
 fn all_keys(engine: &dyn Engine) -> Vec<&'static str> {
-    let (before, after) = (["engine", "summary"], ["merit", "study", "published"]);
+    let (before, after) = (
+        ["engine", "summary"],
+        ["merit", "require", "study", "published"],
+    );
     let own = engine.keys().iter().copied();
     before.into_iter().chain(own).chain(after).collect()
 }

@@ -4,7 +4,8 @@
 //! what a figure of merit can weigh.
 
 use super::merit::{MAX_MAX, MAX_WEIGHT};
-use super::study::CONFIDENCE;
+use super::require::{MAX_CONDITIONS, PROBABILITY};
+use super::study::{CONFIDENCE, MINIMIZE};
 use crate::document::Document;
 use crate::document::schema::units::annotate;
 use crate::engine::{Engine, MAX_TIME_LIMIT_S, MeritTerm};
@@ -27,6 +28,7 @@ pub fn schema(engine: &dyn Engine, document: &Document) -> Json {
                 "minLength": 1,
             },
             "merit": merit(engine, document),
+            "require": require(),
             "study": study(),
             "published": published(),
         },
@@ -121,7 +123,57 @@ fn study() -> Json {
                 "exclusiveMaximum": 1,
                 "default": CONFIDENCE,
             },
+            "minimize": {
+                "description": "With `[require]`, what the selected configuration has least of: \
+                                `robots`, `price`, or an expression of team sizes, such as \
+                                `rover_a + 2 * rover_b`.",
+                "type": "string",
+                "minLength": 1,
+                "default": MINIMIZE,
+            },
+            "where": {
+                "description": "Which configurations to compare, as a condition on team sizes, `robots` \
+                                and `price`, such as `rover_a == 0 or rover_b == 0`. Without it, all.",
+                "type": "string",
+                "minLength": 1,
+            },
         },
+        "additionalProperties": false,
+    })
+}
+
+fn require() -> Json {
+    json!({
+        "description": "What a mission must meet. With it, a study selects the configuration with the \
+                        least `study.minimize` that meets it.",
+        "type": "object",
+        "properties": {
+            "all": {
+                "description": "Conditions on the outcome of a mission, which must all hold, such as \
+                                `time_s <= 1200` or `collisions <= 0`. `time_s` is the time of success: \
+                                in a mission without success, it is infinite.",
+                "type": "array",
+                "items": { "type": "string", "minLength": 1 },
+                "minItems": 1,
+                "maxItems": MAX_CONDITIONS,
+            },
+            "probability": {
+                "description": "The share of missions in which all conditions must hold.",
+                "type": "number",
+                "exclusiveMinimum": 0,
+                "exclusiveMaximum": 1,
+                "default": PROBABILITY,
+            },
+            "tolerance": {
+                "description": "A configuration is refuted when its share is shown to be below \
+                                `probability` + `tolerance`. Smaller values need more runs. Without it, \
+                                40% of 1 - `probability`.",
+                "type": "number",
+                "exclusiveMinimum": 0,
+                "exclusiveMaximum": 1,
+            },
+        },
+        "required": ["all"],
         "additionalProperties": false,
     })
 }

@@ -11,6 +11,9 @@ const MAX_POINTS: u32 = 100_000;
 /// Default probability that the answer of a study is right.
 pub(super) const CONFIDENCE: f64 = 0.95;
 
+/// What a study with a requirement minimises by default: the number of robots.
+pub(super) const MINIMIZE: &str = "robots";
+
 /// Settings of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
@@ -22,6 +25,10 @@ pub struct Study {
     pub delta: Option<f64>,
     /// Probability that the answer is right; above 0.5 and below 1.
     pub confidence: f64,
+    /// What a study with a requirement minimises, as an expression.
+    pub minimize: String,
+    /// Which configurations it compares, as an expression; `None` for all.
+    pub filter: Option<String>,
 }
 
 /// The configurations to compare.
@@ -62,7 +69,7 @@ impl fmt::Display for Design {
 }
 
 pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
-    section.only(&["vary", "delta", "confidence", "design"]);
+    section.only(&["vary", "delta", "confidence", "design", "minimize", "where"]);
     let vary = section.section("vary");
     let factors = factors(&vary, engine);
     let design = if_given(section, "design", || {
@@ -76,6 +83,8 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
         section.number_if("delta", "a number above 0", |delta| delta > 0.0)
     });
     let confidence = if_given(section, "confidence", || confidence(section));
+    let minimize = if_given(section, "minimize", || section.line("minimize"));
+    let filter = if_given(section, "where", || section.line("where"));
     let design = design.map(|design| design.unwrap_or(Design::Factorial));
     let is_listed = check_ranges(&vary, factors.as_deref()?, design?);
     is_listed.then_some(Study {
@@ -83,6 +92,8 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
         design: design?,
         delta: delta?,
         confidence: confidence?.unwrap_or(CONFIDENCE),
+        minimize: minimize?.unwrap_or_else(|| MINIMIZE.to_owned()),
+        filter: filter?,
     })
 }
 

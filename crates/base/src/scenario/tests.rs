@@ -151,7 +151,7 @@ fn errors_of_both_parts_are_reported_at_once() {
         .replace("[study]", "[stduy]\n[study]");
     let errors = read(&text).err().unwrap().to_string();
     for part in [
-        "stduy is not a known key: expected one of engine, summary, robots, merit, study, \
+        "stduy is not a known key: expected one of engine, summary, robots, merit, require, study, \
          published; did you mean study?",
         "robots.rover.cuont is not a known key",
         "robots.rover.count = 0: must be a whole number from 1 to 9",

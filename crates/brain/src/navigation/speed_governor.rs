@@ -332,11 +332,11 @@ mod tests {
     }
 
     fn wiring() -> impl Strategy<Value = Wiring> {
-        let dropout = prop_oneof![Just(0.0), 0.0..0.95];
-        (0_usize..5, 0_usize..5, dropout).prop_map(|(scans_apart, latency, dropout)| Wiring {
+        let lost_share = prop_oneof![Just(0.0), 0.0..0.95];
+        (0_usize..5, 0_usize..5, lost_share).prop_map(|(scans_apart, latency, lost_share)| Wiring {
             scans_apart,
             latency,
-            dropout,
+            lost_share,
             ..Wiring::default()
         })
     }

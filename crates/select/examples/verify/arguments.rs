@@ -4,6 +4,7 @@ pub(crate) const HELP: &str = "\
 Do the selection procedures keep their guarantees? Minutes on two cores.
 
 verify [--only WORDS] [--replications N] [--seed N] [--json]
+verify requirement [--help]    the procedure for requirements
 
   --only WORDS      only lines whose name contains these words, such as \"race slippage\"
   --replications N  macro-replications of every line, for a quick check [depends on the line]

@@ -7,26 +7,37 @@
 //! | one selection from its first run to its last | `selection` |
 //! | classical procedures, for comparison | `reference` |
 //! | what passes | `gate` |
+//! | the same for the procedure for requirements | `requirement` |
 
 mod arguments;
 mod binomial;
 mod cases;
 mod coverage;
+mod ending;
 mod gate;
 mod lines;
 mod random;
 mod reference;
 mod report;
+mod requirement;
 mod selection;
 #[cfg(test)]
 mod tests;
 
 use arguments::Arguments;
-use std::io::{self, Write};
+use ending::end;
+use std::io;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::parse(std::env::args().skip(1)) {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(("requirement", words)) = words
+        .split_first()
+        .map(|(first, rest)| (first.as_str(), rest))
+    {
+        return requirement::main(words);
+    }
+    let arguments = match Arguments::parse(words.into_iter()) {
         Ok(arguments) => arguments,
         Err(error) => return end(&mut io::stderr(), &error, 2),
     };
@@ -60,10 +71,4 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
         report.line(line, &measured)?;
     }
     report.end()
-}
-
-fn end(stream: &mut impl Write, text: &str, code: u8) -> ExitCode {
-    // Nothing can be reported if this fails.
-    let _ = writeln!(stream, "{text}");
-    ExitCode::from(code)
 }

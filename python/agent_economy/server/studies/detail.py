@@ -1,15 +1,17 @@
 """The answer of a study as the page takes it: sections, tables and charts of the report."""
 
 import hashlib
+import math
 import re
 import threading
 from collections import OrderedDict
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from agent_economy import study
 from agent_economy.study import AnyAnswer, RequirementResult, Result, report
-from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.report import Section, Table
 from agent_economy.study.store.folder import ANSWER, read_bytes
 
@@ -49,6 +51,7 @@ class AnswerCache:
 
 def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
     """Return an answer with the sections and charts of the report."""
+    results: Sequence[Result | RequirementResult] = answer.results
     shown = report.parts(answer, evidence)
     return {
         "sentence": answer.sentence,
@@ -57,7 +60,7 @@ def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
         "quarantined": shown.quarantined,
         "sections": [section(each) for each in shown.sections],
         "charts": shown.charts,
-        "results": [result(index, each) for index, each in enumerate(answer.results)],
+        "results": [result(*each) for each in enumerate(results)],
     }
 
 
@@ -88,15 +91,27 @@ def table(given: Table) -> Detail:
 
 
 def result(index: int, given: Result | RequirementResult) -> Detail:
-    """Return what the page takes of the results of a configuration."""
-    if isinstance(given, RequirementResult):
-        verdict = "best" if given.status == "selected" else given.status
-    else:
-        verdict = given.standing.verdict
-    return {
+    """Return the results of a configuration."""
+    common = {
         "configuration": index,
         "label": given.label,
         "values": given.values,
         "runs": given.runs,
-        "verdict": verdict,
     }
+    if isinstance(given, RequirementResult):
+        verdict = "best" if given.status == "selected" else given.status
+        return {**common, "met": given.met and numbers(given.met), "verdict": verdict}
+    return {
+        **common,
+        "merit": numbers(given.merit),
+        "time_s": numbers(given.time_s),
+        "failed": numbers(given.failed),
+        "verdict": given.standing.verdict,
+        "eliminated": given.eliminated is not None,
+    }
+
+
+def numbers(interval: Interval) -> list[float | None]:
+    """Return an interval with null for numbers that are not finite."""
+    each = (interval.value, interval.low, interval.high)
+    return [number if math.isfinite(number) else None for number in each]

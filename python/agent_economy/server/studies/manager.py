@@ -14,8 +14,8 @@ from agent_economy.server.studies.job import StudyJob
 from agent_economy.server.studies.summary import Summaries, of_plan
 from agent_economy.server.workspace import Workspace, is_study
 from agent_economy.study import Plan
-from agent_economy.study.plan import check_build, with_confidence
 from agent_economy.study.description import usual_folder
+from agent_economy.study.plan import check_build, with_confidence
 from agent_economy.study.store.folder import is_locked
 
 MAX_RUNNING = 2

@@ -70,8 +70,8 @@ def plan(request: Any, workspace: Workspace) -> Plan:
     seed = errors.gather(lambda: number("seed", request.get("seed", "0")))
     question = {name: request.get(name) for name in ("delta", "confidence", "runs")}
     guarantee = request.get("guarantee")
-    asked = "indifference" if guarantee is None else guarantee
-    errors.gather(lambda: check_question(seed=seed or 0, **question, guarantee=asked))
+    wanted = "indifference" if guarantee is None else guarantee
+    errors.gather(lambda: check_question(seed=seed or 0, **question, guarantee=wanted))
     if not errors and changed is not None:
         max_runs = request.get("max_runs")
         made = errors.gather(

@@ -88,7 +88,7 @@ def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
 
 
 def delta_of(plan: Plan) -> float:
-    """Return the indifference zone of a plan that asks for the best."""
+    """Return the indifference zone of a plan whose question is the best."""
     if isinstance(plan.question, Best):
         return plan.question.delta
     message = "the question is not about the best by merit"

@@ -27,7 +27,7 @@ class RequirementAnswer:
             requirement with tolerance to spare.
         confidence: Confidence of the promise; and, as a statement of its own, of all intervals.
         requirement: The requirement.
-        minimize: What a configuration costs, as an expression.
+        cost: What a configuration costs, as an expression.
         selected: Index of the cheapest certified configuration; None if none is certified.
         results: Result of each configuration.
     """
@@ -39,7 +39,7 @@ class RequirementAnswer:
     is_guaranteed: bool
     confidence: float
     requirement: Requirement
-    minimize: str
+    cost: str
     selected: int | None
     results: tuple[RequirementResult, ...]
 
@@ -55,7 +55,7 @@ def conclude_requirement(
     """Return the answer that follows from the runs of a study of a requirement.
 
     Raises:
-        TypeError: If the plan asks another question.
+        TypeError: If the plan has another question.
     """
     question = plan.question
     if not isinstance(question, Cheapest):
@@ -70,7 +70,7 @@ def conclude_requirement(
         is_guaranteed=ending.is_over,
         confidence=plan.confidence,
         requirement=question.requirement,
-        minimize=question.minimize,
+        cost=question.cost,
         selected=ending.selected,
         results=found,
     )

@@ -38,7 +38,7 @@ class RequirementResult:
     Attributes:
         values: Values of the varied factors, by path.
         label: Name for people.
-        cost: What is minimized.
+        cost: What is minimised.
         price: Price of its robots; without prices, their number.
         runs: Number of runs.
         quarantined: Number of quarantined runs, which count as not met.

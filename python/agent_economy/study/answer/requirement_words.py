@@ -2,10 +2,13 @@
 
 from collections.abc import Sequence
 
+from agent_economy.scenario import Condition
 from agent_economy.study.answer.labels import listed, recommendation
 from agent_economy.study.answer.requirement_results import RequirementResult, Status
 from agent_economy.study.question import Cheapest
 from agent_economy.study.selection import percentage
+
+MINUTE_S = 60
 
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
@@ -20,18 +23,18 @@ def sentence(
     """Return the answer: which team to send, what it meets, and what is known of cheaper ones."""
     chosen = next((each for each in results if each.status == "selected"), None)
     requirement = question.requirement
-    holds = listed([each.text for each in requirement.conditions])
+    holds = listed([in_words(each) for each in requirement.conditions])
     share = percentage(requirement.probability)
     if chosen is None:
-        parts = [f"No team is certified: {holds} in at least {share} of missions", *why(question, results)]
+        none = f"No team is certified: {holds} in at least {share} of missions"
+        parts = [none, *why(question, results)]
     else:
-        parts = [
-            f"{recommendation(chosen.values)}: {holds} in at least {share} of missions "
-            f"({percentage(confidence)} confidence)"
-        ]
+        confidently = f"({percentage(confidence)} confidence)"
+        send = recommendation(chosen.values)
+        parts = [f"{send}: {holds} in at least {share} of missions {confidently}"]
     spare = percentage(round(requirement.probability + requirement.tolerance, 12))
     cheaper = [each for each in results if chosen is None or each.cost < chosen.cost]
-    parts += named(cheaper, "refuted", f"fewer than {spare}")
+    parts += refuted(cheaper, f"fewer than {spare}")
     parts += named(cheaper, "open", "not decided")
     parts += named(results, "impossible", f"cannot be run ({obstacle})")
     return " ".join(f"{part}." for part in parts)
@@ -48,16 +51,14 @@ def why(question: Cheapest, results: Sequence[RequirementResult]) -> list[str]:
     met = f"{nearest.met.value:.1%} ({nearest.met.low:.1%} to {nearest.met.high:.1%})"
     worst = max(range(len(nearest.failing)), key=nearest.failing.__getitem__)
     condition = question.requirement.conditions[worst].text
+    failing = f"{condition}, in {nearest.failing[worst]:.1%} of missions"
     return [
         f"Closest: {nearest.label}, in {met}",
-        f"The condition that fails most often there: {condition}, in "
-        f"{nearest.failing[worst]:.1%} of missions",
+        f"The condition that fails most often there: {failing}",
     ]
 
 
-def named(
-    results: Sequence[RequirementResult], status: Status, words: str
-) -> list[str]:
+def named(results: Sequence[RequirementResult], status: Status, words: str) -> list[str]:
     """Return a sentence about the teams of a status, the dearest first; none if there is none."""
     each = sorted((each for each in results if each.status == status), key=lambda each: -each.cost)
     if not each:
@@ -67,6 +68,40 @@ def named(
     # A separator that labels do not contain: a team of two kinds has a comma in its label.
     separated = "; ".join([*labels, f"{more} more"] if more else labels)
     return [f"{separated}: {words}"]
+
+
+def refuted(results: Sequence[RequirementResult], words: str) -> list[str]:
+    """Return a sentence about refuted teams, which names the dearest; none if there is none."""
+    each = [each for each in results if each.status == "refuted"]
+    if not each:
+        return []
+    dearest = max(each, key=lambda result: result.cost)
+    others = len(each) - 1
+    more = f", and {others} other{'s' if others > 1 else ''}" if others else ""
+    return [f"{dearest.label}{more}: {words}"]
+
+
+def in_words(condition: Condition) -> str:
+    """Return a condition in words, such as "success within 20 minutes" or "no collisions"."""
+    name, value = condition.column.replace("_", " "), condition.value
+    match condition.comparison, condition.column:
+        case "<=", "time_s":
+            return f"success within {duration(value)}"
+        case "<=", _ if value == 0:
+            return f"no {name}"
+        case "<=", _:
+            return f"at most {value:,.10g} {name}"
+        case ">=", _ if condition.text.startswith(condition.column):
+            return f"at least {value:,.10g} {name}"
+        case _:
+            return condition.text
+
+
+def duration(seconds: float) -> str:
+    """Return a duration as people write it: "90 s", "20 minutes"."""
+    minutes = seconds / MINUTE_S
+    is_written = minutes > 1 and minutes.is_integer()
+    return f"{minutes:g} minutes" if is_written else f"{seconds:,.10g} s"
 
 
 def guarantee(
@@ -85,11 +120,13 @@ def guarantee(
     meets = f"the selected team meets the requirement in at least {share} of missions"
     if is_over and is_certified:
         return (
-            f"{confidently}, {meets}, and no team with less {question.minimize} meets it in "
+            f"{confidently}, {meets}, and no team with less {question.cost} meets it in "
             f"{spare} or more."
         )
     if is_over:
-        return f"{confidently}, no compared team meets the requirement in {spare} or more of missions."
+        return (
+            f"{confidently}, no compared team meets the requirement in {spare} or more of missions."
+        )
     if is_certified:
         return f"{confidently}, {meets}. Cheaper teams that are not decided may meet it as well."
     return "No guarantee: the run budget was reached before a team was certified."

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer.labels import listed, recommendation
-from agent_economy.study.paths import robot_kind
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.answer.ties import Verdict
+from agent_economy.study.paths import robot_kind
 
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""

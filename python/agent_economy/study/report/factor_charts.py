@@ -3,8 +3,8 @@
 from typing import Any
 
 from agent_economy.study.answer.evidence import Interval
-from agent_economy.study.paths import robot_kind
 from agent_economy.study.answer.saturation import Saturation
+from agent_economy.study.paths import robot_kind
 from agent_economy.study.report.chart_parts import (
     BLUE,
     ORANGE,

@@ -19,11 +19,12 @@ def html(answer: AnyAnswer, evidence: Evidence, javascript: str) -> str:
             that the charts are missing.
     """
     shown = parts(answer, evidence)
-    advice, period, reasons = answer.sentence.partition(".")
+    # Numbers contain periods, but none is followed by a space.
+    advice, _, reasons = f"{answer.sentence} ".partition(". ")
     return template().render(
         answer=answer,
-        advice=f"{advice}{period}",
-        reasons=reasons,
+        advice=f"{advice}.",
+        reasons=f" {reasons}".rstrip(),
         facts=shown.facts,
         quarantined=shown.quarantined,
         sections=shown.sections,

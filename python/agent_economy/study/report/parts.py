@@ -84,7 +84,9 @@ def quarantined(answer: AnyAnswer, names: tuple[str, ...], shown: tuple[int, ...
     details = "; ".join(f"{counts[index]:,} of {names[index]}" for index in hit[:MAX_NAMED])
     more = f"; and of {len(hit) - MAX_NAMED:,} others" if len(hit) > MAX_NAMED else ""
     if isinstance(answer, RequirementAnswer):
-        runs = f"{count(sum(counts), 'run')} without an outcome: quarantined, each counts as not met."
+        runs = (
+            f"{count(sum(counts), 'run')} without an outcome: quarantined, each counts as not met."
+        )
         return f"{runs} {details}{more}."
     return (
         f"{count(sum(counts), 'run')} without a finite merit: quarantined, each counts as the "

@@ -84,12 +84,19 @@ def failing(view: RequirementView) -> Spec:
     """Return the chart of the share of missions in which each condition does not hold."""
     conditions = [each.text for each in view.answer.requirement.conditions]
     rows: Rows = [
-        {"label": view.names[index], "configuration": index, "condition": text, "share": finite(part)}
+        {
+            "label": view.names[index],
+            "configuration": index,
+            "condition": text,
+            "share": finite(part),
+        }
         for index in view.shown
         for text, part in zip(conditions, view.result(index).failing, strict=True)
     ]
     repeated = [CONDITION_COLORS[at % len(CONDITION_COLORS)] for at in range(len(conditions))]
-    color = field("condition", "nominal", title=None, scale={"domain": conditions, "range": repeated})
+    color = field(
+        "condition", "nominal", title=None, scale={"domain": conditions, "range": repeated}
+    )
     tip = [field("label", "nominal", title=" "), field("condition", "nominal"), field("share")]
     value = field("share", title="share of missions", axis={"format": "~%"}, stack=None)
     encoding = {"y": by_name(rows), "x": value, "color": color, "tooltip": tip}
@@ -100,7 +107,8 @@ def failing(view: RequirementView) -> Spec:
 def price(view: RequirementView) -> Spec:
     """Return the chart of price and share."""
     rows = [
-        {**share_row(view, index), "price": finite(view.result(index).price)} for index in view.shown
+        {**share_row(view, index), "price": finite(view.result(index).price)}
+        for index in view.shown
     ]
     title = {"title": "share of missions that meet the requirement", "axis": {"format": "~%"}}
     title["scale"] = {"domain": [view.lowest_share, 1.0], "clamp": True}
@@ -156,7 +164,7 @@ def distribution_rows(view: RequirementView, index: int) -> Rows:
 
 
 def ordered_values(sample: Sample, column: str) -> NDArray[np.float64]:
-    """Return the values of a column in ascending order; times of runs without success are infinite."""
+    """Return the values of a column in ascending order; without success, a time is infinite."""
     values = sample.columns[column]
     if column == "time_s":
         values = np.where(sample.columns["failed"] > 0, np.inf, values)
@@ -169,4 +177,6 @@ def band_half_width(runs: int, alpha: float) -> float:
     Source: Howard and Ramdas (2022), Sequential estimation of quantiles with applications to A/B
         testing and best-arm identification, Bernoulli 28(3), section 1, equation 2.
     """
-    return 0.85 * math.sqrt((math.log(math.log(math.e * runs)) + 0.8 * math.log(1612 / alpha)) / runs)
+    return 0.85 * math.sqrt(
+        (math.log(math.log(math.e * runs)) + 0.8 * math.log(1612 / alpha)) / runs
+    )

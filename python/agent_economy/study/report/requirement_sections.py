@@ -24,21 +24,28 @@ def share(view: RequirementView) -> Section:
     """Return the section on the share of missions that meet the requirement."""
     requirement = view.answer.requirement
     low, high = percentage(requirement.probability), spare(view)
-    notes = [
+    confidently = f"with {percentage(view.answer.confidence)} confidence"
+    lines = (
         f"The line is the required share, {low}; the band above it is the tolerance, up to {high}. "
         f"A team is certified when its share is shown to be at least {low}, and refuted when it is "
-        f"shown to be below {high}.",
-        "Two statements with their own confidence: certified and refuted belong to the promise above; "
-        f"the intervals hold simultaneously for all teams, with "
-        f"{percentage(view.answer.confidence)} confidence, and do not decide.",
-    ]
-    if len(view.known) > MAX_SHOWN:
-        notes.append(
-            f"{MAX_SHOWN} of {len(view.known):,} teams with runs are shown; answer.json contains all."
-        )
+        f"shown to be below {high}."
+    )
+    statements = (
+        "These are two statements, each with its own confidence: certified and refuted belong to "
+        f"the promise above; the intervals hold simultaneously for all teams, {confidently}, and "
+        "decide nothing."
+    )
+    some = (
+        f"{MAX_SHOWN} of {len(view.known):,} teams with runs are shown; answer.json contains all."
+    )
+    notes = [lines, statements, *([some] if len(view.known) > MAX_SHOWN else [])]
     picture = Picture("share", "Share of missions that meet the requirement, with its interval")
     return Section(
-        "Missions that meet the requirement", tuple(notes), (picture,), (table(view),), is_folded=False
+        "Missions that meet the requirement",
+        tuple(notes),
+        (picture,),
+        (table(view),),
+        is_folded=False,
     )
 
 
@@ -58,7 +65,7 @@ def table(view: RequirementView) -> Table:
         return Row((words(view.names[index]), *cells), row_style(result.status), index)
 
     shown = dict.fromkeys((*view.shown, *others(view)))
-    heads = ("team", view.answer.minimize, "status", "share that meets it", "runs")
+    heads = ("team", view.answer.cost, "status", "share that meets it", "runs")
     return Table("Share of missions that meet the requirement", heads, tuple(map(row, shown)))
 
 
@@ -86,7 +93,9 @@ def failing(view: RequirementView) -> Section:
 
     rows = tuple(map(row, view.shown))
     note = "A mission may fail several conditions. A time of a mission without success is infinite."
-    found = Table("Share of missions in which a condition does not hold", ("team", *conditions), rows)
+    found = Table(
+        "Share of missions in which a condition does not hold", ("team", *conditions), rows
+    )
     picture = Picture("failing", "Share of missions in which each condition does not hold")
     return Section("Why missions failed", (note,), (picture,), (found,))
 
@@ -96,8 +105,9 @@ def distribution(view: RequirementView) -> Section:
     condition = view.deciding_condition
     teams = " and ".join(view.names[index] for index in view.compared_distributions)
     note = (
-        f"{condition.text} is the condition that fails most often. The band around each distribution "
-        f"is valid at any time; both together with {percentage(view.answer.confidence)} confidence."
+        f"{condition.text} is the condition that fails most often. The band around each "
+        "distribution is valid at any time; both together with "
+        f"{percentage(view.answer.confidence)} confidence."
     )
     picture = Picture("distribution", f"Distribution of {condition.column}: {teams}")
     return Section("The deciding condition", (note,), (picture,))

@@ -45,7 +45,7 @@ class RequirementView:
 
     @cached_property
     def shown(self) -> tuple[int, ...]:
-        """The configurations with runs that are shown: the selected one and the next cheaper ones."""
+        """The configurations with runs that are shown: the selected one and those next to it."""
         if len(self.known) <= MAX_SHOWN:
             return self.known
         end = len(self.known)
@@ -87,12 +87,16 @@ class RequirementView:
     @cached_property
     def has_prices(self) -> bool:
         """Whether the prices of the configurations that are shown differ."""
-        return len({self.result(index).price for index in self.shown}) > 1 and self.evidence_has_prices
+        return (
+            len({self.result(index).price for index in self.shown}) > 1 and self.evidence_has_prices
+        )
 
     @cached_property
     def evidence_has_prices(self) -> bool:
         """Whether robots have prices."""
-        return any(sample.limits.get("price", (0.0, 0.0))[1] != 0 for sample in self.evidence.samples)
+        return any(
+            sample.limits.get("price", (0.0, 0.0))[1] != 0 for sample in self.evidence.samples
+        )
 
     def result(self, index: int) -> RequirementResult:
         """Return the result of a configuration."""

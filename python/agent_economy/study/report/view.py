@@ -8,9 +8,9 @@ from functools import cached_property
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import is_number, varied
-from agent_economy.study.paths import robot_kind
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
+from agent_economy.study.paths import robot_kind
 from agent_economy.study.report.formatting import finite, places
 
 MAX_SHOWN = 50

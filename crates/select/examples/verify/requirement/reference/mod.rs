@@ -9,9 +9,9 @@ pub(crate) use feasibility_check::FeasibilityCheck;
 pub(crate) use fixed_design::FixedDesign;
 pub(crate) use wald::Wald;
 
-use crate::problems::Known;
 use crate::random::Place;
-use crate::study::Outcome;
+use crate::requirement::problems::Known;
+use crate::requirement::study::Outcome;
 
 /// A way to decide whether a configuration meets a requirement.
 pub(crate) trait Reference: Sync {

@@ -1,5 +1,5 @@
 use super::Reference;
-use crate::problems::Known;
+use crate::requirement::problems::Known;
 
 /// A number of runs that is fixed beforehand, with a smallest number of met ones that is enough: the
 /// smallest design whose two errors are those of the sequential procedure.

@@ -2,8 +2,8 @@
 //! macro-replications cannot prove 95%, so a line passes as long as they do not refute it, at 1e-4: one
 //! of 30 sound lines is refuted with a probability of at most 0.3%; the seed is fixed.
 
-use crate::lines::{self, Line, measure};
-use crate::problems;
+use crate::requirement::lines::{self, Line, measure};
+use crate::requirement::problems;
 
 const SEED: u64 = 1;
 const TRIALS: u32 = 400;

@@ -1,5 +1,5 @@
 use super::Reference;
-use crate::problems::Known;
+use crate::requirement::problems::Known;
 
 /// Runs of the first stage.
 const FIRST: u64 = 20;

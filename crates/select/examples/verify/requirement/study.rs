@@ -1,7 +1,7 @@
 //! One study of a known problem.
 
-use crate::problems::Known;
 use crate::random::Place;
+use crate::requirement::problems::Known;
 use select::{Procedure, Requirement, RequirementProblem};
 
 /// How runs are passed to the procedure.
@@ -13,7 +13,7 @@ pub(crate) enum Batches {
     Random(u32),
 }
 
-/// What a study is told, which differs from the truth if it is broken on purpose.
+/// What a study takes as given, which differs from the truth if it is broken on purpose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Setup {
     pub(crate) batches: Batches,

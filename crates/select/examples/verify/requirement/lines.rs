@@ -1,10 +1,10 @@
 //! What is measured, and what passes.
 
 use crate::binomial::lower_bound;
-use crate::problems::{self, Known};
 use crate::random::Place;
-use crate::reference::{self, FeasibilityCheck, FixedDesign, Reference, Wald};
-use crate::study::{self, Batches, Outcome, Setup};
+use crate::requirement::problems::{self, Known};
+use crate::requirement::reference::{self, FeasibilityCheck, FixedDesign, Reference, Wald};
+use crate::requirement::study::{self, Batches, Outcome, Setup};
 use rayon::prelude::*;
 
 pub(crate) const CONFIDENCE: f64 = 0.95;

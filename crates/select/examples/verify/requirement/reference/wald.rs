@@ -1,5 +1,5 @@
 use super::Reference;
-use crate::problems::Known;
+use crate::requirement::problems::Known;
 
 /// Wald's sequential probability ratio test of p0 + tolerance against p0 at the errors of the
 /// procedure for requirements. It is the fastest test at these two probabilities.

@@ -7,25 +7,21 @@
 //! | other procedures, for comparison | `reference` |
 //! | what is measured, and what passes | `lines` |
 
-#[path = "../verify/binomial.rs"]
-mod binomial;
 mod lines;
 mod problems;
-#[path = "../verify/random.rs"]
-#[expect(dead_code, reason = "shared with the gate of the race")]
-mod random;
 mod reference;
 mod study;
 #[cfg(test)]
 mod tests;
 
+use crate::ending::end;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 const HELP: &str = "\
 Does the procedure for requirements keep its promise? Minutes on two cores.
 
-verify_requirement [--only WORDS] [--replications N] [--seed N]
+verify requirement [--only WORDS] [--replications N] [--seed N]
 
   --only WORDS      only lines whose name contains these words, such as \"anchor\"
   --replications N  macro-replications of every line, for a quick check [depends on the line]
@@ -40,19 +36,19 @@ Anchors, other procedures on the same problems, pass in any case: the column `ke
 keep the promise.";
 
 /// The options given.
-struct Arguments {
+struct Options {
     only: String,
     replications: Option<u32>,
     seed: u64,
 }
 
-fn main() -> ExitCode {
-    let words: Vec<String> = std::env::args().skip(1).collect();
+/// Runs the gate with the words of the command line.
+pub(crate) fn main(words: &[String]) -> ExitCode {
     if words.iter().any(|word| word == "--help" || word == "-h") {
         return end(&mut io::stdout(), HELP, 0);
     }
     let verified =
-        parsed(&words).and_then(|arguments| verify(&arguments).map_err(|error| error.to_string()));
+        parsed(words).and_then(|options| verify(&options).map_err(|error| error.to_string()));
     match verified {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(1),
@@ -60,8 +56,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn parsed(words: &[String]) -> Result<Arguments, String> {
-    let mut arguments = Arguments {
+fn parsed(words: &[String]) -> Result<Options, String> {
+    let mut options = Options {
         only: String::new(),
         replications: None,
         seed: 7,
@@ -75,17 +71,17 @@ fn parsed(words: &[String]) -> Result<Arguments, String> {
             value.parse::<u32>().map_err(wrong)
         };
         match option[0].as_str() {
-            "--only" => arguments.only.clone_from(value),
-            "--replications" => arguments.replications = Some(number()?.max(1)),
-            "--seed" => arguments.seed = number()?.into(),
+            "--only" => options.only.clone_from(value),
+            "--replications" => options.replications = Some(number()?.max(1)),
+            "--seed" => options.seed = number()?.into(),
             other => return Err(format!("{other}: no such option; see --help")),
         }
     }
-    Ok(arguments)
+    Ok(options)
 }
 
 /// Whether every line passed.
-fn verify(arguments: &Arguments) -> io::Result<bool> {
+fn verify(options: &Options) -> io::Result<bool> {
     let mut out = io::stdout();
     writeln!(
         out,
@@ -95,10 +91,10 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
     let mut has_failed = false;
     let lines = lines::all()
         .into_iter()
-        .filter(|line| line.name.contains(&arguments.only));
+        .filter(|line| line.name.contains(&options.only));
     for line in lines {
-        let replications = arguments.replications.unwrap_or(line.replications);
-        let measured = lines::measure(&line, arguments.seed, replications);
+        let replications = options.replications.unwrap_or(line.replications);
+        let measured = lines::measure(&line, options.seed, replications);
         let passes = line.passes(&measured);
         has_failed |= !passes;
         writeln!(
@@ -122,10 +118,4 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
         }
     )?;
     Ok(!has_failed)
-}
-
-fn end(stream: &mut impl Write, text: &str, code: u8) -> ExitCode {
-    // Nothing can be reported if this fails.
-    let _ = writeln!(stream, "{text}");
-    ExitCode::from(code)
 }
