@@ -6,7 +6,7 @@ use base::scenario::condition::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The end of a successful run. Without this table, a run is complete when all targets are found.
+/// When a run is complete and over; without this table, when all targets are found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EndSpec {
     /// The condition with which a run is complete: a count that changes during the run, compared with

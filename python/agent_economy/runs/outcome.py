@@ -27,11 +27,12 @@ class Outcome:
 
     Attributes:
         run: Run number.
-        status: "complete": all targets were found. "incomplete": some were not. "quarantined": the
-            world had no room for the team or its items, or a number was not finite; there is no
-            outcome. "running": the outcome of a `Simulation` as if it ended at its current step.
-        time_s: Time of the last find; the time limit if the run is not complete.
-        complete: Whether all targets were found.
+        status: "complete": all targets were found, or the condition of the scenario's end was met.
+            "incomplete": it was not. "quarantined": the world had no room for the team or its
+            items, or a number was not finite; there is no outcome. "running": the outcome of a
+            `Simulation` as if it ended at its current step.
+        time_s: Time until the run was complete; the time limit if it was not.
+        complete: Whether the run was complete.
         merit: The figure of merit of the run.
         found: Items found, by kind; all as "item" if the engine has no item kinds.
         missed: Items not found, by kind.

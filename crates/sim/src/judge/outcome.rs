@@ -43,7 +43,7 @@ impl Outcome {
         let complete_s = tally.complete_at.map(|tick| seconds(tick, scenario.step_s));
         let cost = tally.removed.and(moment.body_states.iter());
         Self {
-            // The step of the last find may exceed the time limit by a rounding error.
+            // The step may exceed the time limit by a rounding error.
             time_s: complete_s.map_or(scenario.time_limit_s, |time_s| {
                 time_s.min(scenario.time_limit_s)
             }),

@@ -28,7 +28,7 @@ pub struct ScenarioSpec {
     pub items: BTreeMap<String, ItemSpec>,
     /// Kinds of robots, each under a name of your choice.
     pub robots: BTreeMap<String, RobotSpec>,
-    /// When a run is complete.
+    /// When a run is complete and over; without this table, when all targets are found.
     pub end: Option<EndSpec>,
 }
 

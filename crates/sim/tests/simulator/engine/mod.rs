@@ -9,6 +9,7 @@ mod contact;
 mod correct;
 mod dead_end;
 mod determinism;
+mod end;
 mod external;
 mod external_decisions;
 mod find_times;
