@@ -131,9 +131,9 @@ def kinds(columns: Iterable[str]) -> list[str]:
 
 
 def find_times(columns: Iterable[str]) -> set[str]:
-    """Return those of the columns that are times of finds: found_KIND_1_s, found_KIND_2_s and so on.
+    """Return those of the columns that are times of finds: found_KIND_1_s and so on.
 
-    Tables for people leave them out: there may be one for each item.
+    Tables for people leave them out, because there may be one for each item.
     """
     names = list(columns)
     any_kind = "|".join(map(re.escape, kinds(names)))

@@ -11,7 +11,7 @@ OWN = ("configuration", "run", "quarantined")
 """Columns of every block file besides the outcomes."""
 
 SHARED_BIT = 62
-"""The bit in `quarantined` of all columns from this one on; each column before has a bit of its own."""
+"""The bit in `quarantined` that all columns from this number on share; others have their own."""
 
 ARROW: dict[Kind, Any] = {"whole": pa.int64(), "real": pa.float64(), "flag": pa.bool_()}
 
