@@ -41,6 +41,7 @@ __all__ = [
     "missing_files",
     "polygon_contains",
     "polygon_error",
+    "quantile_bounds",
     "random_start",
     "read_classic",
     "read_configuration",
@@ -166,6 +167,9 @@ def requirement(
 def equal_allocation(configurations: int, runs: int) -> Procedure: ...
 def mean_bounds(
     values: NDArray[np.float64], lowest: float, highest: float, alpha: float
+) -> tuple[float, float]: ...
+def quantile_bounds(
+    ordered: NDArray[np.float64], share: float, alpha: float
 ) -> tuple[float, float]: ...
 def mean_exceeds(
     values: NDArray[np.float64], bounds: tuple[float, float], candidate: float, alpha: float
