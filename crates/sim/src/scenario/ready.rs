@@ -5,6 +5,7 @@ use super::spec::ScenarioSpec;
 use super::world_hash::world_hash;
 use crate::bodies::Layer;
 use crate::bodies::kind::{Kind, KindContext};
+use crate::end::EndCondition;
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::items::ItemKind;
@@ -41,6 +42,9 @@ pub struct Scenario {
     seen: [StaticGeometry; 2],
     touched: [StaticGeometry; 2],
     pub(crate) items: Vec<ItemKind>,
+    /// The condition with which a run is complete: that of the scenario, otherwise that all targets are found;
+    /// `None` if there are no targets either.
+    pub(crate) end: Option<EndCondition>,
     pub(crate) kinds: Vec<Kind>,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
     pub(crate) contact_m: f64,
@@ -109,6 +113,7 @@ impl Scenario {
             contact_m: 2.0 * touch_m,
             skin_m,
             solids,
+            end: end_of(spec, &items),
             items,
             kinds,
         }
@@ -146,11 +151,14 @@ impl Scenario {
 
     /// Number of targets.
     pub(crate) fn targets(&self) -> u32 {
-        self.items
-            .iter()
-            .filter(|kind| kind.is_target)
-            .map(|kind| kind.count)
-            .sum()
+        self.sum_of_targets(|kind| self.items[kind].count)
+    }
+
+    /// The sum of a number of each kind of items, over the kinds that are targets.
+    pub(crate) fn sum_of_targets(&self, number: impl Fn(usize) -> u32) -> u32 {
+        let kinds = self.items.iter().enumerate();
+        let targets = kinds.filter(|(_, kind)| kind.is_target);
+        targets.map(|(kind, _)| number(kind)).sum()
     }
 
     /// The largest range of any item detector.
@@ -314,6 +322,14 @@ impl Scenario {
         let mut near = self.near_solids.at(place).iter();
         near.any(|number| self.solids[*number as usize].covers(place))
     }
+}
+
+fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
+    let Some(end) = &spec.end else {
+        let has_targets = items.iter().any(|kind| kind.is_target && kind.count > 0);
+        return has_targets.then(EndCondition::all_found);
+    };
+    EndCondition::parse(&end.when, spec.items.keys().map(String::as_str)).ok()
 }
 
 fn greatest(kinds: &[Kind], value: impl Fn(&Kind) -> f64) -> f64 {
