@@ -568,6 +568,54 @@ fn a_liar_cannot_move_a_reported_item_far() {
     );
 }
 
+#[test]
+fn a_liar_cannot_gather_the_reports_of_others_by_naming_them_first() {
+    let mut items = Items::default();
+    let lie = POSITION.plus(Point { x: -15.0, y: 9.0 });
+    let named = |observer| Report {
+        from: robot(7),
+        at: lie,
+        ..report(observer, 1.0)
+    };
+    let lies = [7, 1, 2, 3].map(named);
+    for each in &lies {
+        receive(&mut items, ME, each);
+    }
+    let alone = confidence(&items, ME);
+    for observer in 1..4 {
+        receive(&mut items, ME, &report(observer, 1.0));
+        // Also relayed.
+        let relayed = Report {
+            from: robot(5),
+            ..report(observer, 1.0)
+        };
+        receive(&mut items, ME, &relayed);
+    }
+    assert!((confidence(&items, ME) - alone).abs() < 1e-12);
+    assert!(items.tracks[0].at.to(lie).length() < 1e-9);
+    assert!(items.tracks[1].at.to(POSITION).length() < 1e-9);
+}
+
+#[test]
+fn an_item_earns_trust_once_however_often_it_is_reported() {
+    let mut items = Items::default();
+    let mut trust = Trust::new(&TrustSpec::default());
+    (0..10).for_each(|_| hit(&mut items, ME));
+    let mut after = [0.0; 2];
+    for number in 0..100 {
+        let repeated = Report {
+            from: robot(7),
+            ..report(100 + number, 0.9)
+        };
+        receive(&mut items, ME, &repeated);
+        hit(&mut items, ME);
+        items.learn(ME, &mut trust);
+        after[usize::from(number > 0)] = trust.of(robot(7));
+    }
+    assert!(after[0] > TrustSpec::default().initial);
+    assert!((after[1] - after[0]).abs() < 1e-9, "{after:?}");
+}
+
 impl Track {
     fn slot_by(&self, own: RobotId) -> usize {
         let mut sources = self.sources[..self.count].iter();
