@@ -20,6 +20,7 @@ mod judge;
 mod layers;
 mod links;
 mod meetings;
+mod obstacles;
 mod periodic;
 mod radio;
 mod random;
