@@ -15,6 +15,7 @@ from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.sentence import sentence
+from agent_economy.study.answer.verdict import verdict
 from agent_economy.study.selection import Elimination, drive, guarantee_text, leading
 
 Floats = NDArray[np.float64]
@@ -136,6 +137,7 @@ def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
     return Answer(
         scenario=scenario,
         seed=0,
+        verdict=verdict(scenario, ending.best, found, delta, evidence.confidence),
         sentence=sentence(scenario, delta, ending, found, has_prices=False),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,

@@ -212,8 +212,9 @@ def test_raising_the_confidence_gives_the_answer_of_a_new_study_at_that_confiden
     assert answered.watched("more/classic")[-1]["state"] == "answered"
     scenario = Scenario.load("classic")
     study.run(scenario, vary={TEAM: "1..5"}, delta=0.3, confidence=0.99, out=tmp_path)
-    mine = (answered.path / "more" / "classic" / "answer.json").read_bytes()
-    assert mine == (tmp_path / "answer.json").read_bytes()
+    mine = json.loads((answered.path / "more" / "classic" / "answer.json").read_bytes())
+    assert len(mine.pop("questions")) == 2
+    assert mine == json.loads((tmp_path / "answer.json").read_bytes())
 
 
 def test_a_stopped_or_killed_study_resumes_to_the_same_bytes(

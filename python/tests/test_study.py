@@ -1,6 +1,7 @@
 """Studies from the question to the answer, through the Python API."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -81,7 +82,8 @@ def test_a_study_resumed_at_a_higher_confidence_equals_a_new_one(
     fresh = study.run(scenario, delta=0.2, confidence=0.999, out=tmp_path / "fresh")
     with pytest.raises(InputError, match="confidence = 0.6: must be above the study's 0.999"):
         study.resume(tmp_path / "more", confidence=0.6)
-    assert files.as_json(more) == files.as_json(fresh)
+    assert len(more.questions) == 2
+    assert files.as_json(replace(more, questions=())) == files.as_json(fresh)
     assert 0 < seen[-1].computed < fresh.runs
 
 

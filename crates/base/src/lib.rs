@@ -5,7 +5,7 @@
 //! * [`geodesy`]: geographic coordinates and bearings, and those of a world;
 //! * [`random`], [`philox`], [`noise`]: counter-based random streams, keyed by (seed, run, entity,
 //!   purpose), and the distributions drawn from them;
-//! * [`hash`]: a hash of simulation states;
+//! * [`hash`], [`hashed`]: a hash of simulation states, and the values that it covers;
 //! * [`map`]: ROS occupancy maps;
 //! * [`placement`]: random positions of items and robots without overlaps;
 //! * [`reachability`]: the parts of a world that a robot cannot reach;
@@ -20,6 +20,7 @@ pub mod error;
 pub mod geodesy;
 pub mod geometry;
 pub mod hash;
+pub mod hashed;
 pub mod map;
 pub mod noise;
 pub mod philox;

@@ -23,6 +23,8 @@ use crate::spec::BrainSpec;
 use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use core::cell::Cell;
 
 /// The brain of one robot.
@@ -107,6 +109,14 @@ impl Brain {
     #[must_use]
     pub fn belief_state(&self) -> Option<BeliefState> {
         self.beliefs.as_deref().map(BeliefState::of)
+    }
+
+    /// Adds its beliefs and goals to a hash; nothing if it has none.
+    pub fn hash_beliefs(&self, hash: &mut Hash) {
+        if let Some(brain) = &self.beliefs {
+            brain.add_to(hash);
+            self.assigned_goals().add_to(hash);
+        }
     }
 
     /// The goals that a person has assigned, in the order of assignment; none if no behaviour of the

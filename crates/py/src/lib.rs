@@ -76,7 +76,8 @@ mod _core {
     use crate::scenario::{missing_files, read_document, read_filled, read_scenario};
     #[pymodule_export]
     use crate::selection::{
-        Procedure, equal_allocation, mean_bounds, mean_exceeds, requirement, selection,
+        Procedure, equal_allocation, mean_bounds, mean_exceeds, quantile_bounds, requirement,
+        selection,
     };
     #[pymodule_export]
     use crate::simulation::{Simulation, Snapshot};

@@ -14,7 +14,7 @@ use sim::world::obstacles::Solid;
 
 /// The state at the current step; arrays have one entry per robot.
 ///
-/// `tick`, `hash`, `poses` (`x_m`, `y_m`, `heading_rad`), `half_turns` (sine and cosine of half the
+/// `tick`, `hash`, `decisions` (their hash, None if they are not hashed), `poses` (`x_m`, `y_m`, `heading_rad`), `half_turns` (sine and cosine of half the
 /// heading, the same on every machine), `speeds`, `commanded` (`speed_m_s`, `turn_rate_rad_s`),
 /// `status`, `battery` and `collisions` as `Simulation` has them; `found_s` has one entry per item.
 #[pyfunction]
@@ -26,7 +26,8 @@ pub(crate) fn recorded_moment<'py>(
     let robots: Vec<Robot> = run.state().each_robot(run.scenario()).collect();
     let dict = PyDict::new(py);
     dict.set_item("tick", run.state().tick())?;
-    dict.set_item("hash", run.state().hash())?;
+    dict.set_item("hash", run.hash())?;
+    dict.set_item("decisions", run.state().decision_hash())?;
     dict.set_item("poses", rows(py, &robots, pose)?)?;
     dict.set_item("half_turns", rows(py, &robots, half_turn)?)?;
     dict.set_item("commanded", rows(py, &robots, commanded)?)?;

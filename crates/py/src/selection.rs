@@ -4,6 +4,7 @@ use crate::error::InputError;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use select::bounds::{mean_bounds as bounds_of_mean, mean_exceeds as exceeds};
+use select::quantiles::quantile_bounds as bounds_of_quantile;
 use select::{Bounds, EqualAllocation, Problem, Race, Requirement, RequirementProblem, Strict};
 use std::sync::{Mutex, PoisonError};
 
@@ -163,6 +164,19 @@ pub(crate) fn mean_bounds(
     };
     let values = values.readonly().as_array().to_vec();
     py.detach(|| bounds_of_mean(&values, bounds, alpha))
+}
+
+/// Anytime-valid lower and upper bound of the quantile of a share of ordered values; each is wrong with a
+/// probability of at most `alpha`. A bound may be infinite.
+#[pyfunction]
+pub(crate) fn quantile_bounds(
+    py: Python,
+    ordered: &Bound<PyArray1<f64>>,
+    share: f64,
+    alpha: f64,
+) -> (f64, f64) {
+    let ordered = ordered.readonly().as_array().to_vec();
+    py.detach(|| bounds_of_quantile(&ordered, share, alpha))
 }
 
 /// Whether the mean of values within `bounds` is proved to be above `candidate`; valid at any time. `true`

@@ -265,7 +265,22 @@ impl Simulation {
 
     #[getter]
     fn hash(&self, py: Python) -> PyResult<u64> {
-        Ok(self.locked(py)?.state().hash())
+        Ok(self.locked(py)?.hash())
+    }
+
+    /// Hashes all decisions from now on, beginning with a value.
+    fn hash_decisions(&self, py: Python, start: &Bound<PyAny>) -> PyResult<()> {
+        let check = Arguments::default();
+        let start = check.integer("start", start, 0..=u64::MAX);
+        let start = check.or_errors(start)?;
+        self.locked(py)?.hash_decisions(start);
+        Ok(())
+    }
+
+    /// The hash of all decisions since then; None if they are not hashed.
+    #[getter]
+    fn decision_hash(&self, py: Python) -> PyResult<Option<u64>> {
+        Ok(self.locked(py)?.state().decision_hash())
     }
 
     /// KIND/INDEX of each robot.

@@ -65,6 +65,13 @@ pub fn mean_exceeds(values: &[f64], bounds: Bounds, candidate: f64, alpha: f64) 
     counted.refutes((candidate - bounds.min) / width, alpha)
 }
 
+/// Whether a share of which `hits` of `runs` were observed is above `candidate`, in 0..1; `true` is wrong
+/// with a probability of at most `alpha`.
+pub(crate) fn share_exceeds(hits: u64, runs: u64, candidate: f64, alpha: f64) -> bool {
+    let counted = Counted(vec![(0.0, runs - hits), (1.0, hits)]);
+    runs > 0 && counted.refutes(candidate, alpha)
+}
+
 /// Values in 0..=1, each with how often it occurs.
 struct Counted(Vec<(f64, u64)>);
 

@@ -10,6 +10,7 @@
 //! | the cheapest that meets a requirement | [`requirement`] |
 //! | evidence that a probability is above a limit | `proportion_test` |
 //! | a fixed number of runs per configuration, without a guarantee | [`equal_allocation`] |
+//! | bounds of a quantile that are valid at every moment | [`quantiles`] |
 //! | bounds of a mean that are valid at every moment | [`bounds`] |
 
 mod betting_test;
@@ -19,6 +20,7 @@ pub mod interim_analyses;
 pub mod problem;
 pub mod procedure;
 mod proportion_test;
+pub mod quantiles;
 pub mod race;
 pub mod requirement;
 mod samples;

@@ -16,6 +16,7 @@ from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.verdict import repeated
 from agent_economy.study.store.folder import REPORT
 
 WIDE = 118
@@ -42,17 +43,30 @@ def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
     else:
         table, precision = results_table(answer, ranges=is_wide), f"delta {answer.delta:g}, "
     print_whole(table, console, NAME)
-    console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
+    first, *lines, small = answer.verdict
+    console.print(first, style="bold", markup=False, emoji=False)
+    for line in lines:
+        console.print(line, markup=False, emoji=False)
+    console.print(f"{small}\n", style="dim", markup=False, emoji=False)
     console.print(
         f"{answer.guarantee} ({precision}{answer.runs:,} runs)\n",
         markup=False,
         emoji=False,
     )
+    if (count := len(answer.questions)) > 1:
+        typer.echo(f"{repeated(count, answer.confidence)}\n")
     typer.echo(f"Report: {folder / REPORT}")
 
 
 def results_table(answer: Answer, *, ranges: bool) -> Table:
     """Return a table of the best configurations, with ranges or without."""
+
+    def failed(result: Result) -> str:
+        if not result.is_possible:
+            return ""
+        if result.failed.value == 0:
+            return f"none (..{result.failed.high:.2%})" if ranges else "none"
+        return cell(result.failed, "z.2%")
 
     def cell(given: Interval, style: str) -> str:
         value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
@@ -79,7 +93,7 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
             Text(result.label),
             *(f"{count:,}" for count in counts),
             cell(result.time_s, "z.1f") if result.is_possible else "",
-            cell(result.failed, "z.2%") if result.is_possible else "",
+            failed(result),
             cell(result.merit, "z.2f") if result.is_possible else "",
             f"{result.standing.behind.value:z.3f}" if result.standing.behind else "",
             result.standing.verdict,

@@ -42,6 +42,7 @@ def overrides(
     sets: list[str] | None,
     vary: list[str] | None = None,
     *,
+    only_vary: bool = False,
     options: Mapping[str, TomlValue | None] | None = None,
 ) -> tuple[Override, ...]:
     """Return the values that options set, in place of the file's.
@@ -49,6 +50,7 @@ def overrides(
     Args:
         sets: Values of --set.
         vary: Values of --vary.
+        only_vary: Whether they replace the factors of the scenario, instead of adding to them.
         options: Values of other options by the path that they replace; None for those not given.
 
     Raises:
@@ -56,7 +58,12 @@ def overrides(
             path twice.
     """
     changes = [assigned(text) for text in once("--set", sets or [])]
-    changes += [varied(text) for text in once("--vary", vary or [])]
+    factors = [varied(text) for text in once("--vary", vary or [])]
+    if only_vary:
+        check(bool(factors), "--only-vary", "", "given with --vary")
+        table = {each.path[-1]: each.value for each in factors}
+        factors = [Override(("study", "vary"), table, "--vary")]
+    changes += factors
     changes += [
         Override(tuple(path.split(".")), value, f"--{OPTION_NAMES.get(path, path.split('.')[-1])}")
         for path, value in (options or {}).items()

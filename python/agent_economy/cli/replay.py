@@ -20,7 +20,7 @@ def replay(
         bool,
         typer.Option(
             "--verify/--no-verify",
-            help="Exit with code 1 if a recorded state is not reproduced, and with 2 if another "
+            help="Exit with code 1 if the recording is not reproduced, and with 2 if another "
             "build of this program recorded it.",
         ),
     ] = True,
@@ -30,7 +30,8 @@ def replay(
 ) -> None:
     """Replay a recorded run from its file alone, and verify that it is reproduced exactly.
 
-    Every recorded state is compared bit by bit. A truncated recording is compared up to its end.
+    Every recorded state is compared bit by bit, and so are all percepts and commands until then. A
+    truncated recording is compared up to its end.
 
     Exit codes: 0 reproduced; 1 not reproduced; 2 the file is damaged, not a recording, or of
     another build of this program; 130 stopped by Ctrl-C.
@@ -54,7 +55,8 @@ def as_sentence(result: "Replay") -> str:
         lines = "" if result.lines is None else f", from {result.lines:,} lines of robots"
         verdict = f"reproduced up to step {result.tick:,} (hash {result.hash}){lines}"
     else:
-        verdict = f"differs from the recording from step {result.mismatch_tick:,} on"
+        from_step = f"from step {result.mismatch_tick:,} on, first in its {result.mismatch}"
+        verdict = f"differs from the recording {from_step}"
     build = Build(result.program, result.engine)
     builds = "" if build == own_build() else f"; recorded by {build}, replayed by {own_build()}"
     end = (
@@ -68,7 +70,8 @@ def as_sentence(result: "Replay") -> str:
 def as_dict(result: "Replay") -> dict[str, object]:
     """Return the result of a replay for programs."""
     first = ("seed", "run", "program", "engine")
-    names = (*first, "is_complete", "tick", "hash", "agrees", "mismatch_tick", "lines")
+    last = ("mismatch_tick", "mismatch", "lines")
+    names = (*first, "is_complete", "tick", "hash", "agrees", *last)
     return {
         "scenario": result.scenario.name,
         **{name: getattr(result, name) for name in names},

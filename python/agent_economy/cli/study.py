@@ -81,6 +81,14 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             rich_help_panel=QUESTION,
         ),
     ] = None,
+    only_vary: Annotated[
+        bool,
+        typer.Option(
+            "--only-vary",
+            help="Vary only the factors of --vary, not those of the scenario.",
+            rich_help_panel=QUESTION,
+        ),
+    ] = False,
     sets: Sets = None,
     design: Annotated[
         str | None,
@@ -236,7 +244,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             "require.probability": probability,
             "require.tolerance": tolerance,
         }
-        changes = overrides(sets, vary, options=options)
+        changes = overrides(sets, vary, only_vary=only_vary, options=options)
         settings = {
             "seed": seed,
             "delta": delta,
@@ -258,8 +266,17 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         plan, folder = request.plan()
         print_warnings(plan.warnings)
         typer.echo(str(Description.of(plan)), err=True)
+        if vary and (also := others_varied(plan, vary)):
+            typer.echo(f"also over {also}, of the scenario", err=True)
         answer = compute_answer(plan, folder, workers, dask)
     show(answer, folder, as_json=as_json)
+
+
+def others_varied(plan: Plan, vary: list[str]) -> str:
+    """Return the factors that the scenario varies besides those of --vary."""
+    given = {text.partition("=")[0].strip() for text in vary}
+    others = [factor for factor in plan.scenario.factors if factor.path not in given]
+    return "; ".join(f"{factor.path} = {factor}" for factor in others)
 
 
 def compute_answer(

@@ -120,10 +120,12 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
     if drive is None:
         return replayed
     with named(Path(path)):
-        ticks = [
-            tick for tick in (replayed.mismatch_tick, drive.mismatch(replayed)) if tick is not None
-        ]
-    return replace(replayed, mismatch_tick=min(ticks, default=None), lines=drive.lines)
+        tick = drive.mismatch(replayed)
+    replayed = replace(replayed, lines=drive.lines)
+    before = replayed.mismatch_tick
+    if tick is None or (before is not None and before < tick):
+        return replayed
+    return replace(replayed, mismatch_tick=tick, mismatch="percepts or setpoints")
 
 
 def read_drive(path: Path) -> Drive | None:

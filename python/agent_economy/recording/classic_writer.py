@@ -10,6 +10,7 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
 from agent_economy import arrow
 from agent_economy.recording import schemas
+from agent_economy.recording.fields import hash_text
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD as FRAME
 from agent_economy.recording.foxglove import color, cube, scene
@@ -47,6 +48,8 @@ NO_BRAINS = "none: robots of the classic engine have no percepts or commands"
 
 class ClassicMoments:
     """The steps of a run until its scenario changes: see `engines.Moments`."""
+
+    decision_hash = None
 
     def __init__(
         self,
@@ -93,7 +96,7 @@ class ClassicMoments:
         self._file.write_json("/robots", states(robots), time_ns)
         run = {
             "tick": self.tick,
-            "hash": f"{self.hash:016x}",
+            "hash": hash_text(self.hash),
             "changes": self._changes,
             "found": int(np.isfinite(found).sum()),
             "carry": simulation.carry,

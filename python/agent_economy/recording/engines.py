@@ -24,6 +24,10 @@ class Moments(Protocol):
     def hash(self) -> int:
         """Hash of the step written last."""
 
+    @property
+    def decision_hash(self) -> int | None:
+        """Hash of the decisions until then; None if they are not hashed."""
+
     def step(self, steps: int, inputs: ExternalInputs, time_ns: int, /) -> dict[str, Command]:
         """Advance the simulation, and write its external inputs."""
 

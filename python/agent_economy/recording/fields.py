@@ -14,6 +14,15 @@ MAX_SHOWN = 80
 """Maximum number of characters of a value in an error message."""
 
 
+HEX_DIGITS = 16
+"""Hexadecimal digits of a hash: 64 bits."""
+
+
+def hash_text(value: int) -> str:
+    """Return a hash as recordings store it."""
+    return f"{value:0{HEX_DIGITS}x}"
+
+
 class Entries:
     """Metadata or a message of a recording; errors name the entry."""
 
@@ -32,6 +41,10 @@ class Entries:
         """Whether there is an entry with a name."""
         return name in self._values
 
+    def has_value(self, name: str) -> bool:
+        """Whether there is an entry with a name that is not null."""
+        return self._values.get(name) is not None
+
     def text(self, name: str) -> str:
         """Return a string.
 
@@ -43,6 +56,20 @@ class Entries:
             value
             if validation.is_text(value)
             else self.refuse(f"{name} = {shown(value)}, not a string")
+        )
+
+    def hash(self, name: str) -> str:
+        """Return a hash: 16 hexadecimal digits.
+
+        Raises:
+            InputError: If it is missing or not a hash.
+        """
+        text = self.text(name)
+        is_hash = len(text) == HEX_DIGITS and set(text) <= set("0123456789abcdef")
+        return (
+            text
+            if is_hash
+            else self.refuse(f"{name} = {shown(text)}, not {HEX_DIGITS} hexadecimal digits")
         )
 
     def whole(self, name: str) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
-from agent_economy.recording.fields import Entries
+from agent_economy.recording.fields import Entries, hash_text
 from agent_economy.recording.file import File, strict
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Override, Scenario, Source, validation
@@ -81,9 +81,11 @@ def write_change(file: File, change: Change) -> None:
     file.note(CHANGE, values)
 
 
-def write_end(file: File, tick: int, state_hash: int) -> None:
-    """Write the final state of the recording."""
-    file.note(END, {"tick": str(tick), "hash": f"{state_hash:016x}"})
+def write_end(file: File, tick: int, state_hash: int, decision_hash: int | None) -> None:
+    """Write the final state of the recording, and the hash of its decisions if it has one."""
+    values = {"tick": str(tick), "hash": hash_text(state_hash)}
+    decisions = {} if decision_hash is None else {"decisions": hash_text(decision_hash)}
+    file.note(END, values | decisions)
 
 
 def read_run(values: object) -> Entries:

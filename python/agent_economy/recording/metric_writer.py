@@ -9,6 +9,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.brain_topics import BrainTopics
+from agent_economy.recording.fields import hash_text
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log, scene
 from agent_economy.recording.inputs import ExternalInputs
@@ -91,6 +92,12 @@ class MetricMoments:
         """Hash of the step written last."""
         return int(self._last["hash"])
 
+    @property
+    def decision_hash(self) -> int | None:
+        """Hash of the decisions until then; None if they are not hashed."""
+        decisions: int | None = self._last["decisions"]
+        return decisions
+
     def step(self, steps: int, inputs: ExternalInputs, time_ns: int) -> dict[str, Command]:
         """Advance as `Simulation.step` does, and write the external inputs."""
         return self._brains.step(steps, inputs, time_ns)
@@ -111,7 +118,8 @@ class MetricMoments:
         self._file.write_json("/robots", states(moment), time_ns)
         run = {
             "tick": moment["tick"],
-            "hash": f"{moment['hash']:016x}",
+            "hash": hash_text(self.hash),
+            "decisions": None if self.decision_hash is None else hash_text(self.decision_hash),
             "changes": self._changes,
             "found": int(np.isfinite(moment["found_s"]).sum()),
             "stopped": int((moment["status"] != 0).sum()),

@@ -38,11 +38,13 @@ class Point:
         tick: Number of steps before it.
         changes: Number of changes of the scenario before it.
         hash: Hash of the state: 64 bits, hexadecimal.
+        decisions: Hash of the decisions so far; None if it was not recorded.
     """
 
     tick: int
     changes: int
     hash: str
+    decisions: str | None = None
 
 
 @dataclass
@@ -113,14 +115,19 @@ class Recorded:
 
     def _add_message(self, topic: str, data: bytes) -> None:
         if topic == "/run":
-            run = Entries(f"topic {topic}", json.loads(data))
-            self.points.append(Point(run.whole("tick"), run.whole("changes"), run.text("hash")))
+            self.points.append(read_point(Entries(f"topic {topic}", json.loads(data))))
         elif topic == "/input":
             self._add_input(Entries(f"topic {topic}", json.loads(data)))
 
     def _add_input(self, entries: Entries) -> None:
         each = {name: entries.by_name(name) for name in ("percepts", "commands")}
         self.inputs[entries.whole("tick")] = each
+
+
+def read_point(run: Entries) -> Point:
+    """Return a recorded state; old recordings have no hash of the decisions."""
+    decisions = run.hash("decisions") if run.has_value("decisions") else None
+    return Point(run.whole("tick"), run.whole("changes"), run.text("hash"), decisions)
 
 
 def stream_records(stream: IO[bytes]) -> Iterator[McapRecord]:

@@ -45,7 +45,7 @@ class Recording:
         percepts: Sequence[str] = (),
         flush_s: float = FLUSH_S,
     ) -> None:
-        """Start a recording at the current step of the run.
+        """Start a recording at the current step of the run; from then on, decisions are hashed.
 
         Args:
             simulation: The run, a `Simulation` or a `ClassicSimulation`, at its first step. Of a
@@ -74,6 +74,8 @@ class Recording:
         self._changes = simulation.changes[:0]
         self._files: set[str] = set()
         self._logged: set[str] = set()
+        if simulation.decision_hash is None:
+            simulation.hash_decisions()
         write_identity(self._file, simulation)
         self._write_scenario()
         # The file of a killed process must identify its run.
@@ -155,7 +157,7 @@ class Recording:
             last, outcome = self._moments, self.simulation.outcome()
             row = {"status": outcome.status, **outcome.row}
             self._file.write_json("/outcome", row, self._clock.time_ns(last.tick))
-            write_end(self._file, last.tick, last.hash)
+            write_end(self._file, last.tick, last.hash, last.decision_hash)
         finally:
             if self._file.is_open:
                 self._file.close()

@@ -7,8 +7,9 @@ from typing import Any
 
 from agent_economy._core import InputError
 from agent_economy.build import own_build
+from agent_economy.recording.fields import hash_text
 from agent_economy.recording.identity import Identity
-from agent_economy.recording.reading import Recorded, named, read
+from agent_economy.recording.reading import Point, Recorded, named, read
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Change, Stepped
@@ -31,6 +32,9 @@ class Replay:
         hash: Hash of that state in the replay: 64 bits, hexadecimal.
         mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
             it reproduces all.
+        mismatch: What differs there: "state", "decisions" (the percepts and commands until then) or
+            "decisions and state"; of a drive also "percepts or setpoints", if the recorded lines do
+            not give them. None if nothing differs.
         outcome: The outcome of the replay.
         external: Names of the robots that had external bodies from the start.
         lines: Number of lines of robots from which the percepts were made again; None if the
@@ -46,13 +50,14 @@ class Replay:
     tick: int
     hash: str
     mismatch_tick: int | None
+    mismatch: str | None
     outcome: Outcome
     external: tuple[str, ...] = ()
     lines: int | None = None
 
     @property
     def agrees(self) -> bool:
-        """Whether the replay reproduces all recorded states."""
+        """Whether the replay reproduces all recorded states and decisions."""
         return self.mismatch_tick is None
 
 
@@ -94,13 +99,16 @@ def check_build(identity: Identity) -> None:
 
 
 def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Replay:
-    """Replay a run, and compare it with the recorded states."""
-    mismatch_tick = None
+    """Replay a run, and compare it with the recorded states and decisions."""
+    mismatch_tick, mismatch = None, None
     for point in recorded.points:
         changes = recorded.changes[: point.changes]
         for _ in replay_steps(simulation, simulation.step, changes, recorded.inputs, point.tick):
             pass
-        if mismatch_tick is None and f"{simulation.hash:016x}" != point.hash:
+        if simulation.decision_hash is None and point.decisions is not None:
+            # The recorded hash may have begun before the recording.
+            simulation.hash_decisions(int(point.decisions, 16))
+        if mismatch is None and (mismatch := difference(simulation, point)):
             mismatch_tick = point.tick
     return Replay(
         scenario=identity.scenario,
@@ -110,11 +118,22 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rep
         engine=identity.build.engine,
         is_complete=recorded.is_complete,
         tick=simulation.tick,
-        hash=f"{simulation.hash:016x}",
+        hash=hash_text(simulation.hash),
         mismatch_tick=mismatch_tick,
+        mismatch=mismatch,
         outcome=simulation.outcome(),
         external=identity.external,
     )
+
+
+def difference(simulation: Stepped, point: Point) -> str | None:
+    """Return what of a run differs from a recorded point, in words; None if nothing does."""
+    own = simulation.decision_hash
+    differ = {
+        "decisions": own is not None and point.decisions not in (None, hash_text(own)),
+        "state": hash_text(simulation.hash) != point.hash,
+    }
+    return " and ".join(what for what, differs in differ.items() if differs) or None
 
 
 def replay_steps(

@@ -47,6 +47,11 @@ RUN = of_object(
     "The progress of a run.",
     {
         **OF_ALL_ENGINES,
+        "decisions": {
+            "type": ["string", "null"],
+            "description": "Hash of all percepts and commands until then: 64 bits, hexadecimal. "
+            "Null if the run was restored to a state without one.",
+        },
         "stopped": INTEGER | {"description": "Number of robots that are empty or broken."},
     },
 )

@@ -90,6 +90,14 @@ class ClassicSimulation(Stepped):
         """
         self._number(robot)
 
+    def hash_decisions(self, start: int = 0) -> None:
+        """Do nothing: robots of the classic engine have no percepts or commands."""
+
+    @property
+    def decision_hash(self) -> None:
+        """None: see `hash_decisions`."""
+        return
+
     def examined_cells(self, robot: str) -> list[tuple[int, int]]:
         """Return the cells (columns and rows) that a robot would examine if it decided now.
 

@@ -312,6 +312,29 @@ class Simulation(Stepped):
             self.scenario, self._brains = changed, brains
             self._changes += (Change(tick, path, value),)
 
+    def hash_decisions(self, start: int = 0) -> None:
+        """Hash all decisions from now on: see `decision_hash`. It changes nothing else.
+
+        Args:
+            start: The value to begin with, 0 to 2^64 - 1: to continue a hash, its value at this
+                step.
+
+        Raises:
+            InputError: If `start` is not allowed.
+        """
+        self._run.hash_decisions(start)
+
+    @property
+    def decision_hash(self) -> int | None:
+        """A 64-bit hash of all decisions since `hash_decisions`; None before.
+
+        Each step of each brain adds its percept and its command with all their parts, also those of
+        external bodies and of Python brains, and so do `commands` that replace decisions. Two runs
+        with the same hash have made the same decisions from the same percepts. Snapshots contain
+        it.
+        """
+        return self._run.decision_hash
+
     def snapshot(self) -> Snapshot:
         """Return a copy of the complete state of the run. It takes as much memory as the run.
 

@@ -102,6 +102,15 @@ class Stepped(ABC):
     def belief_state(self, robot: str) -> BeliefState | None:
         """Return what a robot believes and its goals; None if its brain has no beliefs."""
 
+    @abstractmethod
+    def hash_decisions(self, start: int = 0) -> None:
+        """Hash all decisions from now on: see `decision_hash`."""
+
+    @property
+    @abstractmethod
+    def decision_hash(self) -> int | None:
+        """A 64-bit hash of all decisions since `hash_decisions`; None if there is none."""
+
     def snapshot(self) -> Snapshot:
         """Return a copy of the complete state of the run. It takes as much memory as the run."""
         with self._lock:
@@ -174,7 +183,11 @@ class Stepped(ABC):
 
     @property
     def hash(self) -> int:
-        """A 64-bit hash of the state: equal for runs without a visible difference."""
+        """A 64-bit hash of the state: equal for runs in the same state.
+
+        Of the metric engine, it covers the robots and what they believe, the messages that have not
+        reached a brain, which items were found, and the obstacles and the terrain.
+        """
         return self._run.hash
 
 

@@ -19,6 +19,12 @@ COMPARISONS: dict[str, Callable[[Floats, float], NDArray[np.bool_]]] = {
 }
 
 
+def of_success(columns: Mapping[str, Floats], column: str) -> Floats:
+    """Return the values of a column; `time_s` of a run without success is infinite."""
+    values = columns[column]
+    return np.where(columns["failed"] > 0, np.inf, values) if column == "time_s" else values
+
+
 @dataclass(frozen=True)
 class Condition:
     """A condition on the outcome of a run.
@@ -45,9 +51,7 @@ class Condition:
 
         In a condition, `time_s` is the time of success: of a run without success, it is infinite.
         """
-        values = columns[self.column]
-        if self.column == "time_s":
-            values = np.where(columns["failed"] > 0, np.inf, values)
+        values = of_success(columns, self.column)
         return COMPARISONS[self.comparison](values, self.value) & ~np.isnan(values)
 
     def triviality(self, limits: Sequence[tuple[float, float]]) -> str:

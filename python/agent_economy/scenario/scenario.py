@@ -3,13 +3,14 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from html import escape
 from pathlib import Path
 from typing import Any
 
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario import bundled, validation
-from agent_economy.scenario.merit import Merit, Term, display_name
+from agent_economy.scenario.merit import Merit, Term, display_name, shortest
 from agent_economy.scenario.requirement import Condition, Requirement
 from agent_economy.scenario.source import (
     MAX_BYTES,
@@ -23,6 +24,9 @@ from agent_economy.scenario.source import (
     read_file,
 )
 from agent_economy.scenario.warning import ScenarioWarning, warnings
+
+MAX_VALUES = 8
+"""Maximum number of values of a factor that are printed."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +59,18 @@ class Factor:
     path: str
     values: tuple[Value, ...]
     range: tuple[float, float] | None = None
+
+    def __str__(self) -> str:
+        """Return its values in short: "1..40", "1, 2, 4", "touch, ahead"."""
+        if self.range:
+            return "..".join(map(shortest, self.range))
+        values = self.values
+        first, last = values[0], values[-1]
+        is_whole = type(first) is int and type(last) is int
+        if is_whole and len(values) > 1 and values == tuple(range(int(first), int(last) + 1)):
+            return f"{first}..{last}"
+        shown = [str(value) for value in values[:MAX_VALUES]]
+        return ", ".join(shown + (["..."] if len(values) > MAX_VALUES else []))
 
 
 @dataclass(frozen=True)
@@ -148,6 +164,21 @@ class Scenario:
             published=published_of(fields.pop("published")),
             **fields,
         )
+
+    def __repr__(self) -> str:
+        """Return it in one line, without its text."""
+        varied = ", ".join(f"{factor.path} = {factor}" for factor in self.factors)
+        return f"Scenario({self.name!r}: {self.summary} Varied: {varied or 'nothing'}.)"
+
+    def _repr_html_(self) -> str:
+        """Return it for notebooks."""
+        rows = [("engine", self.engine), ("merit", self.merit.name)]
+        rows += [(f"varied: {factor.path}", str(factor)) for factor in self.factors]
+        if self.requirement:
+            rows.append(("requirement", str(self.requirement)))
+        cells = "".join(f"<tr><td>{escape(a)}</td><td>{escape(b)}</td></tr>" for a, b in rows)
+        head = f"<b>{escape(self.name)}</b>: {escape(self.summary)}"
+        return f"{head}<table>{cells}</table>"
 
     @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:

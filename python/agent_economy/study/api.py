@@ -1,14 +1,14 @@
 """Run studies, resume them, and read their answers."""
 
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from shlex import quote
 from typing import Any
 
 from agent_economy._core import InputError
-from agent_economy.scenario import Override, Scenario, Value, validation
+from agent_economy.scenario import Override, Scenario, Value, as_scenario, validation
 from agent_economy.scenario.source import check_path
 from agent_economy.study import files
 from agent_economy.study import plan as plans
@@ -25,10 +25,17 @@ from agent_economy.study.store import read
 
 
 def run(  # noqa: PLR0913  (keywords with defaults)
-    scenario: Scenario,
+    scenario: Scenario | str | Path,
     *,
     vary: Mapping[str, str | Iterable[Value]] | None = None,
+    only_vary: bool = False,
     design: str | None = None,
+    merit: str | Mapping[str, Any] | None = None,
+    require: str | Sequence[str] | None = None,
+    probability: float | None = None,
+    tolerance: float | None = None,
+    minimize: str | None = None,
+    where: str | None = None,
     delta: float | None = None,
     confidence: float | None = None,
     guarantee: Guarantee | None = None,
@@ -41,11 +48,25 @@ def run(  # noqa: PLR0913  (keywords with defaults)
 ) -> AnyAnswer:
     """Run the study of a scenario until its answer is settled, and return the answer.
 
+    The question of a scenario with a requirement is the cheapest configuration that meets it,
+    unless `delta`, `guarantee` or `runs` select the best by merit.
+
     Args:
-        scenario: The scenario.
-        vary: Values of each varied factor, by path, as a list or a string such as "1..40"; None for
-            what the scenario varies.
+        scenario: The scenario, its file, or the name of a bundled one.
+        vary: Values of each varied factor, by path, as a list or a string such as "1..40"; they are
+            added to what the scenario varies. None for what the scenario varies.
+        only_vary: Whether `vary` replaces what the scenario varies.
         design: "factorial", "lhs:N" or "sobol:N"; None for the scenario's.
+        merit: A name, or weights by term, as in a scenario; None for the scenario's.
+        require: What a mission must meet: a condition, or a list of them; None for the scenario's.
+        probability: The share of missions that must meet it; above 0, below 1. None for the
+            scenario's, or 0.95.
+        tolerance: The share above `probability` that need not be found; None for the scenario's, or
+            40% of 1 - `probability`.
+        minimize: With a requirement, the cost of a team: "robots", "price", or an expression of
+            team sizes; None for the scenario's.
+        where: A condition on team sizes that selects the compared configurations; None for the
+            scenario's.
         delta: Indifference zone, in units of merit, above 0; None for the scenario's, or 2% of the
             merit's range.
         confidence: Confidence of the guarantee, 0.5 to below 1; None for the scenario's.
@@ -60,17 +81,31 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             of runs at a time. None for threads of this process.
         on_progress: Called after each round, and about every second during a long one.
 
+    Returns:
+        An `Answer`, or a `RequirementAnswer` to the question of a requirement.
+
     Raises:
         InputError: If an argument is invalid; or the folder contains another study or runs of
             another build of this program, is damaged, or cannot be written.
     """
-    validation.of_type("scenario", scenario, Scenario, "a Scenario")
     validation.of_type("vary", vary, Mapping | None, "a dict of values by their paths")
-    changes = [varied(path, values) for path, values in (vary or {}).items()]
-    if design is not None:
-        changes.append(Override(("study", "design"), design, "design"))
+    options = {
+        "study.design": design,
+        "merit": merit if merit is None or isinstance(merit, str) else dict(merit),
+        "require.all": [require] if isinstance(require, str) else require and list(require),
+        "require.probability": probability,
+        "require.tolerance": tolerance,
+        "study.minimize": minimize,
+        "study.where": where,
+    }
+    changes = factor_changes(vary or {}, only_vary=only_vary)
+    changes += [
+        Override(tuple(path.split(".")), value, path.split(".")[-1])
+        for path, value in options.items()
+        if value is not None
+    ]
     plan = plans.make(
-        scenario.changed(tuple(changes)),
+        as_scenario(scenario).changed(tuple(changes)),
         seed=seed,
         delta=delta,
         confidence=confidence,
@@ -82,6 +117,15 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         return run_plan(plan, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return run_race(plan, Path(folder), compute, on_progress)[0]
+
+
+def factor_changes(vary: Mapping[str, str | Iterable[Value]], *, only_vary: bool) -> list[Override]:
+    """Return the overrides that vary factors, besides or instead of those of the scenario."""
+    changes = [varied(path, values) for path, values in vary.items()]
+    if not only_vary:
+        return changes
+    table = {each.path[-1]: each.value for each in changes}
+    return [Override(("study", "vary"), table, "vary")]
 
 
 def resume(

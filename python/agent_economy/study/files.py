@@ -42,12 +42,14 @@ def as_json(answer: AnyAnswer) -> str:
 
 
 def as_dict(answer: AnyAnswer) -> dict[str, Any]:
-    """Return an answer as JSON values; `omissions` only if there are any."""
+    """Return an answer as JSON values; `omissions` and other `questions` only if there are any."""
     values = asdict(answer)
     scenario = values.pop("scenario")
     del scenario["source"]
     if isinstance(answer, Answer) and not answer.omissions:
         del values["omissions"]
+    if len(answer.questions) <= 1:
+        del values["questions"]
     results = [
         {"configuration": index, **result} for index, result in enumerate(values.pop("results"))
     ]

@@ -7,6 +7,7 @@ not, and repeating a finished study computes nothing.
 
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -131,9 +132,13 @@ class Race:
             message = f"no configuration can be run: {error} ({self._obstacle(0)})"
             raise InputError(message) from None
         plan, evidence = self._plan, self.evidence()
+        answer: AnyAnswer
         if isinstance(plan.question, Cheapest):
-            return conclude_requirement(plan, evidence, self._requirement_ending()), evidence
-        return conclude(plan, evidence, self._ending()), evidence
+            answer = conclude_requirement(plan, evidence, self._requirement_ending())
+        else:
+            answer = conclude(plan, evidence, self._ending())
+        questions = self._store.answered(question_in_words(plan))
+        return replace(answer, questions=questions), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure
@@ -284,6 +289,14 @@ class Race:
         else:
             return None
         return max(0.0, missing - self._store.pending)
+
+
+def question_in_words(plan: Plan) -> str:
+    """Return the question of a plan, which other questions about the same runs differ from."""
+    question = plan.question.as_dict(plan.confidence)
+    if isinstance(plan.question, Best):
+        question["merit"] = plan.scenario.merit.name
+    return ", ".join(f"{key} {value}" for key, value in question.items())
 
 
 def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:

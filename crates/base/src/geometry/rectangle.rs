@@ -13,6 +13,8 @@ pub struct Rectangle {
     max: Point,
 }
 
+crate::hashed!(Rectangle { min, max });
+
 impl From<[Point; 2]> for Rectangle {
     fn from([one, other]: [Point; 2]) -> Self {
         Self::spanned(one, other)

@@ -11,6 +11,12 @@ pub(super) struct Grid {
     cells: Vec<i8>,
 }
 
+crate::hashed!(Grid {
+    columns,
+    rows,
+    cells
+});
+
 /// Number of cells of an image.
 ///
 /// # Errors

@@ -51,6 +51,8 @@ pub enum Unknown {
     Solid,
 }
 
+crate::hashed!(enum Unknown);
+
 /// How a world uses a map.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct MapOptions {
@@ -69,6 +71,9 @@ pub struct OccupancyMap {
     unknown: Unknown,
     outline: Vec<Segment>,
 }
+
+// The outline follows from the cells.
+crate::hashed!(OccupancyMap { cells, settings, unknown } without { outline });
 
 /// Reads the map with the YAML `text`; `file` is its name in errors.
 ///

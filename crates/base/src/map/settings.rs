@@ -52,6 +52,10 @@ pub(super) struct Settings {
     mode: Mode,
 }
 
+// The others decide how the image is read, and its cells contain the result.
+crate::hashed!(Settings { resolution_m, origin, turn, occupied_threshold, free_threshold }
+    without { image, source, is_negated, mode });
+
 pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
     Document::parse_yaml(file, text)?.read(|root| {
         report_misspelt(root);

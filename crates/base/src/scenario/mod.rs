@@ -29,6 +29,8 @@
 //! | `1..40` | whole numbers, both ends included |
 //! | `1,2,4` or `1..4,8` or `0.5,1.0` | the listed numbers |
 //! | `touch,ahead` or `false,true` | the listed names or booleans |
+//! | `1..41 by 5` or `0.1..0.5 by 0.1` | numbers with this step |
+//! | `1..1000 log 7` | seven numbers, each the same multiple of the one before |
 //! | `41.0..57.0` | any number in the range: only for the designs `lhs:` and `sobol:` |
 //!
 //! **A custom figure of merit** is a table of weights on the outcome of a run; higher is better:

@@ -94,7 +94,8 @@ fn study() -> Json {
                                 `\"robots.rover.count\"`, and a string of its values.",
                 "type": "object",
                 "additionalProperties": {
-                    "description": "`1..40` for whole numbers, both ends included; `1,2,4`, \
+                    "description": "`1..40` for whole numbers, both ends included; `1..41 by 5` with a \
+                                    step, `1..1000 log 7` for seven with the same ratio; `1,2,4`, \
                                     `0.5,1.0` or `ground,air` for a list; `0.5..1.5` for any number \
                                     in the range, with the designs `lhs:` and `sobol:` only.",
                     "type": "string",

@@ -4,10 +4,12 @@ use crate::document::Value;
 
 /// Maximum number of values of one factor.
 const MAX_VALUES: i128 = 10_000;
+const MAX_VALUES_F64: f64 = 10_000.0;
 
 /// What is allowed as a string of values.
-pub(super) const ALLOWED: &str = "a string of values, such as \"1..40\" (both ends included), \"1,2,4\", \"0.5,1.0\" or \
-     \"touch,ahead\", or a range of numbers, such as \"41.0..57.0\"";
+pub(super) const ALLOWED: &str = "a string of values, such as \"1..40\" (both ends included), \"1..41 by 5\", \"1..1000 log \
+     7\" (7 values, each the same multiple of the one before), \"1,2,4\", \"0.5,1.0\" or \"touch,ahead\", or a range of \
+     numbers, such as \"41.0..57.0\"";
 
 /// The values of a factor.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +47,7 @@ pub(super) fn largest_of(text: &str) -> Option<f64> {
     let numbers = parts.filter_map(|part| match part {
         Part::One(value) => as_f64(&value),
         Part::Run(_, high) => as_f64(&Value::Integer(high)),
+        Part::Spaced(values) => values.iter().filter_map(as_f64).reduce(f64::max),
     });
     numbers.reduce(f64::max)
 }
@@ -63,6 +66,8 @@ enum Part {
     One(Value),
     /// Whole numbers from the first to the second, both included.
     Run(i64, i64),
+    /// Numbers with a step or a ratio between them.
+    Spaced(Vec<Value>),
 }
 
 impl Part {
@@ -70,6 +75,12 @@ impl Part {
         let Some((low, high)) = text.split_once("..") else {
             return number(text).or_else(|| word(text)).map(Self::One);
         };
+        if let Some((high, step)) = high.split_once(" by ") {
+            return steps(&[number(low)?, number(high)?, number(step)?]).map(Self::Spaced);
+        }
+        if let Some((high, count)) = high.split_once(" log ") {
+            return ratios(&[number(low)?, number(high)?, number(count)?]).map(Self::Spaced);
+        }
         match (number(low)?, number(high)?) {
             (Value::Integer(low), Value::Integer(high)) if low <= high => {
                 Some(Self::Run(low, high))
@@ -82,6 +93,7 @@ impl Part {
         match self {
             Self::One(_) => 1,
             Self::Run(low, high) => i128::from(*high) - i128::from(*low) + 1,
+            Self::Spaced(values) => values.len() as i128,
         }
     }
 
@@ -89,8 +101,59 @@ impl Part {
         match self {
             Self::One(value) => vec![value],
             Self::Run(low, high) => (low..=high).map(Value::Integer).collect(),
+            Self::Spaced(values) => values,
         }
     }
+}
+
+/// From `low` to `high` in steps; whole numbers if all three are.
+fn steps(numbers: &[Value; 3]) -> Option<Vec<Value>> {
+    let is_whole = numbers.iter().all(is_integer);
+    let [low, high, step] = numbers.each_ref().map(as_f64);
+    let (low, high, step) = (low?, high?, step?);
+    // Rounding must not lose the last one.
+    let count = ((high - low) / step * (1.0 + 1e-12)).floor();
+    let is_allowed = step > 0.0 && low <= high && count < MAX_VALUES_F64;
+    let at = |place: i32| spaced(low + f64::from(place) * step, is_whole);
+    is_allowed.then(|| (0..=as_count(count)).map(at).collect())
+}
+
+/// `count` numbers from `low` to `high`, each the same multiple of the one before; rounded to whole
+/// numbers if both ends are.
+fn ratios(numbers: &[Value; 3]) -> Option<Vec<Value>> {
+    let is_whole = numbers[..2].iter().all(is_integer);
+    let [low, high, count] = numbers.each_ref().map(as_f64);
+    let (low, high, count) = (low?, high?, count?);
+    let is_allowed = low > 0.0 && low < high && (2.0..MAX_VALUES_F64).contains(&count);
+    let last = count.floor() - 1.0;
+    let at = |place: i32| {
+        let share = f64::from(place) / last;
+        spaced(low * libm::pow(high / low, share), is_whole)
+    };
+    is_allowed.then(|| (0..=as_count(last)).map(at).collect())
+}
+
+fn is_integer(value: &Value) -> bool {
+    matches!(value, Value::Integer(_))
+}
+
+/// A count that is known to be small.
+#[expect(clippy::cast_possible_truncation, reason = "below 10,000")]
+fn as_count(count: f64) -> i32 {
+    count as i32
+}
+
+/// A number with ten significant digits, so that 0.1 + 2 x 0.1 is 0.3; or a whole one.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "values beyond are reported when they are checked"
+)]
+fn spaced(number: f64, is_whole: bool) -> Value {
+    if is_whole {
+        return Value::Integer(number.round() as i64);
+    }
+    let rounded = format!("{number:.9e}").parse();
+    Value::Float(rounded.unwrap_or(number))
 }
 
 /// A finite number that begins with a digit or a sign: `.3` comes from the typing error `1...3`.
@@ -166,6 +229,18 @@ mod tests {
     fn values_are_ranges_lists_and_mixtures() {
         for (text, expected) in [
             ("1..3", "1 2 3"),
+            ("1..10 by 4", "1 5 9"),
+            ("0.1..0.5 by 0.1", "0.1 0.2 0.3 0.4 0.5"),
+            ("1..1000 log 4", "1 10 100 1000"),
+            ("1..4 log 9", "1 2 3 4"),
+            ("0.01..1 log 3", "0.01 0.1 1.0"),
+            ("1..9 by 4,2", "1 2 5 9"),
+            ("1..9 by 0", "none"),
+            ("1..9 by -1", "none"),
+            ("0..9 log 3", "none"),
+            ("1..9 log 1", "none"),
+            ("1..9 by", "none"),
+            ("1..100000000 by 1", "none"),
             ("7", "7"),
             (" 4, 2,4 ", "2 4"),
             ("1..2,9", "1 2 9"),

@@ -31,6 +31,12 @@ pub(crate) struct BeliefBrain {
     pub(crate) selection: GoalSelection,
 }
 
+base::hashed!(BeliefBrain {
+    beliefs,
+    messaging,
+    selection
+});
+
 /// The goals of a robot, and the path to the one that it pursues.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct GoalSelection {
@@ -42,6 +48,8 @@ pub(crate) struct GoalSelection {
     /// Kept between steps to reuse its allocation.
     pub(crate) proposals: Vec<(usize, Proposal)>,
 }
+
+base::hashed!(GoalSelection { goals, navigator, pursued, last_goal } without { proposals });
 
 impl BeliefBrain {
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {

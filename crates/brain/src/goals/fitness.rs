@@ -29,6 +29,8 @@ pub enum Verdict {
     Receding,
 }
 
+base::hashed!(enum Verdict);
+
 /// The situation of one step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
@@ -76,6 +78,13 @@ pub(crate) struct Fitness {
     /// Whether the goal was pursued in the last step.
     is_pursued: bool,
 }
+
+base::hashed!(Fitness {
+    last_m,
+    behind_m,
+    stuck_s,
+    is_pursued
+});
 
 impl Fitness {
     /// The minimum path length so far. What the path became longer while another goal was pursued

@@ -17,6 +17,8 @@ pub(crate) struct GivenUp {
     goals: Vec<Rest>,
 }
 
+base::hashed!(GivenUp { goals });
+
 #[derive(Debug, Clone, Copy)]
 struct Rest {
     goal: GoalPlace,
@@ -25,6 +27,12 @@ struct Rest {
     /// Duration after the last failure.
     total_s: f64,
 }
+
+base::hashed!(Rest {
+    goal,
+    left_s,
+    total_s
+});
 
 impl GivenUp {
     pub(crate) fn advance(&mut self, elapsed_s: f64) {

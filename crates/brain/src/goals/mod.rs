@@ -44,6 +44,16 @@ pub(crate) struct Goal {
     is_reported: bool,
 }
 
+base::hashed!(Goal {
+    behaviour,
+    destination,
+    precedence,
+    verdict,
+    fitness,
+    rest_s,
+    is_reported
+});
+
 /// All goals of a robot, by precedence: at most one per behaviour.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Goals {
@@ -51,6 +61,12 @@ pub(crate) struct Goals {
     given_up: GivenUp,
     detours: Option<DetourBudget>,
 }
+
+base::hashed!(Goals {
+    list,
+    given_up,
+    detours
+});
 
 /// The first goal, and the remaining length of detours on the way to it.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +76,8 @@ struct DetourBudget {
     at: Point,
     left_m: f64,
 }
+
+base::hashed!(DetourBudget { goal, at, left_m });
 
 impl DetourBudget {
     fn new(goal: &Goal, at: Point) -> Self {

@@ -31,6 +31,8 @@ pub struct AssignedGoal {
     pub verdict: OrderVerdict,
 }
 
+base::hashed!(AssignedGoal { id, at, verdict });
+
 /// The state of a goal that a person has assigned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -46,6 +48,8 @@ pub enum OrderVerdict {
     /// The robot has tried for too long. It tries again after all other goals.
     Impossible,
 }
+
+base::hashed!(enum OrderVerdict);
 
 /// The goals that a person has assigned to a robot, in the order of assignment.
 #[derive(Debug, Clone)]

@@ -27,6 +27,14 @@ pub(crate) struct Destination {
     pub(crate) value: f64,
 }
 
+base::hashed!(Destination {
+    id,
+    at,
+    tolerance_m,
+    max_speed_m_s,
+    value
+});
+
 impl Destination {
     /// The goal and its place. What is known of the path to a goal holds while both are the same.
     pub(crate) fn goal(&self) -> GoalPlace {

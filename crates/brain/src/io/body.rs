@@ -29,6 +29,8 @@ pub struct RobotId {
     pub index: u32,
 }
 
+base::hashed!(RobotId { kind, index });
+
 /// The kind of ids that are not those of robots: no scenario has that many kinds.
 pub(crate) const NO_ROBOT: u8 = u8::MAX;
 

@@ -21,6 +21,13 @@ pub struct Command {
     pub outbox: Vec<Message>,
 }
 
+base::hashed!(Command {
+    motion,
+    heading_rad,
+    requests,
+    outbox
+});
+
 /// A speed and a turn rate.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -31,6 +38,11 @@ pub struct Motion {
     pub turn_rate_rad_s: f64,
 }
 
+base::hashed!(Motion {
+    speed_m_s,
+    turn_rate_rad_s
+});
+
 /// A request to switch a sensor on or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -40,3 +52,5 @@ pub struct SensorRequest {
     /// Whether it measures.
     pub on: bool,
 }
+
+base::hashed!(SensorRequest { sensor, on });

@@ -35,12 +35,16 @@ pub struct GoalId {
     pub number: u32,
 }
 
+base::hashed!(GoalId { issuer, number });
+
 /// A goal, and its place in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GoalPlace {
     pub(crate) id: GoalId,
     pub(crate) at: Point,
 }
+
+base::hashed!(GoalPlace { id, at });
 
 /// The issuer of the goals of a list of waypoints. It follows from the list, so that kinds of robots
 /// with different lists do not confuse their goals, and kinds with the same list share them.

@@ -3,6 +3,8 @@
 use super::body::RobotId;
 use super::goal_id::GoalId;
 use base::geometry::Point;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +17,8 @@ pub struct Message {
     /// Confidence of the sender, 0 to 1.
     pub confidence: f64,
 }
+
+base::hashed!(Message { about, confidence });
 
 /// The content of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -61,6 +65,25 @@ pub enum About {
     },
 }
 
+impl Hashed for About {
+    fn add_to(&self, hash: &mut Hash) {
+        match self {
+            Self::Item {
+                kind,
+                at,
+                provenance,
+            } => (0_u8, ((*kind, *at), *provenance)).add_to(hash),
+            Self::Sender {
+                at,
+                heading_rad,
+                observations,
+            } => (1_u8, ((*at, *heading_rad), *observations)).add_to(hash),
+            Self::Goal { id, at, status } => (2_u8, ((*id, *at), *status)).add_to(hash),
+            Self::Order { goal, at, action } => (3_u8, ((*goal, *at), *action)).add_to(hash),
+        }
+    }
+}
+
 /// The observations of one item by one robot: they count once, whichever robot reports them, and
 /// however often.
 #[derive(
@@ -76,6 +99,12 @@ pub struct Provenance {
     pub observations: u32,
 }
 
+base::hashed!(Provenance {
+    observer,
+    track_id,
+    observations
+});
+
 /// What a person orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -85,6 +114,8 @@ pub enum OrderAction {
     /// Remove the goal, wherever it is.
     Withdraw,
 }
+
+base::hashed!(enum OrderAction);
 
 /// The status of a commitment to a destination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -97,3 +128,5 @@ pub enum CommitmentStatus {
     /// The sender gave it up without having been there: other robots may go.
     Released,
 }
+
+base::hashed!(enum CommitmentStatus);

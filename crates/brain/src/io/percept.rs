@@ -5,6 +5,8 @@ use crate::io::command::Motion;
 use crate::io::message::Message;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -49,6 +51,23 @@ pub struct Percept {
     pub inbox: Vec<ReceivedMessage>,
 }
 
+base::hashed!(Percept {
+    time_s,
+    random_words,
+    id,
+    team_size,
+    position,
+    heading_rad,
+    motion,
+    battery,
+    touch,
+    scans,
+    observations,
+    contacts,
+    neighbours,
+    inbox
+});
+
 /// A value, and its age.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -58,6 +77,14 @@ pub struct Reading<T> {
     pub value: T,
     /// Time since the measurement.
     pub age_s: f64,
+}
+
+impl<T: Hashed> Hashed for Reading<T> {
+    fn add_to(&self, hash: &mut Hash) {
+        let Self { value, age_s } = self;
+        value.add_to(hash);
+        age_s.add_to(hash);
+    }
 }
 
 /// A measurement of a range ring.
@@ -73,6 +100,8 @@ pub struct Scan {
     pub ranges_m: Vec<f64>,
 }
 
+base::hashed!(Scan { age_s, ranges_m });
+
 /// A measurement of an item detector.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -82,6 +111,8 @@ pub struct Observation {
     /// Time since the measurement.
     pub age_s: f64,
 }
+
+base::hashed!(Observation { sensor, age_s });
 
 /// A detected item, or a false alarm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -99,6 +130,14 @@ pub struct Contact {
     /// Time since the measurement.
     pub age_s: f64,
 }
+
+base::hashed!(Contact {
+    kind,
+    sensor,
+    range_m,
+    bearing_rad,
+    age_s
+});
 
 /// A detected robot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -118,6 +157,14 @@ pub struct Neighbour {
     pub id: RobotId,
 }
 
+base::hashed!(Neighbour {
+    range_m,
+    bearing_rad,
+    course_rad,
+    age_s,
+    id
+});
+
 /// A received message.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -129,6 +176,12 @@ pub struct ReceivedMessage {
     /// The message.
     pub message: Message,
 }
+
+base::hashed!(ReceivedMessage {
+    from,
+    age_s,
+    message
+});
 
 /// Reads a number that may be omitted, but not be `null`, which stands for infinity in JSON.
 fn number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {

@@ -39,6 +39,15 @@ pub(crate) struct BroadcastState {
     count: u8,
 }
 
+base::hashed!(BroadcastState {
+    period_s,
+    goal,
+    heading_rad,
+    observations,
+    age_s,
+    count
+});
+
 impl BroadcastState {
     /// Before the first broadcast of a robot whose steps are expected to take this time.
     pub(super) fn new(period_s: f64) -> Self {

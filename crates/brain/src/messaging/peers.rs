@@ -33,6 +33,13 @@ pub(crate) struct Peer {
     destination: Option<Reading<Option<GoalPlace>>>,
 }
 
+base::hashed!(Peer {
+    id,
+    reported,
+    at,
+    destination
+});
+
 /// All robots from which a message was received.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Peers {
@@ -41,6 +48,12 @@ pub(crate) struct Peers {
     /// Total number of visits.
     visited: u32,
 }
+
+base::hashed!(Peers {
+    mates,
+    visits,
+    visited
+});
 
 impl Peers {
     pub(crate) fn advance(&mut self, elapsed_s: f64) {

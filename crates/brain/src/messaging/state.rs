@@ -22,6 +22,12 @@ pub(crate) struct Messaging {
     broadcast: BroadcastState,
 }
 
+base::hashed!(Messaging {
+    peers,
+    trust,
+    broadcast
+});
+
 impl Messaging {
     /// Before the first message.
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {

@@ -39,12 +39,20 @@ pub(crate) struct Trust {
     records: Vec<Record>,
 }
 
+base::hashed!(Trust { spec, records });
+
 #[derive(Debug, Clone)]
 struct Record {
     id: RobotId,
     confirmed: f32,
     refuted: f32,
 }
+
+base::hashed!(Record {
+    id,
+    confirmed,
+    refuted
+});
 
 impl Trust {
     pub(crate) fn new(spec: &TrustSpec) -> Self {

@@ -46,6 +46,9 @@ pub(crate) struct Navigator {
     pub(crate) target: Option<[f64; 2]>,
 }
 
+// The others are the scratch memory of one step.
+base::hashed!(Navigator { reachable, traffic, shunting, plan, is_lengthened, target } without { hits, wavefront });
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {
     goal: GoalPlace,
@@ -60,6 +63,15 @@ struct Plan {
     /// The same for [`Occupancy::ever_occupied`](crate::perception::beliefs::occupancy::Occupancy::ever_occupied).
     ever_occupied: u32,
 }
+
+base::hashed!(Plan {
+    goal,
+    waypoint,
+    beyond_m,
+    age_s,
+    map_changes,
+    ever_occupied
+});
 
 impl Plan {
     /// Length of the path from a position; the straight line if no path is known.

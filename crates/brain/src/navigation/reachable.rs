@@ -52,6 +52,8 @@ pub(crate) struct Reachable {
     unit_y: [f64; HEADINGS],
 }
 
+base::hashed!(Reachable { free_m } without { unit_x, unit_y });
+
 /// The best of the headings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Choice {

@@ -61,6 +61,16 @@ pub(crate) struct Shunting {
     backoff: f64,
 }
 
+base::hashed!(Shunting {
+    goal,
+    remaining_m,
+    blocked_s,
+    patience,
+    yield_s,
+    yield_rad,
+    backoff
+});
+
 impl Default for Shunting {
     fn default() -> Self {
         Self {

@@ -49,11 +49,15 @@ struct Line {
     max: f64,
 }
 
+base::hashed!(Line { normal, max });
+
 /// The lines between this robot and all others nearby.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Traffic {
     lines: Vec<Line>,
 }
+
+base::hashed!(Traffic { lines });
 
 impl Traffic {
     /// Computes the lines for a robot with a current speed and a turn in its last step.

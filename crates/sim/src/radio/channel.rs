@@ -1,5 +1,7 @@
 //! Messages in transit.
 
+use base::hash::Hash;
+use base::hashed::Hashed;
 use brain::{Message, ReceivedMessage};
 use std::collections::VecDeque;
 
@@ -22,6 +24,8 @@ pub(crate) struct Transmission {
     pub(crate) message: ReceivedMessage,
 }
 
+base::hashed!(Transmission { to, at, message });
+
 /// A message that a robot sends, and its number among those that it sends in this step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Outgoing {
@@ -41,6 +45,16 @@ impl RadioChannel {
         list.clear();
         if list.capacity() > 0 {
             self.spare.push(list);
+        }
+    }
+
+    /// Adds the messages in transit to a hash; nothing if there are none.
+    pub(crate) fn hash_messages(&self, hash: &mut Hash) {
+        for (steps, list) in self.due.iter().enumerate() {
+            if !list.is_empty() {
+                steps.add_to(hash);
+                list.add_to(hash);
+            }
         }
     }
 

@@ -37,7 +37,7 @@ impl State {
     /// If there is no room for what is added, or for what stays where something else is now.
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
-        next.tick = self.tick;
+        (next.tick, next.decisions) = (self.tick, self.decisions);
         let old = previous_numbers(self, from, &next, to);
         let ids = new_ids(self, &next, &old);
         let starts = next.keep_robots(self, &old, from, to);

@@ -5,6 +5,7 @@ mod carry_over;
 mod change;
 pub(crate) mod snapshot;
 pub(crate) mod state;
+mod state_hash;
 
 pub use crate::bodies::body_state::Status;
 pub use snapshot::{Item, Robot};

@@ -11,13 +11,12 @@ use crate::radio::channel::RadioChannel;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::geometry::{Disc, Point};
-use base::hash::Hash;
 use base::noise::Noise;
 use base::placement::{
     EntityClass, Group, PlacementContext, PlacementError, TeamPlacementError, team,
 };
 use base::random::Entity;
-use brain::{Motion, RobotId};
+use brain::RobotId;
 
 /// One run, between two steps.
 #[derive(Debug, Clone)]
@@ -37,6 +36,8 @@ pub struct State {
     pub(crate) items: Items,
     pub(crate) channel: RadioChannel,
     pub(crate) tally: Tally,
+    /// A hash of all decisions since it was switched on; `None` while it is off.
+    pub(crate) decisions: Option<u64>,
 }
 
 /// A robot or an item for which a run has no room.
@@ -77,6 +78,7 @@ impl State {
             tally: Tally::new(scenario, &items),
             items,
             channel: RadioChannel::default(),
+            decisions: None,
         };
         state.place_robots(scenario)?;
         Ok(state)
@@ -134,45 +136,6 @@ impl State {
             orientations: &self.orientations,
             body_states: &self.body_states,
         }
-    }
-
-    /// A hash that differs between runs that differ in anything observable.
-    #[must_use]
-    pub fn hash(&self) -> u64 {
-        let mut hash = Hash::new();
-        hash.add(self.tick);
-        for ((disc, course), (body_state, agent)) in self
-            .discs
-            .iter()
-            .zip(&self.orientations)
-            .zip(self.body_states.iter().zip(&self.agents))
-        {
-            let Motion {
-                speed_m_s,
-                turn_rate_rad_s,
-            } = agent.setpoint;
-            let numbers = [
-                disc.centre.x,
-                disc.centre.y,
-                course.heading_rad,
-                body_state.speed_m_s,
-            ];
-            let more = [
-                body_state.energy_j,
-                body_state.distance_m,
-                speed_m_s,
-                turn_rate_rad_s,
-            ];
-            numbers
-                .iter()
-                .chain(&more)
-                .for_each(|number| hash.add(number.to_bits()));
-            let is_external = u64::from(body_state.is_external());
-            let status = is_external << 7 | body_state.status as u64;
-            hash.add(u64::from(body_state.collisions) << 8 | status);
-        }
-        self.tally.add_to(&mut hash, &self.items);
-        hash.value()
     }
 
     /// Number of robots.

@@ -7,6 +7,7 @@ mod facts;
 mod reading;
 mod ready;
 mod spec;
+mod world_hash;
 
 pub use checked::Checked;
 pub use ready::Scenario;

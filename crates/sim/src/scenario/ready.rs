@@ -2,6 +2,7 @@
 //! once.
 
 use super::spec::ScenarioSpec;
+use super::world_hash::world_hash;
 use crate::bodies::Layer;
 use crate::bodies::kind::{Kind, KindContext};
 use crate::schedule::steps_of;
@@ -31,6 +32,8 @@ pub struct Scenario {
     /// The sides of a periodic world; `None` if it has a wall around it.
     pub(crate) torus: Option<Torus>,
     pub(crate) terrain: Option<Terrain>,
+    /// A hash of the world with its obstacles and terrain; `None` without any.
+    pub(crate) world_hash: Option<u64>,
     /// Obstacles, and what is near them.
     solids: Vec<Solid>,
     /// By obstacle, its index in `world.obstacles`, where one entry may be several of them.
@@ -100,6 +103,7 @@ impl Scenario {
             steps: steps_of(spec.clock.time_limit_s, step_s),
             world,
             torus,
+            world_hash: world_hash((&world, torus.as_ref()), &solids, &areas),
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
             near_solids: NearCells::new(size_m, &solids, 0.0),
             seen: layers.map(|layer| geometry(layer, rays_m.max(touch_m))),

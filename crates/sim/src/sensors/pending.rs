@@ -1,5 +1,8 @@
 //! Queues of readings and messages that wait until the brain of a robot steps.
 
+use base::hash::Hash;
+use base::hashed::Hashed;
+
 /// A brain gets at most this number of the entries that arrived before a step; older ones are
 /// dropped. So a brain that hardly ever steps, or never, fills no memory.
 pub(crate) const MAX_PENDING: usize = 1000;
@@ -18,6 +21,14 @@ pub(crate) struct Pending<T> {
     pub(crate) taken: u64,
     pub(crate) due: u64,
     pub(crate) what: T,
+}
+
+impl<T: Hashed> Hashed for Pending<T> {
+    fn add_to(&self, hash: &mut Hash) {
+        let Self { taken, due, what } = self;
+        [*taken, *due].add_to(hash);
+        what.add_to(hash);
+    }
 }
 
 impl<T> Default for PendingQueue<T> {

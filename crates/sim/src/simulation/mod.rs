@@ -2,6 +2,7 @@
 
 mod collision_warnings;
 mod footprints;
+mod hashes;
 mod inspect;
 mod links;
 mod probe;

@@ -1,5 +1,6 @@
 //! Sense and decide, robot by robot: each from the same view, so that order never matters.
 
+use super::decision_hash::{decision_hash, motion_hash};
 use super::external::ExternalInputs;
 use super::flocks::Flocks;
 use super::sense::{SensingScratch, sense, sense_between_steps};
@@ -20,6 +21,7 @@ pub(crate) struct StepInputs<'a> {
     pub(crate) view: &'a View<'a>,
     pub(crate) external: Option<&'a ExternalInputs>,
     pub(crate) flocks: &'a Flocks,
+    pub(crate) hashes_decisions: bool,
 }
 
 /// Buffers of one thread that lets robots decide, and the results. They are reused in each step, so
@@ -35,6 +37,8 @@ pub(crate) struct WorkerScratch {
     pub(crate) outbox: Vec<Outgoing>,
     /// Commands of brains for external bodies, by the number of the robot.
     pub(crate) external_commands: Vec<(usize, Command)>,
+    /// The hash of each decision, in the order of the robots, if decisions are hashed.
+    pub(crate) decisions: Vec<u64>,
 }
 
 impl WorkerScratch {
@@ -42,6 +46,7 @@ impl WorkerScratch {
         self.sensing.detections.clear();
         self.outbox.clear();
         self.external_commands.clear();
+        self.decisions.clear();
     }
 
     /// Lets one robot sense, and decide if its brain steps now.
@@ -62,8 +67,15 @@ impl WorkerScratch {
         let view = inputs.view;
         if let Some(motion) = inputs.flocks.motion(view, robot, agent) {
             agent.setpoint = motion;
+            if inputs.hashes_decisions {
+                self.decisions.push(motion_hash(robot, motion));
+            }
         } else if self.perceive(view, robot, agent) {
             agent.brain.step_into(&self.percept, &mut self.command);
+            if inputs.hashes_decisions {
+                let hash = decision_hash(robot, Some(&self.percept), &self.command);
+                self.decisions.push(hash);
+            }
             self.obey(view, robot, agent);
         }
     }
@@ -77,14 +89,16 @@ impl WorkerScratch {
         external: &ExternalInputs,
     ) {
         let view = inputs.view;
-        if let Some(command) = external.decisions.decided(robot) {
-            self.take(command);
+        let percept = if let Some(decision) = external.decisions.decided(robot) {
+            self.take(&decision.command);
+            Some(&decision.percept)
         } else if let Some(percept) = external.percepts.get(&robot) {
             self.percept.clone_from(percept);
             agent.deliver_messages(view.tick, view.scenario.step_s, &mut self.percept);
             self.recognise(view, robot);
             agent.brain.step_into(&self.percept, &mut self.command);
             self.external_commands.push((robot, self.command.clone()));
+            Some(&self.percept)
         } else if view.body_states[robot].is_external() {
             return;
         } else {
@@ -92,10 +106,16 @@ impl WorkerScratch {
                 self.serve_simulated(inputs, robot, agent);
                 return;
             };
-            if self.perceive(view, robot, agent) {
+            let is_due = self.perceive(view, robot, agent);
+            if is_due {
                 agent.brain.skip(&self.percept);
             }
             self.take(command);
+            is_due.then_some(&self.percept)
+        };
+        if inputs.hashes_decisions {
+            let hash = decision_hash(robot, percept, &self.command);
+            self.decisions.push(hash);
         }
         self.obey(view, robot, agent);
     }

@@ -3,6 +3,7 @@
 mod act;
 pub(crate) mod communicate;
 mod decide;
+mod decision_hash;
 pub(crate) mod delegated;
 mod destination;
 mod encounters;

@@ -29,9 +29,9 @@ pub(crate) struct PendingDecisions {
 
 impl PendingDecisions {
     /// The decision for a robot, if it was made elsewhere.
-    pub(crate) fn decided(&self, robot: usize) -> Option<&Command> {
+    pub(crate) fn decided(&self, robot: usize) -> Option<&PendingDecision> {
         let place = self.robots.binary_search_by_key(&robot, |each| each.number);
-        Some(&self.robots[place.ok()?].command)
+        Some(&self.robots[place.ok()?])
     }
 
     /// Removes from the backlogs of these robots what their percepts contained.

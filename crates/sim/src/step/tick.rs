@@ -3,6 +3,7 @@
 use super::act::Moves;
 use super::communicate;
 use super::decide::{StepInputs, WorkerScratch};
+use super::decision_hash::{add_decisions, add_setpoints};
 use super::external::ExternalInputs;
 use super::flock_step::flock_step;
 use super::flocks::Flocks;
@@ -72,9 +73,12 @@ impl StepScratch {
     ) {
         if scenario.is_of_flocks_of_points() && external.is_empty() {
             self.flock_step(scenario, state);
+            add_setpoints(scenario, state);
         } else {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
+            let hashes = self.workers.iter().flat_map(|worker| &worker.decisions);
+            add_decisions(state, hashes);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let collisions = self.act(scenario, state);
             self.judge(scenario, state, external, collisions);
@@ -127,12 +131,14 @@ impl StepScratch {
         let is_shared = self.prepare_workers(state);
         let robots = state.robots();
         let plans = self.moves.plans(robots);
+        let hashes_decisions = state.decisions.is_some();
         let (view, agents) = state.view(scenario, &self.neighbours);
         self.flocks.compute(&view, is_shared);
         let inputs = StepInputs {
             view: &view,
             external: (!external.is_empty()).then_some(external),
             flocks: &self.flocks,
+            hashes_decisions,
         };
         let size = robots.div_ceil(self.workers.len()).max(1);
         let serve = |(number, ((worker, agents), plans)): (usize, Chunk)| {

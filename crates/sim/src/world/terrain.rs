@@ -33,6 +33,8 @@ pub(crate) struct TerrainFactors {
     pub(crate) energy: f64,
 }
 
+base::hashed!(TerrainFactors { speed, energy });
+
 impl TerrainFactors {
     pub(crate) const NO_EFFECT: Self = Self {
         speed: 1.0,
@@ -46,6 +48,11 @@ pub struct Area {
     polygon: Polygon,
     terrain_factors: TerrainFactors,
 }
+
+base::hashed!(Area {
+    polygon,
+    terrain_factors
+});
 
 impl Area {
     /// An area of the class that `spec` describes.

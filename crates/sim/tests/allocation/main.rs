@@ -32,7 +32,17 @@ fn everything() -> Simulation {
 
 #[test]
 fn a_step_does_not_allocate() {
+    assert_steps_do_not_allocate(everything());
+}
+
+#[test]
+fn a_step_does_not_allocate_while_decisions_are_hashed() {
     let mut simulation = everything();
+    simulation.hash_decisions(0);
+    assert_steps_do_not_allocate(simulation);
+}
+
+fn assert_steps_do_not_allocate(mut simulation: Simulation) {
     (0..WARM_UP).for_each(|_| simulation.step());
     let steps = (0..3000).map(|_| measure(|| simulation.step()).count_total);
     let allocating = steps.filter(|count| *count > 0).count();
@@ -48,6 +58,7 @@ fn a_step_of_a_flock_does_not_allocate() {
     let document = Document::parse("flock.toml", text).unwrap();
     let scenario = ScenarioSpec::read(&document).unwrap().scenario;
     let mut simulation = Simulation::new(Arc::new(scenario), 1, 0).unwrap();
+    simulation.hash_decisions(0);
     (0..10).for_each(|_| simulation.step());
     let steps = (0..300).map(|_| measure(|| simulation.step()).count_total);
     assert_eq!(steps.sum::<u64>(), 0);

@@ -54,6 +54,7 @@ def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
     results: Sequence[Result | RequirementResult] = answer.results
     shown = report.parts(answer, evidence)
     return {
+        "verdict": list(answer.verdict),
         "sentence": answer.sentence,
         "guarantee": answer.guarantee,
         "facts": list(shown.facts),

@@ -12,6 +12,7 @@ from agent_economy.study.answer.saturation import Saturation, saturations
 from agent_economy.study.answer.sensitivity import Sensitivity, sensitivity
 from agent_economy.study.answer.sentence import sentence
 from agent_economy.study.answer.side_statements import Omission, SideStatements
+from agent_economy.study.answer.verdict import Verdict, as_html, verdict
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Best
 
@@ -23,6 +24,7 @@ class Answer:
     Attributes:
         scenario: The scenario of the study.
         seed: Seed of all random numbers.
+        verdict: The answer in four lines.
         sentence: The answer in words.
         guarantee: The guarantee of the selection in words.
         is_guaranteed: Whether there is a guarantee.
@@ -35,10 +37,12 @@ class Answer:
         efforts: Predicted runs for smaller deltas.
         published: Published results, scored with the same merit.
         omissions: Those of the preceding four that could not be stated, each with the reason.
+        questions: The questions that were answered from the same runs, this one included.
     """
 
     scenario: Scenario
     seed: int
+    verdict: Verdict
     sentence: str
     guarantee: str
     is_guaranteed: bool
@@ -51,6 +55,15 @@ class Answer:
     efforts: tuple[Effort, ...]
     published: tuple[PublishedResult, ...]
     omissions: tuple[Omission, ...] = ()
+    questions: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return the verdict and the number of runs."""
+        return f"Answer({' '.join(self.verdict)!r}, {self.runs:,} runs)"
+
+    def _repr_html_(self) -> str:
+        """Return the verdict for notebooks."""
+        return as_html(self.verdict)
 
     @property
     def runs(self) -> int:
@@ -72,6 +85,7 @@ def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
+        verdict=verdict(plan.scenario, best, found, delta, plan.confidence),
         sentence=sentence(plan.scenario, delta, ending, found, has_prices=evidence.has_prices),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,

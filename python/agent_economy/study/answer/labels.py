@@ -58,3 +58,10 @@ def listed(words: list[str]) -> str:
     """Return "a", "a and b", "a, b and c"."""
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def alternatives(words: list[str]) -> str:
+    """Return "a", "a or b", "a, b or c"; with semicolons if a word contains a comma."""
+    *others, last = words
+    separator = "; " if any("," in word for word in words) else ", "
+    return f"{separator.join(others)} or {last}" if others else last

@@ -9,7 +9,12 @@ from agent_economy.study.answer.requirement_results import (
     RequirementResult,
     results,
 )
-from agent_economy.study.answer.requirement_words import guarantee, sentence
+from agent_economy.study.answer.requirement_words import (
+    guarantee,
+    requirement_verdict,
+    sentence,
+)
+from agent_economy.study.answer.verdict import Verdict, as_html
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Cheapest
 
@@ -21,6 +26,7 @@ class RequirementAnswer:
     Attributes:
         scenario: The scenario.
         seed: Seed of all random numbers.
+        verdict: The answer in four lines.
         sentence: The answer in words.
         guarantee: Its promise in words.
         is_guaranteed: Whether the study ended by itself, so that no cheaper configuration meets the
@@ -30,10 +36,12 @@ class RequirementAnswer:
         cost: What a configuration costs, as an expression.
         selected: Index of the cheapest certified configuration; None if none is certified.
         results: Result of each configuration.
+        questions: The questions that were answered from the same runs, this one included.
     """
 
     scenario: Scenario
     seed: int
+    verdict: Verdict
     sentence: str
     guarantee: str
     is_guaranteed: bool
@@ -42,6 +50,15 @@ class RequirementAnswer:
     cost: str
     selected: int | None
     results: tuple[RequirementResult, ...]
+    questions: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return the verdict and the number of runs."""
+        return f"RequirementAnswer({' '.join(self.verdict)!r}, {self.runs:,} runs)"
+
+    def _repr_html_(self) -> str:
+        """Return the verdict for notebooks."""
+        return as_html(self.verdict)
 
     @property
     def runs(self) -> int:
@@ -65,6 +82,7 @@ def conclude_requirement(
     return RequirementAnswer(
         scenario=plan.scenario,
         seed=plan.seed,
+        verdict=requirement_verdict(question, found, plan.confidence),
         sentence=sentence(question, found, plan.confidence, ending.obstacle),
         guarantee=guarantee(question, found, plan.confidence, is_over=ending.is_over),
         is_guaranteed=ending.is_over,

@@ -6,6 +6,7 @@ from typing import Literal
 from agent_economy.scenario import Requirement, Value
 from agent_economy.study.answer.evidence import Evidence, Interval, Sample
 from agent_economy.study.answer.labels import label
+from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
 from agent_economy.study.plan import Plan
 from agent_economy.study.selection import Elimination
 
@@ -50,6 +51,7 @@ class RequirementResult:
             simultaneously. None without runs.
         failing: The share of runs in which each condition does not hold, in their order; empty
             without runs.
+        quantiles: Quantiles of the columns of the conditions.
     """
 
     values: dict[str, Value]
@@ -61,6 +63,7 @@ class RequirementResult:
     status: Status
     met: Interval | None
     failing: tuple[float, ...]
+    quantiles: tuple[Quantiles, ...]
 
     @property
     def is_possible(self) -> bool:
@@ -83,6 +86,7 @@ def results(
             status=status(plan, evidence, ending, index),
             met=evidence.interval(index, "met") if sample.runs else None,
             failing=failing(sample, requirement),
+            quantiles=quantiles_of(evidence, sample, quantile_columns(requirement)),
         )
         for index, sample in enumerate(evidence.samples)
     )
@@ -101,6 +105,11 @@ def status(plan: Plan, evidence: Evidence, ending: RequirementEnding, index: int
         return "impossible"
     is_cheaper = ending.selected is None or plan.costs[index] < plan.costs[ending.selected]
     return "open" if is_cheaper else "not needed"
+
+
+def quantile_columns(requirement: Requirement) -> tuple[str, ...]:
+    """Return the columns of the conditions, each once."""
+    return tuple(dict.fromkeys(condition.column for condition in requirement.conditions))
 
 
 def failing(sample: Sample, requirement: Requirement) -> tuple[float, ...]:

@@ -1,17 +1,50 @@
 """The answer about a requirement in words."""
 
+import re
 from collections.abc import Sequence
 
-from agent_economy.scenario import Condition
+from agent_economy.scenario import Condition, Requirement
 from agent_economy.study.answer.labels import listed, recommendation
 from agent_economy.study.answer.requirement_results import RequirementResult, Status
+from agent_economy.study.answer.verdict import Verdict, upper
 from agent_economy.study.question import Cheapest
 from agent_economy.study.selection import percentage
 
 MINUTE_S = 60
 
+CHEAPER = {"price": "no cheaper team", "robots": "no team with fewer robots"}
+"""Teams of a lower cost in words."""
+
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
+
+
+def requirement_verdict(
+    question: Cheapest, results: Sequence[RequirementResult], confidence: float
+) -> Verdict:
+    """Return the answer in four lines."""
+    requirement = question.requirement
+    holds = listed([in_words(each) for each in requirement.conditions])
+    low, high = percentage(requirement.probability), spare_of(requirement)
+    chosen = next((each for each in results if each.status == "selected"), None)
+    if chosen is None:
+        first = "No compared team is certified."
+        second = " ".join(f"{part}." for part in why(question, results)) or "There were no runs."
+    else:
+        first = f"{recommendation(chosen.values)}."
+        met = chosen.met
+        seen = f" ({met.value:.1%} of {chosen.runs:,} did)" if met else ""
+        second = f"{upper(holds)} in at least {low} of missions{seen}."
+    cheaper = [each for each in results if chosen is None or each.cost < chosen.cost]
+    parts = refuted(cheaper, f"fewer than {high}") + named(cheaper, "open", "not decided")
+    third = " ".join(f"{part}." for part in parts) or "No team is cheaper."
+    between = f"shares from {low} to {high} are not distinguished"
+    return first, second, third, f"{percentage(confidence)} confidence; {between}."
+
+
+def spare_of(requirement: Requirement) -> str:
+    """Return the required share with the tolerance."""
+    return percentage(round(requirement.probability + requirement.tolerance, 12))
 
 
 def sentence(
@@ -32,7 +65,7 @@ def sentence(
         confidently = f"({percentage(confidence)} confidence)"
         send = recommendation(chosen.values)
         parts = [f"{send}: {holds} in at least {share} of missions {confidently}"]
-    spare = percentage(round(requirement.probability + requirement.tolerance, 12))
+    spare = spare_of(requirement)
     cheaper = [each for each in results if chosen is None or each.cost < chosen.cost]
     parts += refuted(cheaper, f"fewer than {spare}")
     parts += named(cheaper, "open", "not decided")
@@ -84,6 +117,8 @@ def refuted(results: Sequence[RequirementResult], words: str) -> list[str]:
 def in_words(condition: Condition) -> str:
     """Return a condition in words, such as "success within 20 minutes" or "no collisions"."""
     name, value = condition.column.replace("_", " "), condition.value
+    if event := re.match(r"time_until\((.*)\)\s*<=", condition.text):
+        return f"{event[1]} within {duration(value)}"
     match condition.comparison, condition.column:
         case "<=", "time_s":
             return f"success within {duration(value)}"
@@ -114,15 +149,13 @@ def guarantee(
     """Return the promise of an answer."""
     requirement = question.requirement
     share = percentage(requirement.probability)
-    spare = percentage(round(requirement.probability + requirement.tolerance, 12))
+    spare = spare_of(requirement)
     confidently = f"With {percentage(confidence)} confidence"
     is_certified = any(each.status == "selected" for each in results)
     meets = f"the selected team meets the requirement in at least {share} of missions"
     if is_over and is_certified:
-        return (
-            f"{confidently}, {meets}, and no team with less {question.cost} meets it in "
-            f"{spare} or more."
-        )
+        cheaper = CHEAPER.get(question.cost, f"no team with less {question.cost}")
+        return f"{confidently}, {meets}, and {cheaper} meets it in {spare} or more."
     if is_over:
         return (
             f"{confidently}, no compared team meets the requirement in {spare} or more of missions."

@@ -6,6 +6,7 @@ from agent_economy.scenario import Value
 from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.answer.front import Place, front
 from agent_economy.study.answer.labels import label
+from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
 from agent_economy.study.answer.ties import Standing, standings
 from agent_economy.study.selection import Elimination
 
@@ -44,6 +45,7 @@ class Result:
         standing: Comparison with the selected configuration.
         place: Place with respect to the Pareto front of price, time and failures.
         eliminated: When and by which configuration; None if it was not eliminated.
+        quantiles: Quantiles of the time of success.
     """
 
     values: dict[str, Value]
@@ -56,6 +58,7 @@ class Result:
     standing: Standing
     place: Place
     eliminated: Elimination | None
+    quantiles: tuple[Quantiles, ...] = ()
 
     @property
     def is_possible(self) -> bool:
@@ -80,6 +83,7 @@ def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, .
             standing=stands,
             place=place,
             eliminated=eliminated.get(index),
+            quantiles=quantiles_of(evidence, evidence.samples[index], ("time_s",)),
         )
         for index, (stands, place) in enumerate(placed)
     )

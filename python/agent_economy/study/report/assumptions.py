@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.labels import varied
+from agent_economy.study.answer.verdict import repeated
 from agent_economy.study.report.formatting import brief
 from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.tables import written
@@ -26,6 +27,7 @@ def assumptions(view: View) -> Iterator[tuple[str, str]]:
         "quarantine",
         "a run without a finite merit counts as the worst merit and is never omitted",
     )
+    yield from questions(answer)
     yield from versions().items()
 
 
@@ -38,7 +40,15 @@ def requirement_assumptions(view: RequirementView) -> Iterator[tuple[str, str]]:
     yield "seed", f"{answer.seed}; a run number means the same random numbers in all configurations"
     yield "order", "that more robots are better is not assumed; each configuration is judged alone"
     yield "quarantine", "a run without an outcome counts as not met and is never omitted"
+    yield from questions(answer)
     yield from versions().items()
+
+
+def questions(answer: AnyAnswer) -> Iterator[tuple[str, str]]:
+    """Return the questions that were answered from the same runs, if there are several."""
+    if len(answer.questions) > 1:
+        yield "questions", "; ".join(answer.questions)
+        yield "their promises", repeated(len(answer.questions), answer.confidence)
 
 
 def scenario(answer: AnyAnswer) -> Iterator[tuple[str, str]]:

@@ -4,7 +4,7 @@ import math
 
 from agent_economy.study.answer.evidence import Interval
 
-UNKNOWN, NOTHING = "unknown", "\N{EN DASH}"
+UNKNOWN, NOTHING, INFINITE = "unknown", "\N{EN DASH}", "never"
 MINUS, TIMES = "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"
 
 

@@ -5,6 +5,7 @@ from functools import cache
 import jinja2
 
 from agent_economy.study.answer.any_answer import AnyAnswer
+from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.report.parts import parts
 
@@ -19,12 +20,11 @@ def html(answer: AnyAnswer, evidence: Evidence, javascript: str) -> str:
             that the charts are missing.
     """
     shown = parts(answer, evidence)
-    # Numbers contain periods, but none is followed by a space.
-    advice, _, reasons = f"{answer.sentence} ".partition(". ")
     return template().render(
         answer=answer,
-        advice=f"{advice}.",
-        reasons=f" {reasons}".rstrip(),
+        verdict=answer.verdict,
+        # The verdict on a requirement contains all of its sentence.
+        details=answer.sentence if isinstance(answer, Answer) else "",
         facts=shown.facts,
         quarantined=shown.quarantined,
         sections=shown.sections,

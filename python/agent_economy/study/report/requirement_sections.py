@@ -2,10 +2,18 @@
 
 from collections.abc import Iterator
 
-from agent_economy.study.report.formatting import NOTHING, brief, percent
+from agent_economy.study.report.formatting import NOTHING, percent, places
 from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.sections import Picture, Section
-from agent_economy.study.report.tables import Cell, Row, Table, shares, words
+from agent_economy.study.report.tables import (
+    QUANTILE_HEADS,
+    Cell,
+    Row,
+    Table,
+    quantile_cells,
+    shares,
+    words,
+)
 from agent_economy.study.report.view import MAX_SHOWN
 from agent_economy.study.selection import percentage
 
@@ -61,7 +69,7 @@ def table(view: RequirementView) -> Table:
     def row(index: int) -> Row:
         result = view.result(index)
         met = shares(result.met, 1) if result.met else Cell(NOTHING)
-        cells = (Cell(brief(result.cost)), words(result.status), met, Cell(f"{result.runs:,}"))
+        cells = (Cell(f"{result.cost:,.12g}"), words(result.status), met, Cell(f"{result.runs:,}"))
         return Row((words(view.names[index]), *cells), row_style(result.status), index)
 
     shown = dict.fromkeys((*view.shown, *others(view)))
@@ -110,4 +118,18 @@ def distribution(view: RequirementView) -> Section:
         f"{percentage(view.answer.confidence)} confidence."
     )
     picture = Picture("distribution", f"Distribution of {condition.column}: {teams}")
-    return Section("The deciding condition", (note,), (picture,))
+    return Section("The deciding condition", (note,), (picture,), (quantiles(view),))
+
+
+def quantiles(view: RequirementView) -> Table:
+    """Return the table of quantiles of the column of the deciding condition."""
+    column = view.deciding_condition.column
+
+    def row(index: int) -> Row:
+        result = view.result(index)
+        found = next(each for each in result.quantiles if each.column == column)
+        cells = tuple(quantile_cells(found, places(view.deciding_condition.value / 50)))
+        return Row((words(view.names[index]), *cells), row_style(result.status), index)
+
+    caption = f"Quantiles of {column}, with their intervals"
+    return Table(caption, ("team", *QUANTILE_HEADS), tuple(map(row, view.shown)))

@@ -5,10 +5,18 @@ from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.labels import word
+from agent_economy.study.answer.quantiles import Quantiles
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
-from agent_economy.study.report.formatting import NOTHING, UNKNOWN, brief, decimal, percent
+from agent_economy.study.report.formatting import (
+    INFINITE,
+    NOTHING,
+    UNKNOWN,
+    brief,
+    decimal,
+    percent,
+)
 from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
 
 WIDEST = 10
@@ -236,6 +244,33 @@ def times(view: View) -> Table:
 
     heads = ("5%", "25%", "50% (median)", "75%", "95%")
     return by_configuration(view, "Quantiles of the time of a run, s", heads, view.shown, cells)
+
+
+def success_times(view: View) -> Table:
+    """Return the table of quantiles of the time of success, and of runs without success."""
+
+    def cells(index: int) -> Iterable[Cell]:
+        (found,) = view.result(index).quantiles
+        yield from quantile_cells(found, view.time_places)
+
+    caption = "Quantiles of the time of success, s, with their intervals"
+    return by_configuration(view, caption, QUANTILE_HEADS, view.shown, cells)
+
+
+QUANTILE_HEADS = ("median", "90%", "95%", "never")
+"""The columns of a table of quantiles."""
+
+
+def quantile_cells(found: Quantiles, decimals: int) -> Iterable[Cell]:
+    """Yield the cells of quantiles, and of the share of runs in which the column is infinite."""
+
+    def written(number: float | None) -> str:
+        return INFINITE if number is None else decimal(number, decimals)
+
+    for each in found.quantiles:
+        low = "0" if each.low is None else decimal(each.low, decimals)
+        yield Cell(written(each.value), f"{low} to {written(each.high)}")
+    yield Cell(percent(found.never, 1))
 
 
 def published(view: View) -> Table:

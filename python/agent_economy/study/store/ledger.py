@@ -35,6 +35,11 @@ CREATE TABLE block (
 CREATE TABLE decision (round INTEGER PRIMARY KEY, facts TEXT NOT NULL);
 """
 
+QUESTIONS = """
+CREATE TABLE IF NOT EXISTS question (number INTEGER PRIMARY KEY, words TEXT NOT NULL UNIQUE)
+"""
+"""The questions that were answered from the runs; ledgers of earlier versions lack the table."""
+
 
 @dataclass(frozen=True)
 class BlockFile:
@@ -197,6 +202,25 @@ class Ledger:
                     self._connection.execute("ROLLBACK")
                 self._connection.execute("PRAGMA synchronous = FULL")
 
+    def answered(self, question: str) -> tuple[str, ...]:
+        """Record that a question was answered; return all that were, in their order.
+
+        Raises:
+            StoreError: If it cannot be written.
+        """
+        with disk_errors(self.path):
+            self._connection.execute(QUESTIONS)
+            query = "INSERT OR IGNORE INTO question (words) VALUES (?)"
+            self._connection.execute(query, (question,))
+        return self.questions()
+
+    def questions(self) -> tuple[str, ...]:
+        """Return the questions that were answered, in their order."""
+        query = "SELECT count(*) FROM sqlite_master WHERE name = 'question'"
+        if self._rows(query) == [(0,)]:
+            return ()
+        return tuple(words for (words,) in self._rows("SELECT words FROM question ORDER BY number"))
+
     def _rows(self, query: str, *values: object) -> list[tuple[Any, ...]]:
         with disk_errors(self.path, "read as a ledger"):
             return self._connection.execute(query, values).fetchall()
@@ -276,3 +300,15 @@ def snapshot(path: Path) -> tuple[tuple[Column, ...], list[BlockFile], list[Deci
         if not ledger.is_begun():
             return (), [], []
         return ledger.columns(), ledger.block_files(), ledger.decisions()
+
+
+def questions(path: Path) -> tuple[str, ...]:
+    """Return the questions that were answered from the runs of a ledger, in their order.
+
+    Raises:
+        StoreError: As `Ledger.read`.
+    """
+    if not path.exists():
+        return ()
+    with closing(Ledger.read(path)) as ledger:
+        return ledger.questions()

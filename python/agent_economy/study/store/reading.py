@@ -17,7 +17,7 @@ from agent_economy.study.run_block import Columns, Compute, Gathered, RunBlock
 from agent_economy.study.store import folder as files
 from agent_economy.study.store.columns import Column
 from agent_economy.study.store.coverage import Coverage, split
-from agent_economy.study.store.ledger import BlockFile, Decision, snapshot
+from agent_economy.study.store.ledger import BlockFile, Decision, questions, snapshot
 from agent_economy.study.store.staging import staged_rows
 from agent_economy.study.store.writing import check_files, read_block
 
@@ -65,7 +65,8 @@ class ReadStore:
     def stored(self) -> "StoredRuns":
         """Return the runs that are stored now."""
         columns, block_files, _ = snapshot(self.folder / files.LEDGER)
-        return StoredRuns(self.folder, columns, Coverage(self.folder, block_files))
+        coverage = Coverage(self.folder, block_files)
+        return StoredRuns(self.folder, columns, coverage, questions(self.folder / files.LEDGER))
 
     def count(self) -> int:
         """Return the number of stored runs, those of an incomplete block included."""
@@ -112,6 +113,7 @@ class StoredRuns:
         folder: The study's folder.
         columns: The columns of every run.
         coverage: Which runs are stored.
+        questions: The questions that were answered from them.
         computed: Number of runs that were computed.
         pending: Number of runs that are known of the block that is requested.
     """
@@ -119,6 +121,7 @@ class StoredRuns:
     folder: Path
     columns: tuple[Column, ...]
     coverage: Coverage
+    questions: tuple[str, ...] = ()
     computed: int = 0
     pending: int = 0
 
@@ -138,6 +141,10 @@ class StoredRuns:
                 data = read_block(self.folder, file, self.columns)
                 gathered.put(file.block, data, configurations)
         return gathered.columns
+
+    def answered(self, question: str) -> tuple[str, ...]:  # noqa: ARG002  (as Store's)
+        """Record nothing; return the questions that were answered."""
+        return self.questions
 
     def note(self, round: int, facts: dict[str, Any]) -> None:  # noqa: A002  (as Store's)
         """Record nothing."""

@@ -114,6 +114,10 @@ class Store:
         """Close it; then another process may open it."""
         self._opened.close()
 
+    def answered(self, question: str) -> tuple[str, ...]:
+        """Record that a question was answered from the runs; return all that were, in order."""
+        return self._ledger.answered(question)
+
     def block(self, block: RunBlock, compute: Compute) -> Columns:
         """Return the outcomes of a block of runs.
 

@@ -24,6 +24,8 @@ pub struct Polygon {
     vertices: Vec<Point>,
 }
 
+crate::hashed!(Polygon { vertices });
+
 impl Polygon {
     /// Minimum number of vertices.
     pub const MIN_VERTICES: usize = MIN_VERTICES;

@@ -16,6 +16,8 @@ struct Level {
     at_s: f64,
 }
 
+base::hashed!(Level { charge, at_s });
+
 /// The charge of the battery: the median of the previous estimate and the last two readings, so
 /// that a single outlier has no effect, and two in a row are accepted.
 #[derive(Debug, Clone, Default)]
@@ -30,6 +32,15 @@ pub(crate) struct Battery {
     age_s: Option<f64>,
     uptime_s: f64,
 }
+
+base::hashed!(Battery {
+    first,
+    now,
+    min_charge,
+    last,
+    age_s,
+    uptime_s
+});
 
 impl Battery {
     pub(crate) fn update(&mut self, percept: &Percept, elapsed_s: f64) {

@@ -30,6 +30,8 @@ pub(crate) struct CoverageMap {
     missed: Vec<f32>,
 }
 
+base::hashed!(CoverageMap { missed });
+
 impl CoverageMap {
     pub(crate) fn new(cells: usize) -> Self {
         Self {

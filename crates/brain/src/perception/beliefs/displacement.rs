@@ -31,6 +31,16 @@ pub(crate) struct Displacement {
     pub(crate) variance_rad2: f64,
 }
 
+base::hashed!(Displacement {
+    elapsed_s,
+    chord,
+    turned_rad,
+    from_m_s,
+    to_m_s,
+    variance_m2,
+    variance_rad2
+});
+
 impl Displacement {
     /// The displacement to a new speed: constant acceleration first, then motion at that speed, both
     /// at the same turn rate.

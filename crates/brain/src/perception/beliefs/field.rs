@@ -16,6 +16,14 @@ pub(crate) struct Field {
     pub(crate) rows: usize,
 }
 
+base::hashed!(Field {
+    area,
+    cell_m,
+    cells_per_m,
+    columns,
+    rows
+});
+
 impl Field {
     /// Covers `area` with at most `max_cells` cells that are at least `min_cell_m` wide.
     #[expect(

@@ -28,6 +28,13 @@ pub(crate) struct Localisation {
     heading_s: Option<f64>,
 }
 
+base::hashed!(Localisation {
+    history,
+    depth_s,
+    position_s,
+    heading_s
+});
+
 impl Localisation {
     /// The pose, once a position and a heading are known.
     pub(crate) fn pose(&self) -> Option<Pose> {

@@ -27,6 +27,13 @@ pub(crate) struct Map {
     last_update: Option<(Pose, f64)>,
 }
 
+base::hashed!(Map {
+    field,
+    occupancy,
+    coverage,
+    last_update
+});
+
 impl Map {
     pub(crate) fn new(spec: &BeliefsSpec, area: &Rectangle) -> Self {
         let field = Field::new(area, spec.cell_m, spec.cells as usize);

@@ -38,6 +38,19 @@ pub(crate) struct Mover {
     pub(crate) standing_s: f64,
 }
 
+base::hashed!(Mover {
+    id,
+    at,
+    velocity_m_s,
+    course,
+    radius_m,
+    braking_m_s2,
+    age_s,
+    observations,
+    place,
+    standing_s
+});
+
 impl Mover {
     /// Corrects the state with an observed position; `gain` is that of the velocity.
     pub(super) fn correct(&mut self, at: Point, age_s: f64, gain: f64) {

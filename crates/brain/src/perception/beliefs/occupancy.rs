@@ -38,6 +38,8 @@ pub(crate) struct Occupancy {
     pub(crate) ever_occupied: u32,
 }
 
+base::hashed!(Occupancy { quarter_nats, changes, was_occupied, ever_occupied } without { passed });
+
 /// A measured ray.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {

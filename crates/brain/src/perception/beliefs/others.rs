@@ -40,6 +40,8 @@ pub(crate) struct Others {
     distances_m: Vec<f64>,
 }
 
+base::hashed!(Others { movers, objects } without { distances_m });
+
 impl Others {
     /// Updates the tracks after a step with a displacement.
     pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {

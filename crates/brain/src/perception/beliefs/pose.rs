@@ -25,6 +25,14 @@ pub struct Pose {
     pub age_s: f64,
 }
 
+base::hashed!(Pose {
+    at,
+    heading_rad,
+    deviation_m,
+    deviation_rad,
+    age_s
+});
+
 impl Pose {
     /// Tolerance of visibility tests: two standard deviations, which the errors of the robot's
     /// position and of obstacles on its map exceed in one of twenty cases.

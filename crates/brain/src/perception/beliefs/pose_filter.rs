@@ -23,6 +23,17 @@ pub(super) struct PoseFilter {
     age_s: f64,
 }
 
+base::hashed!(PoseFilter {
+    at,
+    heading_rad,
+    variance_m2,
+    variance_rad2,
+    covariance,
+    position_gate,
+    heading_gate,
+    age_s
+});
+
 impl Default for PoseFilter {
     fn default() -> Self {
         Self {

@@ -37,6 +37,13 @@ struct Part {
     after: PoseFilter,
 }
 
+base::hashed!(Part {
+    moved,
+    position,
+    heading_rad,
+    after
+});
+
 /// The recent motion in parts, the oldest first.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PoseHistory {
@@ -46,6 +53,12 @@ pub(super) struct PoseHistory {
     /// Number of parts whose poses are up to date, from the oldest one.
     valid: usize,
 }
+
+base::hashed!(PoseHistory {
+    before,
+    parts,
+    valid
+});
 
 impl PoseHistory {
     /// The pose now.

@@ -49,11 +49,21 @@ struct ScanObject {
     age_s: f64,
 }
 
+base::hashed!(ScanObject {
+    at,
+    radius_m,
+    closing_m_s,
+    observations,
+    age_s
+});
+
 /// All objects in view, in this robot's frame.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ScanObjects {
     objects: Vec<ScanObject>,
 }
+
+base::hashed!(ScanObjects { objects });
 
 impl ScanObjects {
     /// Predicts all objects after a step in which the robot moved by `motion` (in its previous

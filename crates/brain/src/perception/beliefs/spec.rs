@@ -47,6 +47,8 @@ pub struct TrustSpec {
     pub adaptive: bool,
 }
 
+base::hashed!(TrustSpec { initial, adaptive });
+
 impl Default for TrustSpec {
     fn default() -> Self {
         Self {

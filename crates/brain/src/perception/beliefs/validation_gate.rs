@@ -1,5 +1,8 @@
 //! The validation gate of readings: outliers are rejected unless several in a row agree.
 
+use base::hash::Hash;
+use base::hashed::Hashed;
+
 /// Half width of the gate, in standard deviations of the difference (Bar-Shalom and Fortmann,
 /// *Tracking and data association*, 1988). Of unbiased readings it rejects one in 1.7 million in
 /// one dimension, 2 (1 - Phi(5)), and one in 270,000 in two, exp(-5^2 / 2).
@@ -14,6 +17,14 @@ const RESET_AFTER: u8 = 3;
 pub(crate) struct ValidationGate<T> {
     last: T,
     count: u8,
+}
+
+impl<T: Hashed> Hashed for ValidationGate<T> {
+    fn add_to(&self, hash: &mut Hash) {
+        let Self { last, count } = self;
+        last.add_to(hash);
+        count.add_to(hash);
+    }
 }
 
 /// The difference between a reading and the estimate, and how much of it is expected.

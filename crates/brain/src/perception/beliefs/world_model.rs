@@ -38,6 +38,19 @@ pub(crate) struct Beliefs {
     uptime_s: f64,
 }
 
+base::hashed!(Beliefs {
+    per_m2,
+    id,
+    localisation,
+    others,
+    items,
+    battery,
+    map,
+    speed_m_s,
+    observations,
+    uptime_s
+});
+
 impl Beliefs {
     /// The initial beliefs.
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {

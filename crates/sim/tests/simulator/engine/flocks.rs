@@ -8,7 +8,7 @@ use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 
 /// Birds with the rule of `ABMFrameworksComparison`, in steps of a second.
-fn birds(count: u32, side_m: f64, more: &str) -> String {
+pub(crate) fn birds(count: u32, side_m: f64, more: &str) -> String {
     format!(
         "[clock]\nstep_s = 1\ntime_limit_s = 1000\n[world]\nsize_m = [{side_m}, {side_m}]\nperiodic = true\n\
          [robots.bird]\ncount = {count}\nradius_m = 0\ndrive = {{ max_speed_m_s = 1 }}\n\

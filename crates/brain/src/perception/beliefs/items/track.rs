@@ -3,6 +3,8 @@
 use crate::io::body::RobotId;
 use crate::io::message::Provenance;
 use base::geometry::Point;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use core::f64::consts::PI;
 
 /// Maximum number of sources per track.
@@ -31,6 +33,23 @@ pub(crate) struct Track {
     pub(crate) edge: f64,
 }
 
+impl Hashed for Track {
+    fn add_to(&self, hash: &mut Hash) {
+        let Self {
+            kind,
+            at,
+            variance_m2,
+            prior,
+            sources,
+            count,
+            edge,
+        } = self;
+        (*kind, *at).add_to(hash);
+        [*variance_m2, *prior, *edge].add_to(hash);
+        sources[..*count].add_to(hash);
+    }
+}
+
 /// The observations of one robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Source {
@@ -47,6 +66,15 @@ pub(crate) struct Source {
     /// Whether own observations have confirmed or refuted it; each source is judged once.
     pub(crate) is_judged: bool,
 }
+
+base::hashed!(Source {
+    provenance,
+    from,
+    prior,
+    log_ratio,
+    sent_confidence,
+    is_judged
+});
 
 impl Track {
     /// A track without sources.

@@ -23,6 +23,14 @@ pub(crate) struct Items {
     pub(crate) unjudged: u64,
 }
 
+base::hashed!(Items {
+    tracks,
+    last_track_id,
+    repeated,
+    unsent,
+    unjudged
+});
+
 impl Items {
     /// Marks tracks for sending and judging.
     pub(crate) fn mark_changed(&mut self, tracks: u64) {

@@ -1,0 +1,115 @@
+"""The verdict of a study: four lines that a reader takes in at a glance."""
+
+import math
+from collections.abc import Sequence
+from html import escape
+
+from agent_economy.scenario import Scenario
+from agent_economy.study.answer.labels import alternatives, recommendation
+from agent_economy.study.answer.results import Result
+from agent_economy.study.selection import percentage
+
+MAX_NAMED = 4
+"""Configurations that a line names individually."""
+
+OFTEN = 0.1
+"""Of a configuration whose runs fail more often than this, the failures are stated first."""
+
+Verdict = tuple[str, str, str, str]
+"""What to send, how it does, what does as well, and what was not looked for."""
+
+
+def verdict(
+    scenario: Scenario, best: int, results: Sequence[Result], delta: float, confidence: float
+) -> Verdict:
+    """Return the verdict of a study of the best by merit."""
+    chosen = results[best]
+    fails = failures(chosen)
+    send = recommendation(chosen.values)
+    time_s = f"{chosen.time_s.value:,.3g} s on average"
+    if chosen.failed.value > OFTEN:
+        first = f"{upper(fails)} even with the best compared team, {chosen.label}."
+        second = f"{send} only if that is acceptable: a run takes {time_s}."
+    else:
+        first = f"{send}."
+        second = f"A run takes {time_s}; {fails}."
+    return first, second, others(chosen, results), precision(scenario, delta, confidence)
+
+
+def upper(words: str) -> str:
+    """Return words with a capital at their beginning."""
+    return words[:1].upper() + words[1:]
+
+
+def failures(result: Result) -> str:
+    """Return how often runs fail: "about 2 in 100 runs fail (1 to 4)", "none of 37 runs failed"."""
+    failed = result.failed
+    value, low, high = (100 * each for each in (failed.value, failed.low, failed.high))
+    if value == 0:
+        return f"none of {result.runs:,} runs failed (up to {two_figures(high)} in 100 may)"
+    if failed.value == 1:
+        return f"all of {result.runs:,} runs failed"
+    between = f"{two_figures(low)} to {two_figures(high)}"
+    return f"about {two_figures(value)} in 100 runs fail ({between})"
+
+
+def two_figures(number: float) -> str:
+    """Return a number as people round it: whole from 10 on, else with two figures."""
+    return f"{number:.0f}" if number >= 10 else f"{number:.2g}"  # noqa: PLR2004
+
+
+def others(chosen: Result, results: Sequence[Result]) -> str:
+    """Return which configurations do about as well, or how far behind the next one is."""
+    behind = [
+        (result.standing.behind.value, result)
+        for result in results
+        if result is not chosen and result.standing.behind
+    ]
+    if not behind:
+        return "There was no other to compare."
+    tied = [each.label for _, each in behind if each.standing.verdict == "tied"]
+    if tied:
+        verb = "does" if len(tied) == 1 else "do"
+        return f"{upper(alternatives(named(tied)))} {verb} about as well."
+    value, nearest = min(behind, key=lambda pair: pair[0])
+    if nearest.standing.verdict == "worse":
+        return f"Next: {nearest.label}, worse by {value:.2g} merit."
+    return f"Next: {nearest.label}, by {value:.2g} merit; which is better is not decided."
+
+
+def named(labels: list[str]) -> list[str]:
+    """Return the first of some labels, and how many more there are."""
+    more = len(labels) - MAX_NAMED
+    return [*labels[:MAX_NAMED], f"{more} others"] if more > 0 else labels
+
+
+def precision(scenario: Scenario, delta: float, confidence: float) -> str:
+    """Return the confidence, and how many robots or seconds equal delta."""
+    weights = {term.column: abs(term.weight) for term in scenario.merit.terms}
+    units = {"robots": ("robot", "robots"), "time_s": ("s", "s")}
+    equals = [
+        f"{delta / weights[column]:.2g} {one if math.isclose(delta / weights[column], 1) else more}"
+        for column, (one, more) in units.items()
+        if column in weights
+    ]
+    means = f" ({' or '.join(equals)})" if equals else ""
+    return (
+        f"{percentage(confidence)} confidence; differences under {delta:g} merit{means} were not "
+        "looked for."
+    )
+
+
+def repeated(questions: int, confidence: float) -> str:
+    """Return what several questions about the same runs do to the error rate."""
+    error = min(1.0, questions * (1 - confidence))
+    together = percentage(round(1 - error, 12))
+    return (
+        f"{questions} questions were answered from these runs. Each promise holds by itself; all "
+        f"hold together with a probability of at least {together} only."
+    )
+
+
+def as_html(verdict: Verdict) -> str:
+    """Return a verdict for notebooks."""
+    first, second, third, fourth = map(escape, verdict)
+    return f"<b>{first}</b><br>{second}<br>{third}<br><small>{fourth}</small>"
