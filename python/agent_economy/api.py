@@ -76,13 +76,15 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
             the other in this process, and each gets new brains.
 
     Returns:
-        One row per run: `run`, `time_s` (time of the last find; the time limit if a target was not
-        found), `complete` (whether all targets were found), the other columns of the engine, and
-        `merit`. The metric engine has `robots`, `price`, `found` and `missed` (of the targets),
-        `false_alarms`, `collisions`, `energy_j` (null if no robot has a battery), `distance_m`,
-        `robots_stopped`, and `found_KIND` and `missed_KIND` for each item kind. Counts are int64,
-        `complete` is a bool. In a quarantined run (see `Outcome.status`), all columns but `run` are
-        null; a time of something that never happened is null.
+        One row per run: `run`, `time_s` (time until the run was complete; the time limit if it was
+        not), `complete` (whether all targets were found, or the condition of the scenario's end was
+        met), the other columns of the engine, and `merit`. The metric engine has `robots`, `price`,
+        `found` and `missed` (of the targets), `false_alarms`, `collisions`, `energy_j` (null if no
+        robot has a battery), `distance_m`, `robots_stopped`, for each item kind `found_KIND` and
+        `missed_KIND`, and `found_KIND_1_s`, `found_KIND_2_s` and so on: the times of its first
+        finds, at most 64. Counts are int64, `complete` is a bool. In a quarantined run (see
+        `Outcome.status`), all columns but `run` are null; a time of something that never happened
+        is null.
 
     Raises:
         InputError: If the scenario has errors or an argument is out of range; it lists all errors.

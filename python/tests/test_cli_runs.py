@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyarrow as pa
 import pytest
 from command_line import COMMAND, refuse, run, succeed
@@ -105,6 +106,22 @@ def test_a_single_run_has_a_mean_with_a_wide_interval() -> None:
     assert time_s["mean"] < time_s["high"] <= 120
 
 
+def test_the_times_of_finds_are_in_files_and_json_but_not_in_tables(tmp_path: Path) -> None:
+    out = tmp_path / "runs.csv"
+    shown = succeed("replicate", "search", "--runs", "20", "--out", out).stdout
+    assert "found_mine" in shown
+    assert "found_mine_1_s" not in shown
+    assert "mine_1" not in succeed("run", "search").stdout
+    times = csv.read_csv(out)["found_mine_4_s"]
+    assert times.equals(ae.replicate("search", 20)["found_mine_4_s"])
+    assert 0 < times.null_count < 20
+    found = summary("search", "--runs", "20")["found_mine_4_s"]
+    assert found["runs"] == 20 - times.null_count
+    assert found["mean"] == pytest.approx(np.mean(times.drop_null().to_numpy()))
+    printed = json.loads(succeed("run", "search", "--seed", "1", "--run", "1", "--json").stdout)
+    assert printed["found_mine_4_s"] is ae.run("search", 1, 1).row["found_mine_4_s"] is None
+
+
 def summary(*arguments: str | Path) -> dict[str, dict[str, Any]]:
     """Return the summary of `replicate` by column, and the number of runs that it counts."""
     printed = json.loads(succeed("replicate", *arguments, "--json").stdout)
@@ -145,6 +162,7 @@ def test_quarantined_runs_count_as_the_worst_and_are_counted(tmp_path: Path) -> 
     assert found["merit"]["minimum"] == pytest.approx(-0.03 * 5 - 0.2 * 8 - 5)
     assert [found[name]["runs"] for name in ("found", "missed", "merit")] == [20] * 3
     assert [found[name]["runs"] for name in ("distance_m", "collisions")] == [13] * 2
+    assert found["found_mine_1_s"]["runs"] == sum(row["found_mine"] > 0 for row in runs)
     answer = expect_best(ae.study.run(Scenario.load(crowded), runs=20))
     assert answer.results[0].time_s.value == pytest.approx(found["time_s"]["mean"])
     assert answer.results[0].merit.value == pytest.approx(found["merit"]["mean"])

@@ -42,6 +42,11 @@ def test_a_table_has_one_row_per_run_and_fitting_types() -> None:
             for kind in ("flag", "mine", "scrap")
             for what in ("found", "missed")
         },
+        **{
+            f"found_{kind}_{number}_s": real
+            for kind, count in (("flag", 2), ("mine", 6), ("scrap", 10))
+            for number in range(1, count + 1)
+        },
         "merit": real,
     }
     assert types(table) == expected

@@ -36,6 +36,19 @@ def test_an_outcome_agrees_with_its_row() -> None:
         assert each.merit == pytest.approx(-0.03 * each.time_s - 0.2 * 4 - 5 * (missed > 0))
 
 
+def test_a_row_has_the_time_of_each_find_in_ascending_order() -> None:
+    for run in range(12):
+        simulation = ae.Simulation("search", 1, run)
+        outcome = simulation.finish()
+        times = [outcome.row[f"found_mine_{number}_s"] for number in range(1, 5)]
+        found = [each for each in simulation.items["found_s"].to_pylist() if each is not None]
+        assert times == sorted(found) + [None] * (4 - len(found))
+        assert list(outcome.row)[-5:-1] == [f"found_mine_{number}_s" for number in range(1, 5)]
+        assert outcome.row == ae.run("search", 1, run).row
+        if outcome.complete:
+            assert times[-1] == outcome.time_s
+
+
 def test_an_outcome_cannot_be_changed() -> None:
     with pytest.raises(dataclasses.FrozenInstanceError):
         ae.run("search").time_s = 1  # type: ignore[misc]

@@ -10,8 +10,8 @@ pub struct ClockSpec {
     #[serde(default = "tenth")]
     #[schemars(range(min = 0.001, max = 10.0))]
     pub step_s: f64,
-    /// A run ends at this time at the latest, in seconds. A search that has not found all targets
-    /// by then has failed.
+    /// A run ends at this time at the latest, in seconds. A run that is not complete by then has
+    /// failed.
     #[schemars(range(min = 0.0, max = 1e7))]
     pub time_limit_s: f64,
 }

@@ -11,6 +11,7 @@
 
 pub mod bodies;
 pub mod clock;
+pub mod end;
 pub mod judge;
 pub mod radio;
 pub mod run;

@@ -7,6 +7,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core, arrow
+from agent_economy.runs.outcome import find_times
 from agent_economy.scenario import Scenario
 from agent_economy.scenario.merit import Bounds
 from agent_economy.study.answer import estimate
@@ -15,7 +16,10 @@ EVENTS = {"collisions", "false_alarms", "paints"}
 """Counts of events: their greatest possible value, if any, is too large to limit a mean."""
 
 NOT_JUDGED = EVENTS | {"energy_j", "distance_m", "robots_stopped"}
-"""Columns without a worst value: their means leave quarantined runs out."""
+"""Columns without a worst value: their means leave quarantined runs out.
+
+So do those of the times of finds, which also leave out the runs without that find.
+"""
 
 BEST_IF_GREAT = ("complete", "found", "merit")
 """First words of columns whose worst value is the smallest; of others, it is the greatest."""
@@ -33,10 +37,11 @@ def summarised(scenario: Scenario, table: pa.Table) -> Summary:
     bounds: dict[str, Bounds] = {name: (low, high) for name, _, low, high in columns}
     bounds |= {"complete": (0.0, 1.0), "merit": scenario.merit.bounds(bounds)}
     are_quarantined = quarantined(table)
+    are_not_judged = NOT_JUDGED | find_times(bounds)
     rows: Summary = []
     for name in table.column_names[1:]:
         values = arrow.floats(table[name], np.nan)
-        if name not in NOT_JUDGED:
+        if name not in are_not_judged:
             values[are_quarantined] = worst(name, bounds[name])
         counted = values[np.isfinite(values)]
         rows.append({"column": name, **summary_of(name, counted, bounds[name])})

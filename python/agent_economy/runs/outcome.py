@@ -1,6 +1,7 @@
 """Outcomes of runs: a single one, or a table of many."""
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -26,11 +27,12 @@ class Outcome:
 
     Attributes:
         run: Run number.
-        status: "complete": all targets were found. "incomplete": some were not. "quarantined": the
-            world had no room for the team or its items, or a number was not finite; there is no
-            outcome. "running": the outcome of a `Simulation` as if it ended at its current step.
-        time_s: Time of the last find; the time limit if the run is not complete.
-        complete: Whether all targets were found.
+        status: "complete": all targets were found, or the condition of the scenario's end was met.
+            "incomplete": it was not. "quarantined": the world had no room for the team or its
+            items, or a number was not finite; there is no outcome. "running": the outcome of a
+            `Simulation` as if it ended at its current step.
+        time_s: Time until the run was complete; the time limit if it was not.
+        complete: Whether the run was complete.
         merit: The figure of merit of the run.
         found: Items found, by kind; all as "item" if the engine has no item kinds.
         missed: Items not found, by kind.
@@ -42,7 +44,7 @@ class Outcome:
         energy_j: Energy used by all robots; None if no robot has a battery.
         distance_m: Distance travelled by all robots.
         robots_stopped: Robots that stopped because they were empty or broken.
-        row: The complete outcome by column, as in `replicate`.
+        row: The complete outcome by column, as in `replicate`, with the time of each find.
     """
 
     run: int
@@ -118,6 +120,21 @@ def status_of(row: Mapping[str, Any]) -> Status:
 
 def by_kind(row: Mapping[str, Any], name: str) -> dict[str, int | None]:
     """Return the counts by item kind of a column family such as "found"."""
-    prefix = f"{name}_"
-    kinds = {key.removeprefix(prefix): row[key] for key in row if key.startswith(prefix)}
-    return kinds or ({"item": row[name]} if name in row and "missed" not in row else {})
+    counts = {kind: row[f"{name}_{kind}"] for kind in kinds(row)}
+    return counts or ({"item": row[name]} if name in row and "missed" not in row else {})
+
+
+def kinds(columns: Iterable[str]) -> list[str]:
+    """Return the item kinds of which an engine has columns."""
+    prefix = "missed_"
+    return [name.removeprefix(prefix) for name in columns if name.startswith(prefix)]
+
+
+def find_times(columns: Iterable[str]) -> set[str]:
+    """Return those of the columns that are times of finds: found_KIND_1_s and so on.
+
+    Tables for people leave them out, because there may be one for each item.
+    """
+    names = list(columns)
+    any_kind = "|".join(map(re.escape, kinds(names)))
+    return {name for name in names if re.fullmatch(f"found_({any_kind})_[0-9]+_s", name)}

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { outcomeRows } from "./outcome";
+import { outcomeRows, withoutFindTimes } from "./outcome";
 
 test("found is given out of all, and the terms of the merit come first, with units", () => {
   const rows = outcomeRows(
@@ -35,4 +35,11 @@ test("unknown values are left out, and text is unchanged", () => {
 
 test("without a count of missed items, all targets are counted", () => {
   expect(outcomeRows({ found: 1 }, 4)[0]?.value).toBe("1 / 4");
+});
+
+test("the times of finds are left out, and counts of kinds with similar names are not", () => {
+  const outcome = { found_mine: 1, missed_mine: 1, found_mine_1_s: 2.5, found_mine_2_s: null };
+  expect(outcomeRows(outcome, 2).map(({ name }) => name)).toEqual(["found mine", "missed mine"]);
+  const columns = ["found_cow_1_s", "missed_cow_1_s", "found_cow_1_s_1_s", "time_s"];
+  expect(withoutFindTimes(columns)).toEqual(["found_cow_1_s", "missed_cow_1_s", "time_s"]);
 });

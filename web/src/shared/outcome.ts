@@ -15,7 +15,10 @@ const units: [ending: string, unit: string][] = [
 /** Displayed first, in this order; the others follow in the server's order. */
 const first = ["merit", "collisions", "energy_j"];
 
-/** The rows of an outcome: found out of all targets, then values with units. The run number is left out. */
+/**
+ * The rows of an outcome: found out of all targets, then values with units. The run number and the times of
+ * finds are left out.
+ */
 export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
   const { found, missed, run: _, ...rest } = outcome;
   const rows: OutcomeRow[] = [];
@@ -23,11 +26,24 @@ export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
     const all = typeof missed === "number" ? found + missed : target;
     rows.push({ name: "found", value: `${found} / ${all}`, unit: "" });
   }
+  const shown = withoutFindTimes(Object.keys(rest));
   const names = [
-    ...first.filter((name) => name in rest),
-    ...Object.keys(rest).filter((name) => !first.includes(name)),
+    ...first.filter((name) => shown.includes(name)),
+    ...shown.filter((name) => !first.includes(name)),
   ];
   return [...rows, ...names.flatMap((name) => row(name, rest[name]))];
+}
+
+/**
+ * Columns without the times of finds, found_KIND_1_s, found_KIND_2_s and so on: there may be one for each item.
+ * Each kind of items has a column missed_KIND.
+ */
+export function withoutFindTimes(columns: string[]): string[] {
+  const isFindTime = (column: string) => {
+    const kind = /^found_(.+)_[0-9]+_s$/.exec(column)?.[1];
+    return kind !== undefined && columns.includes(`missed_${kind}`);
+  };
+  return columns.filter((column) => !isFindTime(column));
 }
 
 /** The words and the unit of a column name. */

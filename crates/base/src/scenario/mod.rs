@@ -94,7 +94,7 @@ impl Scenario {
         merit::make_table(&mut document);
         let engine = engine_of(engines, &document)?;
         let (_, mut errors) = document.read_all(|root| {
-            root.only(&all_keys(engine));
+            check_keys(root, engine, engines);
             Some(())
         });
         let read = unknown_names::read(engine, &document);
@@ -211,6 +211,22 @@ fn engine_of<'e>(
 ) -> Result<&'e dyn Engine, InputErrors> {
     let names: Vec<(&str, &dyn Engine)> = engines.iter().map(|each| (each.name(), *each)).collect();
     document.read(|root| root.choice("engine", &names))
+}
+
+/// Reports every key that is not the engine's, and of which other engine it is.
+fn check_keys(root: &Section, engine: &dyn Engine, engines: &[&dyn Engine]) {
+    let known = all_keys(engine);
+    for key in root.keys().filter(|key| !known.contains(key)) {
+        let mut others = engines.iter().filter(|each| each.keys().contains(&key));
+        match others.next() {
+            Some(other) => {
+                let [this, other] = [engine.name(), other.name()];
+                let allowed = format!("left out: only the engine {other:?} has it, not {this:?}");
+                root.error(key, &allowed);
+            }
+            None => root.report_unknown(key, &known),
+        }
+    }
 }
 
 fn all_keys(engine: &dyn Engine) -> Vec<&'static str> {

@@ -76,14 +76,14 @@ fn finds() -> Vec<Column> {
             "found",
             Whole,
             |on| Bounds::up_to(on.targets().into()),
-            |on, of| targets(on, &of.found),
+            |on, of| on.sum_of_targets(|kind| of.found[kind]).into(),
         )
         .with_term("found", 4),
         Column::new(
             "missed",
             Whole,
             |on| Bounds::up_to(on.targets().into()),
-            |on, of| targets(on, &of.missed),
+            |on, of| on.sum_of_targets(|kind| of.missed[kind]).into(),
         )
         .with_term("missed", 5),
         Column::new(
@@ -163,13 +163,6 @@ fn find_times(max_count: u32) -> u32 {
 #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
 fn count(events: u64) -> f64 {
     events as f64
-}
-
-/// The sum of counts by kind of items, over the kinds that are targets.
-fn targets(scenario: &Scenario, counts: &[u32]) -> f64 {
-    let kinds = scenario.items.iter().zip(counts);
-    let targets = kinds.filter(|(kind, _)| kind.is_target);
-    targets.map(|(_, count)| count).sum::<u32>().into()
 }
 
 #[cfg(test)]

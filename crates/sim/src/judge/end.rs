@@ -2,11 +2,13 @@
 
 use super::moment::Moment;
 use crate::bodies::body_state::Status;
+use crate::end::Count;
+use crate::scenario::Scenario;
 
 /// A reason for which a run is over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum EndRule {
-    /// All targets are found.
+    /// The condition of the scenario has held.
     Complete,
     /// The time limit is reached.
     TimeLimit,
@@ -32,4 +34,57 @@ impl Moment<'_> {
     pub(crate) fn is_over(&self) -> bool {
         EndRule::ALL.iter().any(|rule| rule.holds(self))
     }
+
+    /// Whether the condition with which a run is complete holds now.
+    pub(crate) fn meets_end(&self) -> bool {
+        let end = self.scenario.end.as_ref();
+        end.is_some_and(|end| end.comparison.holds_for(self.count(end.count)))
+    }
+
+    /// The step in which a run was complete, after its scenario changed; `before` is that of the run before.
+    pub(crate) fn completed_at(&self, before: Option<u64>) -> Option<u64> {
+        let end = self.scenario.end.as_ref().filter(|_| self.meets_end())?;
+        if end.is_all_found() {
+            return self.last_find();
+        }
+        before.or(Some(self.tick))
+    }
+
+    /// The step in which the last of the targets was found that were found.
+    fn last_find(&self) -> Option<u64> {
+        let found = self.items.kinds().zip(self.tally.found_at());
+        let kinds = &self.scenario.items;
+        let targets = found.filter(|(kind, _)| kinds[usize::from(*kind)].is_target);
+        targets.filter_map(|(_, found_at)| found_at).max()
+    }
+
+    fn count(&self, count: Count) -> f64 {
+        let Self {
+            scenario, tally, ..
+        } = self;
+        let missed = |kind: usize| scenario.items[kind].count.saturating_sub(tally.found[kind]);
+        match count {
+            Count::Found => scenario.sum_of_targets(|kind| tally.found[kind]).into(),
+            Count::Missed => scenario.sum_of_targets(missed).into(),
+            Count::FalseAlarms => events(tally.false_alarms),
+            Count::Collisions => events(tally.collisions),
+            Count::RobotsStopped => tally.removed.and(self.body_states.iter()).stopped.into(),
+            Count::FoundOf(kind) => tally.found[kind].into(),
+            Count::MissedOf(kind) => missed(kind).into(),
+        }
+    }
+}
+
+impl Scenario {
+    /// Whether a run can be complete with a step in which the judge counted something, or nothing: only robots stop
+    /// without it.
+    pub(crate) fn can_complete(&self, is_counted: bool) -> bool {
+        let mut end = self.end.iter();
+        end.any(|end| is_counted || end.count == Count::RobotsStopped)
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
+fn events(count: u64) -> f64 {
+    count as f64
 }

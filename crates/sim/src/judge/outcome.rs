@@ -2,13 +2,14 @@
 
 use super::moment::Moment;
 use crate::clock::seconds;
+use std::iter::zip;
 
 /// The outcome of a run, named like the columns of results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Time until the last target was found; the time limit if it was not.
+    /// Time until the run was complete; the time limit if it was not.
     pub time_s: f64,
-    /// Whether targets were not found.
+    /// Whether the run was not complete. Without targets and without a condition of its own, a run cannot fail.
     pub has_failed: bool,
     /// Items found, by kind.
     pub found: Vec<u32>,
@@ -37,32 +38,19 @@ impl Outcome {
         let Moment {
             scenario, tally, ..
         } = *moment;
-        let kinds = scenario.items.len();
-        let (mut found, mut missed) = (vec![0; kinds], vec![0; kinds]);
-        let mut found_s = vec![Vec::new(); kinds];
-        for (kind, found_at) in moment.items.kinds().zip(tally.found_at()) {
-            let kind = usize::from(kind);
-            if let Some(tick) = found_at {
-                found[kind] += 1;
-                found_s[kind].push(seconds(tick, scenario.step_s));
-            } else {
-                missed[kind] += 1;
-            }
-        }
-        for times in &mut found_s {
-            times.sort_unstable_by(f64::total_cmp);
-        }
+        let missed = zip(&scenario.items, &tally.found);
+        let missed = missed.map(|(kind, found)| kind.count.saturating_sub(*found));
         let complete_s = tally.complete_at.map(|tick| seconds(tick, scenario.step_s));
         let cost = tally.removed.and(moment.body_states.iter());
         Self {
-            // The step of the last find may exceed the time limit by a rounding error.
+            // The step may exceed the time limit by a rounding error.
             time_s: complete_s.map_or(scenario.time_limit_s, |time_s| {
                 time_s.min(scenario.time_limit_s)
             }),
-            has_failed: complete_s.is_none() && scenario.targets() > 0,
-            found,
-            missed,
-            found_s,
+            has_failed: complete_s.is_none() && scenario.end.is_some(),
+            found: tally.found.clone(),
+            missed: missed.collect(),
+            found_s: find_times(moment),
             false_alarms: tally.false_alarms,
             collisions: tally.collisions,
             energy_j: cost.energy_j,
@@ -78,6 +66,20 @@ impl Outcome {
         let numbers = [self.time_s, self.energy_j, self.distance_m];
         self.is_placed && numbers.iter().all(|value| value.is_finite())
     }
+}
+
+/// The time of each find, by kind, in ascending order.
+fn find_times(moment: &Moment) -> Vec<Vec<f64>> {
+    let mut found_s = vec![Vec::new(); moment.scenario.items.len()];
+    for (kind, found_at) in moment.items.kinds().zip(moment.tally.found_at()) {
+        if let Some(tick) = found_at {
+            found_s[usize::from(kind)].push(seconds(tick, moment.scenario.step_s));
+        }
+    }
+    for times in &mut found_s {
+        times.sort_unstable_by(f64::total_cmp);
+    }
+    found_s
 }
 
 fn is_placed(moment: &Moment) -> bool {

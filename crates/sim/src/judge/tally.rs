@@ -12,10 +12,10 @@ use base::hash::Hash;
 pub(crate) struct Tally {
     /// The step in which each item was found, by its number.
     found_at: Vec<Option<u64>>,
-    /// Targets that are not found.
-    targets_left: u32,
-    /// The step in which the last target was found.
-    pub(super) complete_at: Option<u64>,
+    /// Items found, by kind.
+    pub(super) found: Vec<u32>,
+    /// The step in which the run was complete.
+    pub(crate) complete_at: Option<u64>,
     pub(super) false_alarms: u64,
     pub(super) collisions: u64,
     /// The cost of robots that were removed.
@@ -25,41 +25,33 @@ pub(crate) struct Tally {
 impl Tally {
     /// The tally of a run that begins.
     pub(crate) fn new(scenario: &Scenario, items: &Items) -> Self {
-        let mut tally = Self {
+        Self {
             found_at: vec![None; items.len()],
+            found: vec![0; scenario.items.len()],
             ..Self::default()
-        };
-        tally.count_targets(scenario, items);
-        tally
+        }
     }
 
-    /// Notes what robots detected in step `tick`. An item is found when it is first detected.
-    pub(crate) fn detected(
-        &mut self,
-        detections: &Detections,
-        tick: u64,
-        is_target: impl Fn(u32) -> bool,
-    ) {
+    /// Notes what robots detected in step `tick`; returns whether any of it counts. An item is found when it is
+    /// first detected.
+    pub(crate) fn detected(&mut self, detections: &Detections, tick: u64, items: &Items) -> bool {
         self.false_alarms += detections.false_alarms;
+        let mut is_counted = detections.false_alarms > 0;
         for item in &detections.sightings {
             let found_at = &mut self.found_at[*item as usize];
             if found_at.is_none() {
                 *found_at = Some(tick);
-                self.found(tick, is_target(*item));
+                self.found[usize::from(items.kind(*item))] += 1;
+                is_counted = true;
             }
         }
+        is_counted
     }
 
-    fn found(&mut self, tick: u64, is_target: bool) {
-        self.targets_left -= u32::from(is_target);
-        if is_target && self.targets_left == 0 {
-            self.complete_at = Some(tick);
-        }
-    }
-
-    /// Notes new contacts of bodies.
-    pub(crate) fn collided(&mut self, collisions: u64) {
+    /// Notes new contacts of bodies; returns whether there are any.
+    pub(crate) fn collided(&mut self, collisions: u64) -> bool {
         self.collisions += collisions;
+        collisions > 0
     }
 
     /// The step in which each item was found, by its number.
@@ -68,7 +60,7 @@ impl Tally {
     }
 
     /// The tally of the run as it continues with the items of another scenario and without the robots that are
-    /// `removed`. Of each item that stays, `kept` has its number there and here.
+    /// `removed`. Of each item that stays, `kept` has its number there and here. Whether the run is complete is not noted.
     pub(crate) fn continued(
         &self,
         (scenario, items): (&Scenario, &Items),
@@ -76,26 +68,17 @@ impl Tally {
         removed: &[BodyState],
     ) -> Self {
         let mut next = Self {
-            found_at: vec![None; items.len()],
             removed: self.removed.and(removed.iter()),
-            ..*self
+            ..Self::new(scenario, items)
         };
+        (next.false_alarms, next.collisions) = (self.false_alarms, self.collisions);
         for (now, was) in kept {
             next.found_at[*now] = self.found_at[*was];
         }
-        next.count_targets(scenario, items);
+        for (kind, found_at) in items.kinds().zip(&next.found_at) {
+            next.found[usize::from(kind)] += u32::from(found_at.is_some());
+        }
         next
-    }
-
-    /// Counts the targets that are left. Removing targets can complete a run, and adding some can reopen it.
-    fn count_targets(&mut self, scenario: &Scenario, items: &Items) {
-        let found = items.kinds().zip(self.found_at());
-        let targets = found.filter(|(kind, _)| scenario.items[usize::from(*kind)].is_target);
-        let found: Vec<Option<u64>> = targets.map(|(_, found_at)| found_at).collect();
-        let left = found.iter().filter(|found_at| found_at.is_none()).count();
-        self.targets_left = u32::try_from(left).unwrap_or(u32::MAX);
-        let last = found.into_iter().flatten().max();
-        self.complete_at = last.filter(|_| left == 0);
     }
 
     /// Adds everything observable to the hash of a run.

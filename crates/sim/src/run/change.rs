@@ -31,7 +31,7 @@ impl State {
     /// sensors changed gets a new agent, and its speed is limited at once to what its drive now
     /// allows. Of a battery with another capacity, what was not used so far is left. Messages in
     /// transit are lost if the team changes. The cost of robots that are removed stays part of the
-    /// outcome.
+    /// outcome. A run that meets a new condition of its end is complete now.
     ///
     /// # Errors
     /// If there is no room for what is added, or for what stays where something else is now.
@@ -48,6 +48,7 @@ impl State {
         let kept = next.keep_items(self, from, to)?;
         let removed = removed(self, &old);
         next.tally = self.tally.continued((to, &next.items), &kept, &removed);
+        next.tally.complete_at = next.moment(to).completed_at(self.tally.complete_at);
         if is_same_team(self, &old) {
             // Kinds are sorted by name, so that receivers keep their numbers.
             next.channel = self.channel.clone();

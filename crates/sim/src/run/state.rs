@@ -114,7 +114,7 @@ impl State {
         self.agents.push(Agent::new(kind));
     }
 
-    /// Whether the run is over: all targets are found, time is up, or no robot can move.
+    /// Whether the run is over: it is complete, time is up, or no robot can move.
     #[must_use]
     pub fn is_over(&self, scenario: &Scenario) -> bool {
         self.moment(scenario).is_over()
@@ -126,7 +126,15 @@ impl State {
         Outcome::of(&self.moment(scenario))
     }
 
-    fn moment<'a>(&'a self, scenario: &'a Scenario) -> Moment<'a> {
+    /// Notes if the run is complete with this step, in which the judge counted something, or nothing.
+    pub(crate) fn note_completion(&mut self, scenario: &Scenario, is_counted: bool) {
+        let can_complete = self.tally.complete_at.is_none() && scenario.can_complete(is_counted);
+        if can_complete && self.moment(scenario).meets_end() {
+            self.tally.complete_at = Some(self.tick);
+        }
+    }
+
+    pub(super) fn moment<'a>(&'a self, scenario: &'a Scenario) -> Moment<'a> {
         Moment {
             scenario,
             tick: self.tick,

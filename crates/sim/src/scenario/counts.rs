@@ -1,4 +1,4 @@
-//! The largest numbers of items in the configurations of a study.
+//! The largest numbers of items and robots in the configurations of a study.
 
 use super::ready::Scenario;
 use super::spec::ScenarioSpec;
@@ -34,6 +34,6 @@ impl Scenario {
     clippy::cast_sign_loss,
     reason = "numbers out of range are errors; here they become the nearest number"
 )]
-fn max_count(document: &Document, table: &str, name: &str) -> u32 {
+pub(super) fn max_count(document: &Document, table: &str, name: &str) -> u32 {
     largest(document, &[table, name, "count"]).unwrap_or_default() as u32
 }

@@ -5,6 +5,7 @@ use super::spec::ScenarioSpec;
 use super::world_hash::world_hash;
 use crate::bodies::Layer;
 use crate::bodies::kind::{Kind, KindContext};
+use crate::end::EndCondition;
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::items::ItemKind;
@@ -43,6 +44,9 @@ pub struct Scenario {
     seen: [StaticGeometry; 2],
     touched: [StaticGeometry; 2],
     pub(crate) items: Vec<ItemKind>,
+    /// The condition with which a run is complete: that of the scenario, otherwise that all targets are found;
+    /// `None` if there are no targets either.
+    pub(crate) end: Option<EndCondition>,
     pub(crate) kinds: Vec<Kind>,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
     pub(crate) contact_m: f64,
@@ -112,6 +116,7 @@ impl Scenario {
             skin_m,
             entries: entries(spec, solids.len()),
             solids,
+            end: end_of(spec, &items),
             items,
             kinds,
         }
@@ -154,11 +159,14 @@ impl Scenario {
 
     /// Number of targets.
     pub(crate) fn targets(&self) -> u32 {
-        self.items
-            .iter()
-            .filter(|kind| kind.is_target)
-            .map(|kind| kind.count)
-            .sum()
+        self.sum_of_targets(|kind| self.items[kind].count)
+    }
+
+    /// The sum of a number of each kind of items, over the kinds that are targets.
+    pub(crate) fn sum_of_targets(&self, number: impl Fn(usize) -> u32) -> u32 {
+        let kinds = self.items.iter().enumerate();
+        let targets = kinds.filter(|(_, kind)| kind.is_target);
+        targets.map(|(kind, _)| number(kind)).sum()
     }
 
     /// The largest range of any item detector.
@@ -331,6 +339,14 @@ fn entries(spec: &ScenarioSpec, obstacles: usize) -> Vec<usize> {
     let copies =
         entries.flat_map(|(index, obstacle)| std::iter::repeat_n(index, obstacle.repeat().count()));
     copies.take(obstacles).collect()
+}
+
+fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
+    let Some(end) = &spec.end else {
+        let has_targets = items.iter().any(|kind| kind.is_target && kind.count > 0);
+        return has_targets.then(EndCondition::all_found);
+    };
+    EndCondition::parse(&end.when, spec.items.keys().map(String::as_str)).ok()
 }
 
 fn greatest(kinds: &[Kind], value: impl Fn(&Kind) -> f64) -> f64 {

@@ -2,6 +2,7 @@
 
 use crate::bodies::RobotSpec;
 use crate::clock::ClockSpec;
+use crate::end::EndSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
@@ -27,6 +28,8 @@ pub struct ScenarioSpec {
     pub items: BTreeMap<String, ItemSpec>,
     /// Kinds of robots, each under a name of your choice.
     pub robots: BTreeMap<String, RobotSpec>,
+    /// When a run is complete and over; without this table, when all targets are found.
+    pub end: Option<EndSpec>,
 }
 
 /// The other keys at the root are common to all engines.
@@ -34,7 +37,7 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<Scena
 
 impl ScenarioSpec {
     /// The keys at the root of a document that this type reads.
-    pub const KEYS: [&str; 5] = ["clock", "world", "terrain", "items", "robots"];
+    pub const KEYS: [&str; 6] = ["clock", "world", "terrain", "items", "robots", "end"];
 
     /// The schema of [`ScenarioSpec::KEYS`], once every robot kind is completed from its model.
     #[must_use]

@@ -71,9 +71,10 @@ impl StepScratch {
         state: &mut State,
         external: &ExternalInputs,
     ) {
-        if scenario.is_of_flocks_of_points() && external.is_empty() {
+        let is_counted = if scenario.is_of_flocks_of_points() && external.is_empty() {
             self.flock_step(scenario, state);
             add_setpoints(scenario, state);
+            false
         } else {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
@@ -81,8 +82,9 @@ impl StepScratch {
             add_decisions(state, hashes);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let collisions = self.act(scenario, state);
-            self.judge(scenario, state, external, collisions);
-        }
+            self.judge(state, external, collisions)
+        };
+        state.note_completion(scenario, is_counted);
         state.tick += 1;
         communicate::deliver(scenario, state);
     }
@@ -200,22 +202,17 @@ impl StepScratch {
         moved.collisions
     }
 
-    /// Reports to the judge what robots detected in this step, and their collisions.
-    fn judge(
-        &self,
-        scenario: &Scenario,
-        state: &mut State,
-        external: &ExternalInputs,
-        collisions: u64,
-    ) {
+    /// Reports to the judge what robots detected in this step, and their collisions; returns whether anything was
+    /// counted.
+    fn judge(&self, state: &mut State, external: &ExternalInputs, collisions: u64) -> bool {
         let State {
             tick, items, tally, ..
         } = state;
-        let is_target = |item| scenario.items[usize::from(items.kind(item))].is_target;
+        let mut is_counted = tally.collided(collisions);
         let here = self.workers.iter().map(|worker| &worker.sensing.detections);
         for detections in iter::once(&external.decisions.detections).chain(here) {
-            tally.detected(detections, *tick, is_target);
+            is_counted |= tally.detected(detections, *tick, items);
         }
-        tally.collided(collisions);
+        is_counted
     }
 }

@@ -18,7 +18,7 @@ pub struct ItemSpec {
     #[schemars(range(max = 1_000_000))]
     pub count: u32,
     /// Whether these items are to be found; false for clutter. A run is complete when all targets
-    /// are found.
+    /// are found, unless `[end]` has another condition.
     #[serde(default = "yes")]
     pub target: bool,
     /// Where the items are.

@@ -10,8 +10,8 @@ Kind: TypeAlias = Literal["whole", "real", "flag"]
 OWN = ("configuration", "run", "quarantined")
 """Columns of every block file besides the outcomes."""
 
-MAX_COLUMNS = 62
-"""Maximum number of columns: one bit each in `quarantined`."""
+SHARED_BIT = 62
+"""The bit in `quarantined` that all columns from this number on share; others have their own."""
 
 ARROW: dict[Kind, Any] = {"whole": pa.int64(), "real": pa.float64(), "flag": pa.bool_()}
 
@@ -33,14 +33,17 @@ def check_names(columns: tuple[Column, ...]) -> None:
     """Refuse columns that a block file cannot contain.
 
     Raises:
-        ValueError: If there are none or too many, or a name is reserved.
+        ValueError: If there are none, or a name is reserved.
     """
     names = [column.name for column in columns]
-    if not 1 <= len(names) <= MAX_COLUMNS or len({*names, *OWN}) < len(names) + len(OWN):
-        message = (
-            f"a block has 1 to {MAX_COLUMNS} columns of different names, none of {OWN}, not {names}"
-        )
+    if not names or len({*names, *OWN}) < len(names) + len(OWN):
+        message = f"a block has columns of different names, none of {OWN}, not {names}"
         raise ValueError(message)
+
+
+def bits(columns: tuple[Column, ...]) -> list[tuple[int, Column]]:
+    """Return the columns, each with its bit in `quarantined`."""
+    return [(min(place, SHARED_BIT), column) for place, column in enumerate(columns)]
 
 
 def schema(columns: tuple[Column, ...]) -> Any:

@@ -2,9 +2,11 @@
 
 Rows are sorted by configuration, then run. Null means never (+inf). A cell that is NaN is null too,
 and bit i of the row's `quarantined` marks column i; so SQL queries that ignore quarantined runs
-read no NaN, and `quarantined <> 0` finds these runs.
+read no NaN, and `quarantined <> 0` finds these runs. The last bit marks all columns from its number
+on: their cells of a row are all NaN, or none is.
 """
 
+from itertools import pairwise
 from typing import Any, NoReturn
 
 import numpy as np
@@ -14,7 +16,7 @@ from numpy.typing import NDArray
 
 from agent_economy import arrow
 from agent_economy.study.run_block import Columns, RunBlock
-from agent_economy.study.store.columns import Column, schema
+from agent_economy.study.store.columns import SHARED_BIT, Column, bits, schema
 
 LEVEL = 1
 """Compression level of zstd: higher ones save a few percent and take twice the time."""
@@ -27,15 +29,15 @@ def table_of(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> pa.
     """Return the rows of a block.
 
     Raises:
-        ValueError: If a value does not fit the type of its column.
+        ValueError: If a value does not fit the type of its column, or NaN is only in some of the
+            columns that share a bit.
     """
+    check_shared(columns, data)
     configurations, runs = block.shape
     names = np.asarray(block.configurations, dtype=np.int32)
     numbers = np.arange(block.first_run, block.end, dtype=np.int64)
     marks = np.zeros(block.rows, dtype=np.int64)
-    cells = [
-        cell(column, data[column.name].ravel(), marks, bit) for bit, column in enumerate(columns)
-    ]
+    cells = [cell(column, data[column.name].ravel(), marks, bit) for bit, column in bits(columns)]
     arrays = [
         arrow.column(np.repeat(names, runs)),
         arrow.column(np.tile(numbers, configurations)),
@@ -86,6 +88,15 @@ def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], 
     return arrow.column(kept, absent)
 
 
+def check_shared(columns: tuple[Column, ...], data: Columns) -> None:
+    """Refuse runs in which NaN is only in some of the columns that share a bit."""
+    names = [column.name for column in columns[SHARED_BIT:]]
+    for name, other in pairwise(names):
+        if (np.isnan(data[name]) != np.isnan(data[other])).any():
+            message = f"column {other} must be NaN in the same runs as {name}"
+            raise ValueError(message)
+
+
 def check_range(column: Column, values: NDArray[np.float64]) -> None:
     """Refuse whole numbers without an exact floating-point value."""
     for value in (values.min(), values.max()):
@@ -119,7 +130,7 @@ def outcomes_of(table: pa.Table, columns: tuple[Column, ...]) -> Columns:
     marks = arrow.numbers(table["quarantined"])
     any_marked = marks.any()
     outcomes = {}
-    for bit, column in enumerate(columns):
+    for bit, column in bits(columns):
         values = arrow.floats(table[column.name], np.inf)
         if any_marked:
             values[(marks >> bit & 1).astype(bool)] = np.nan

@@ -4,6 +4,7 @@ import { areNumbers, cellText, columnsOf, quantileText } from "./columns";
 test("columns of the merit come first, and the run number is not a column", () => {
   const run = { run: "3", quantile: 0.5, found: 4, failed: false, time_s: 3, merit: -1 };
   expect(columnsOf([run])).toEqual(["merit", "time_s", "failed", "found"]);
+  expect(columnsOf([{ run: "3", missed_mine: 1, found_mine_1_s: 2 }])).toEqual(["missed_mine"]);
   expect(columnsOf([])).toEqual([]);
 });
 

@@ -1,11 +1,12 @@
 import type { Cell, StudyRun } from "../../api/study";
+import { withoutFindTimes } from "../../shared/outcome";
 
 const first = ["merit", "time_s", "failed"];
 const apart = ["run", "quantile"];
 
-/** The columns of runs, those of the merit first. */
+/** The columns of runs, those of the merit first, without the times of finds. */
 export function columnsOf(runs: StudyRun[]): string[] {
-  const names = Object.keys(runs[0] ?? {}).filter((name) => !apart.includes(name));
+  const names = withoutFindTimes(Object.keys(runs[0] ?? {})).filter((name) => !apart.includes(name));
   const rest = names.filter((name) => !first.includes(name));
   return [...first.filter((name) => names.includes(name)), ...rest];
 }

@@ -54,7 +54,13 @@ impl Condition {
     #[must_use]
     pub fn holds(&self, values: &[f64]) -> bool {
         let value = values.get(self.place);
-        let order = value.and_then(|value| value.partial_cmp(&self.number));
+        value.is_some_and(|value| self.holds_for(*value))
+    }
+
+    /// Whether it holds for a value of its quantity.
+    #[must_use]
+    pub fn holds_for(&self, value: f64) -> bool {
+        let order = value.partial_cmp(&self.number);
         order.is_some_and(|order| self.operator.accepts(order))
     }
 }

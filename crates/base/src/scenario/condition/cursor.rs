@@ -53,7 +53,7 @@ impl<'t> Cursor<'t> {
         if self.rest.is_empty() {
             return Ok(());
         }
-        let expected = "nothing more (a list of conditions holds if all of them hold)";
+        let expected = "nothing more: a condition is one comparison";
         Err(self.error_at(next, expected, None))
     }
 

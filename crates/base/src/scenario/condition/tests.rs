@@ -155,7 +155,7 @@ fn what_is_wrong_first_is_reported_with_its_position_and_the_fix() {
         ),
         (
             "found >= 3 and time_s < 2",
-            "nothing more (a list of conditions holds if all of them hold)",
+            "nothing more: a condition is one comparison",
             "character 12",
             "",
         ),

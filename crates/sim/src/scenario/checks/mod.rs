@@ -4,6 +4,7 @@ mod brains;
 mod clock;
 mod detection;
 mod drive;
+mod end;
 mod ground;
 mod memory;
 mod names;
@@ -47,7 +48,8 @@ const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
 /// The scenario of `spec`, which a document contains, if it has no errors.
 pub(super) fn checked(spec: ScenarioSpec, document: &Document) -> Result<Checked, InputErrors> {
     let at = &document.place();
-    let errors: Vec<InputError> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
+    let mut errors: Vec<InputError> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
+    errors.extend(end::errors(&spec, document));
     let mut of_places = Vec::new();
     let open = |name: &str| document.open(name);
     let solids = ground::solids(&spec.world, &at.key("world"), &open, &mut of_places);

@@ -10,6 +10,7 @@ mod correct;
 mod dead_end;
 mod decision_hashes;
 mod determinism;
+mod end;
 mod external;
 mod external_decisions;
 mod find_times;
