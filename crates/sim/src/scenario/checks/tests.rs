@@ -4,6 +4,7 @@ use base::error::InputErrors;
 
 mod brains;
 mod end;
+mod obstacles;
 mod renamed;
 
 const GOOD: &str = r#"
