@@ -237,6 +237,21 @@ def test_the_scene_shows_the_scenario_and_the_finds(mcap: Path) -> None:
     assert sum(found or 0 for found in outcome.found.values()) == len(logged) > 0
 
 
+def test_the_scene_has_every_copy_of_an_obstacle(mcap: Path) -> None:
+    rack = {"rectangle": {"at_m": [4, 5], "size_m": [1, 2]}}
+    pillar = {"circle": {"at_m": [20, 3], "radius_m": 0.5}}
+    repeat = {"columns": 3, "rows": 2, "spacing_m": [4, 6]}
+    obstacles = [{**rack, "repeat": repeat}, pillar]
+    ae.run(search({"world.obstacles": obstacles, "clock.time_limit_s": 1}), 3, record=mcap)
+    entities = contents(mcap).topics["/scene/world"][0].content.entities
+    found = {each.id: each for each in entities if each.id.startswith("obstacle/")}
+    assert list(found) == [f"obstacle/{number}" for number in range(7)]
+    corners = {(point.x, point.y) for point in found["obstacle/5"].lines[0].points}
+    assert corners == {(11.5, 10), (12.5, 10), (12.5, 12), (11.5, 12)}
+    assert len(found["obstacle/6"].cylinders) == 1
+    assert ae.replay(mcap).agrees
+
+
 MANY = {"items.mine.count": 3000, "robots.rover.count": 20, "clock.time_limit_s": 60}
 
 

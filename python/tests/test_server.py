@@ -226,6 +226,26 @@ def test_the_thumbnail_of_2003_contains_its_walls_and_items(client: TestClient) 
     assert svg.count(ROBOT) == 4
 
 
+def test_the_page_and_the_thumbnail_show_every_copy_of_an_obstacle(
+    page: Page, client: TestClient, tmp_path: Path
+) -> None:
+    new = (
+        "{ rectangle = { at_m = [4, 5], size_m = [1, 2] }, "
+        "repeat = { columns = 3, rows = 2, spacing_m = [4, 6] } }"
+    )
+    text = ae.Scenario.load("search").source.text
+    before, after = text.split("obstacles = [")
+    text = f"{before}obstacles = [{{ circle = {{ at_m = [20, 3], radius_m = 0.5 }} }}, {new}]"
+    (tmp_path / "hall.toml").write_text(text + after.split("\n]", 1)[1])
+    page.open(scenario="hall.toml")
+    setting = next(each for each in page.received if each["type"] == "setting")
+    assert [each["entry"] for each in setting["obstacles"]] == [0, *[1] * 6]
+    assert setting["obstacles"][0]["circle"] == {"at": [20, 3], "radius": 0.5}
+    assert [11.5, 10] in setting["obstacles"][-1]["polygon"]
+    svg = client.get("/api/pictures", params={"scenario": "hall.toml"}).text
+    assert svg.count(WALL) == 7
+
+
 def test_contact_outlines_of_an_item_follow_the_contact_rule(page: Page) -> None:
     page.open(scenario="classic")
     contact = page.change("contact", "neighbour")["items"][0]["contact"]

@@ -31,6 +31,8 @@ pub struct Setting {
     pub items: Vec<ItemView>,
     /// The item kinds, in the order of the indices in percepts.
     pub item_kinds: Vec<String>,
+    /// Obstacles other than maps, with all copies.
+    pub obstacles: Vec<ObstacleView>,
     /// Maps of obstacles.
     pub maps: Vec<MapView>,
 }
@@ -113,6 +115,26 @@ pub struct ItemView {
     pub target: bool,
     /// Outlines of the places from which a robot finds it, if there are any.
     pub contact: Vec<Vec<Point>>,
+}
+
+/// An obstacle other than a map: a polygon or a circle.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ObstacleView {
+    /// Its index in `world.obstacles` of the scenario; copies of a shape have the same.
+    pub entry: u32,
+    /// Its corners; null if it is a circle.
+    pub polygon: Option<Vec<Point>>,
+    /// The circle; null if it is a polygon.
+    pub circle: Option<CircleView>,
+}
+
+/// A circle.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CircleView {
+    /// Its centre.
+    pub at: Point,
+    /// Its radius.
+    pub radius: f64,
 }
 
 /// An obstacle map.

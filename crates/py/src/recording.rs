@@ -76,9 +76,11 @@ fn rows<'py, const N: usize>(
 }
 
 /// The part of the state that only changes with the scenario: `radius_m` and `is_flying` of each robot;
-/// `bodies` (as brains know them), `radio_m` (range of the radio) and `flies` by kind; and `maps`, the
-/// obstacles that are maps, in their order: `corners_m` anticlockwise from the origin, `resolution_m`, and
-/// `occupancy`, shape (rows, columns), the lowest row first.
+/// `bodies` (as brains know them), `radio_m` (range of the radio) and `flies` by kind; `shapes`, the
+/// obstacles other than maps, with all copies, in their order: `number` among all obstacles, `entry`, the index in `world.obstacles`,
+/// and either `polygon_m`, its corners anticlockwise, or `at_m` and `radius_m`; and `maps`, the others, in their order:
+/// `corners_m` anticlockwise from the origin, `resolution_m`, and `occupancy`, shape (rows, columns), the
+/// lowest row first.
 #[pyfunction]
 pub(crate) fn recorded_setting<'py>(
     py: Python<'py>,
@@ -86,6 +88,11 @@ pub(crate) fn recorded_setting<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let run = simulation.get().locked(py)?;
     let robots: Vec<Robot> = run.state().each_robot(run.scenario()).collect();
+    let shapes = run
+        .scenario()
+        .obstacles()
+        .enumerate()
+        .filter_map(|(number, (entry, solid))| shape_dict(py, [number, entry], solid).transpose());
     let maps = run
         .scenario()
         .solids()
@@ -110,6 +117,7 @@ pub(crate) fn recorded_setting<'py>(
         (kind, layer == Some(Layer::Air))
     });
     dict.set_item("flies", flies.into_py_dict(py)?)?;
+    dict.set_item("shapes", shapes.collect::<PyResult<Vec<_>>>()?)?;
     dict.set_item("maps", maps.collect::<PyResult<Vec<_>>>()?)?;
     Ok(dict)
 }
@@ -122,6 +130,31 @@ fn bodies<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDi
         }
     }
     Ok(dict)
+}
+
+/// None for a map.
+fn shape_dict<'py>(
+    py: Python<'py>,
+    [number, entry]: [usize; 2],
+    solid: &Solid,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let dict = PyDict::new(py);
+    dict.set_item("number", number)?;
+    dict.set_item("entry", entry)?;
+    match solid {
+        Solid::Polygon(polygon) => {
+            let corners = polygon.edges().map(|edge| (edge.from.x, edge.from.y));
+            let mut corners: Vec<(f64, f64)> = corners.collect();
+            corners.reverse();
+            dict.set_item("polygon_m", corners)?;
+        }
+        Solid::Disc(disc) => {
+            dict.set_item("at_m", (disc.centre.x, disc.centre.y))?;
+            dict.set_item("radius_m", disc.radius_m)?;
+        }
+        Solid::Map(_) => return Ok(None),
+    }
+    Ok(Some(dict))
 }
 
 fn map_dict<'py>(py: Python<'py>, map: &OccupancyMap) -> PyResult<Bound<'py, PyDict>> {

@@ -75,7 +75,7 @@ class MetricMoments:
         self._items = Items(file, simulation.items, target, logged)
         self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
-        file.write("/scene/world", scene(still(document), time_ns), time_ns)
+        file.write("/scene/world", scene(still(document, setting["shapes"]), time_ns), time_ns)
         for number, given in enumerate(setting["maps"]):
             file.write(f"/map/{number}", grid(given, time_ns), time_ns)
         self._write_bodies(self._last, time_ns)

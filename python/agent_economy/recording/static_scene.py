@@ -36,16 +36,20 @@ FREE, UNKNOWN, OCCUPIED = (236, 239, 244, 255), (176, 182, 192, 255), (59, 66, 8
 FULLY_OCCUPIED = 100
 
 
-def still(document: Mapping[str, Any]) -> list[SceneEntity]:
-    """Return the border, the obstacles except maps, and the terrain of a scenario's document."""
+def still(document: Mapping[str, Any], shapes: Sequence[Mapping[str, Any]]) -> list[SceneEntity]:
+    """Return the border and the terrain of a scenario's document, and its obstacles except maps.
+
+    Args:
+        document: The scenario.
+        shapes: The obstacles: see `recorded_setting` of the compiled part.
+    """
     width_m, height_m = document["world"]["size_m"]
     corners = [(0, 0), (width_m, 0), (width_m, height_m), (0, height_m)]
     border = SceneEntity(frame_id=WORLD, id="border", lines=[loop(corners, color(BORDER))])
-    obstacles = enumerate(document["world"].get("obstacles", []))
     grounds = sorted(document.get("terrain", {}).items())
     return [
         border,
-        *(obstacle(f"obstacle/{number}", each) for number, each in obstacles if "map" not in each),
+        *(obstacle(f"obstacle/{each['number']}", each) for each in shapes),
         *(entity for name, each in grounds for entity in areas(name, each["areas_m"])),
     ]
 
@@ -53,9 +57,8 @@ def still(document: Mapping[str, Any]) -> list[SceneEntity]:
 def obstacle(name: str, given: Mapping[str, Any]) -> SceneEntity:
     """Return a polygon or a circle as a solid on the ground."""
     paint = color(OBSTACLE)
-    if "circle" in given:
-        circle = given["circle"]
-        body = cylinder(circle["at_m"], circle["radius_m"], (0, WALL_M), paint)
+    if "radius_m" in given:
+        body = cylinder(given["at_m"], given["radius_m"], (0, WALL_M), paint)
         return SceneEntity(frame_id=WORLD, id=name, cylinders=[body])
     corners = given["polygon_m"]
     walls = TriangleListPrimitive(pose=pose(), points=list(walls_of(corners)), color=paint)

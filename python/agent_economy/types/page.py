@@ -25,6 +25,18 @@ class Checked(TypedDict):
     summary: str
 
 
+class CircleView(TypedDict):
+    """A circle.
+
+    Attributes:
+        at: Its centre.
+        radius: Its radius.
+    """
+
+    at: Point
+    radius: float
+
+
 class Ended(TypedDict):
     """The server is about to disconnect.
 
@@ -217,6 +229,20 @@ class MapView(TypedDict):
     columns: int
     rows: int
     cells: str
+
+
+class ObstacleView(TypedDict):
+    """An obstacle other than a map: a polygon or a circle.
+
+    Attributes:
+        entry: Its index in `world.obstacles` of the scenario; copies of a shape have the same.
+        polygon: Its corners; null if it is a circle.
+        circle: The circle; null if it is a polygon.
+    """
+
+    entry: int
+    polygon: Sequence[Point] | None
+    circle: CircleView | None
 
 
 class OpenedScenario(TypedDict):
@@ -421,6 +447,7 @@ class Setting(TypedDict):
         kinds: The robot kinds.
         items: The items.
         item_kinds: The item kinds, in the order of the indices in percepts.
+        obstacles: Obstacles other than maps, with all copies.
         maps: Maps of obstacles.
     """
 
@@ -435,6 +462,7 @@ class Setting(TypedDict):
     kinds: Sequence[KindView]
     items: Sequence[ItemView]
     item_kinds: Sequence[str]
+    obstacles: Sequence[ObstacleView]
     maps: Sequence[MapView]
 
 

@@ -30,6 +30,7 @@ export type {
   LoggedChange as Change,
   MapPart,
   MapView,
+  ObstacleView,
   Opened,
   PageMessage,
   RecordingEntry,

@@ -1,15 +1,18 @@
-import type { Json, Point, Setting, Table, WorldView } from "../api/protocol";
+import type { Json, ObstacleView, Point, Setting, Table, WorldView } from "../api/protocol";
 
 export interface Terrain {
   name: string;
   areas_m: Point[][];
 }
 
+/** An obstacle of the scenario, of which there may be copies. */
 export type Obstacle = { [key: string]: Json };
 
 /** The world of a setting, with obstacles and terrain. */
 export interface World extends WorldView {
   obstacles: Obstacle[];
+  /** The obstacles other than maps, with all copies. */
+  shapes: ObstacleView[];
   terrain: Terrain[];
 }
 
@@ -18,6 +21,7 @@ export function worldOf(setting: Setting): World {
   return {
     ...setting.world,
     obstacles: listOf(world.obstacles).map(tableOf),
+    shapes: setting.obstacles,
     terrain: Object.entries(tableOf(setting.document.terrain)).map(([name, ground]) => ({
       name,
       areas_m: listOf(tableOf(ground).areas_m).map(pointsOf),
@@ -32,6 +36,10 @@ export function polygonOf(obstacle: Obstacle): Point[] | null {
 export function circleOf(obstacle: Obstacle): { at_m: Point; radius_m: number } | null {
   const { at_m, radius_m } = tableOf(obstacle.circle);
   return isPoint(at_m) && typeof radius_m === "number" ? { at_m, radius_m } : null;
+}
+
+export function rectangleOf(obstacle: Obstacle): Table | null {
+  return "rectangle" in obstacle ? tableOf(obstacle.rectangle) : null;
 }
 
 export function tableOf(value: Json | undefined): Table {

@@ -37,6 +37,8 @@ pub struct Scenario {
     pub(crate) world_hash: Option<u64>,
     /// Obstacles, and what is near them.
     solids: Vec<Solid>,
+    /// By obstacle, its index in `world.obstacles`, where one entry may be several of them.
+    entries: Vec<usize>,
     near_solids: NearCells,
     /// By layer: what rays meet, and what bodies collide with.
     seen: [StaticGeometry; 2],
@@ -112,6 +114,7 @@ impl Scenario {
             touched: layers.map(|layer| geometry(layer, touch_m)),
             contact_m: 2.0 * touch_m,
             skin_m,
+            entries: entries(spec, solids.len()),
             solids,
             end: end_of(spec, &items),
             items,
@@ -123,6 +126,11 @@ impl Scenario {
     #[must_use]
     pub fn solids(&self) -> &[Solid] {
         &self.solids
+    }
+
+    /// The same, each with its index in `world.obstacles`.
+    pub fn obstacles(&self) -> impl Iterator<Item = (usize, &Solid)> {
+        self.entries.iter().copied().zip(&self.solids)
     }
 
     /// Number of robots of all kinds.
@@ -322,6 +330,15 @@ impl Scenario {
         let mut near = self.near_solids.at(place).iter();
         near.any(|number| self.solids[*number as usize].covers(place))
     }
+}
+
+/// By obstacle, its index in `world.obstacles` of a valid spec. An invalid one may have more copies than
+/// fit into memory.
+fn entries(spec: &ScenarioSpec, obstacles: usize) -> Vec<usize> {
+    let entries = spec.world.obstacles.iter().enumerate();
+    let copies =
+        entries.flat_map(|(index, obstacle)| std::iter::repeat_n(index, obstacle.repeat().count()));
+    copies.take(obstacles).collect()
 }
 
 fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {

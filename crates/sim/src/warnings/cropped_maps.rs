@@ -17,8 +17,7 @@ const TOLERANCE: f64 = 1e-3;
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let world = checked.scenario.world();
     let at = at.key("world").key("obstacles");
-    let solids = checked.scenario.solids().iter().enumerate();
-    let cropped = solids.filter_map(|(index, solid)| {
+    let cropped = checked.scenario.obstacles().filter_map(|(index, solid)| {
         let Solid::Map(map) = solid else { return None };
         let effect = effect(map, world)?;
         Some(at.item(index).key("map").warning(effect))

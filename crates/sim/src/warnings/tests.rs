@@ -76,6 +76,17 @@ fn the_usual_negative_origin_crops_a_map_and_the_advice_holds_all_of_it() {
 }
 
 #[test]
+fn a_map_after_copies_of_a_shape_is_named_by_its_entry() {
+    let rectangle = "{ rectangle = { at_m = [9, 9], size_m = [1, 1] }, repeat = { columns = 2, spacing_m = [-2, 0] } }";
+    let text = JOB.replace("[{ map", &format!("[{rectangle}, {{ map"));
+    let found = warnings_of(&text, "[-5, -5, 0]");
+    assert!(
+        found[0].starts_with("t.toml:3: world.obstacles[1].map = "),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn a_larger_world_is_advised_where_the_map_does_not_fit() {
     let small = JOB
         .replace("[10, 10],", "[8, 12],")

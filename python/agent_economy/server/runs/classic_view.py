@@ -44,6 +44,7 @@ def still(simulation: ClassicSimulation) -> dict[str, Any]:
             for cell, contacts in zip(WORLD["items"], simulation.contacts, strict=True)
         ],
         "item_kinds": ["item"],
+        "obstacles": [],
         "maps": [obstacle_map()],
     }
 

@@ -8,7 +8,7 @@ from typing import Any
 from agent_economy import _core
 from agent_economy.recording.static_scene import states
 from agent_economy.runs.simulation import Simulation
-from agent_economy.types.page import KindView, MapView, SensorView
+from agent_economy.types.page import CircleView, KindView, MapView, ObstacleView, SensorView
 
 
 def drawn(simulation: Simulation) -> bytes:
@@ -17,7 +17,7 @@ def drawn(simulation: Simulation) -> bytes:
 
 
 def still(simulation: Simulation) -> dict[str, Any]:
-    """Return the world, its items and maps, and the robot kinds."""
+    """Return the world, its obstacles and items, and the robot kinds."""
     document = simulation.scenario.to_dict()
     recorded = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
     items = simulation.items
@@ -46,6 +46,7 @@ def still(simulation: Simulation) -> dict[str, Any]:
             for name, x, y in places
         ],
         "item_kinds": sorted(kinds),
+        "obstacles": [obstacle_view(each) for each in recorded["shapes"]],
         "maps": [map_view(each) for each in recorded["maps"]],
     }
 
@@ -93,6 +94,14 @@ def detector_sector(body: Mapping[str, Any], detector: Mapping[str, Any]) -> Sen
         "width_rad": detector["width_rad"],
         "facing_rad": detector["facing_rad"],
     }
+
+
+def obstacle_view(shape: Mapping[str, Any]) -> ObstacleView:
+    """Return an obstacle other than a map."""
+    circle: CircleView | None = None
+    if "radius_m" in shape:
+        circle = {"at": shape["at_m"], "radius": shape["radius_m"]}
+    return {"entry": shape["entry"], "polygon": shape.get("polygon_m"), "circle": circle}
 
 
 def map_view(recorded: Mapping[str, Any]) -> MapView:

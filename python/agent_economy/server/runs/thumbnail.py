@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from agent_economy import classic
+from agent_economy import _core, classic
 from agent_economy.runs.classic_world import CELL_PX, WORLD
 from agent_economy.runs.simulation import Simulation
 from agent_economy.scenario import Scenario
@@ -34,6 +34,7 @@ def metric(scenario: Scenario) -> str:
     """Return the world of a scenario of the metric engine."""
     simulation = Simulation(scenario, threads=1)
     simulation.step(STEPS)
+    setting = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
     document = scenario.to_dict()
     width_m, height_m = document["world"]["size_m"]
     size_m = max(width_m, height_m) / 60
@@ -45,7 +46,7 @@ def metric(scenario: Scenario) -> str:
             for kind in document.get("terrain", {}).values()
             for area in kind["areas_m"]
         ),
-        *(obstacle(each) for each in document["world"].get("obstacles", [])),
+        *(obstacle(each) for each in setting["shapes"]),
         *(circle(place, size_m / 1.5, ITEM) for place in places),
         *(chevron(pose, size_m) for pose in simulation.poses[:MAX_ROBOTS].tolist()),
     ]
@@ -83,12 +84,10 @@ def svg(width: float, height: float, shapes: Iterable[str]) -> str:
 
 
 def obstacle(given: Mapping[str, Any]) -> str:
-    """Return an obstacle; maps are not drawn."""
+    """Return a polygon or a circle; maps are not drawn."""
     if "polygon_m" in given:
         return polygon(given["polygon_m"], WALL)
-    if "circle" in given:
-        return circle(given["circle"]["at_m"], given["circle"]["radius_m"], WALL)
-    return ""
+    return circle(given["at_m"], given["radius_m"], WALL)
 
 
 def polygon(corners: Iterable[Place], colour: str) -> str:

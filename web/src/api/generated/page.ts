@@ -11,6 +11,14 @@ export interface Checked {
   summary: string;
 }
 
+/** A circle. */
+export interface CircleView {
+  /** Its centre. */
+  at: Point;
+  /** Its radius. */
+  radius: number;
+}
+
 /** A simulator. */
 export type Engine = "metric" | "classic";
 
@@ -96,6 +104,16 @@ export interface MapView {
   rows: number;
   /** Base64 of one byte per cell: 0 free, 1 unknown, 2 occupied. */
   cells: string;
+}
+
+/** An obstacle other than a map: a polygon or a circle. */
+export interface ObstacleView {
+  /** Its index in `world.obstacles` of the scenario; copies of a shape have the same. */
+  entry: number;
+  /** Its corners; null if it is a circle. */
+  polygon: Point[] | null;
+  /** The circle; null if it is a polygon. */
+  circle: CircleView | null;
 }
 
 /** The recording of an opened run. */
@@ -411,6 +429,8 @@ export interface Setting {
   items: ItemView[];
   /** The item kinds, in the order of the indices in percepts. */
   item_kinds: string[];
+  /** Obstacles other than maps, with all copies. */
+  obstacles: ObstacleView[];
   /** Maps of obstacles. */
   maps: MapView[];
 }

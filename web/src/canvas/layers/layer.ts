@@ -1,5 +1,5 @@
 import type { Frame } from "../../api/frames";
-import type { Engine, Inspection, Point, RobotView, Setting } from "../../api/protocol";
+import type { Engine, Inspection, ObstacleView, Point, RobotView, Setting } from "../../api/protocol";
 import type { BelievedMap } from "../../shared/believed_map";
 import type { World } from "../../shared/world";
 import type { Camera } from "../camera";
@@ -86,6 +86,13 @@ export function outline(path: Path2D, points: Point[]): void {
 export function ring(path: Path2D, [x, y]: Point, radius: number): void {
   path.moveTo(x + radius, y);
   path.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+/** Adds an obstacle, moved by [dx, dy]. */
+export function shape(path: Path2D, { polygon, circle }: ObstacleView, [dx, dy]: Point = [0, 0]): void {
+  const there = ([x, y]: Point): Point => [x + dx, y + dy];
+  if (polygon) outline(path, polygon.map(there));
+  if (circle) ring(path, there(circle.at), circle.radius);
 }
 
 export interface Pose {

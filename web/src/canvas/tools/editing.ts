@@ -1,6 +1,14 @@
-import type { ItemView, Json, Point, Setting } from "../../api/protocol";
-import { circleOf, type Obstacle, polygonOf, tableOf, type World } from "../../shared/world";
-import { outline, ring } from "../layers/layer";
+import type { ItemView, Json, ObstacleView, Point, Setting } from "../../api/protocol";
+import {
+  circleOf,
+  isPoint,
+  type Obstacle,
+  polygonOf,
+  rectangleOf,
+  tableOf,
+  type World,
+} from "../../shared/world";
+import { ring, shape } from "../layers/layer";
 import type { EditContext, Edit } from "./tool";
 
 /** An object that can be moved or removed: the index of an obstacle or item. */
@@ -17,8 +25,8 @@ export function rounded([x, y]: Point): Point {
 export function objectAt({ setting, world, tolerance }: EditContext, at: Point): WorldObject | null {
   const item = setting.items.findIndex((each) => distance(each.at, at) <= tolerance);
   if (item >= 0) return { item };
-  const obstacle = world.obstacles.findLastIndex((one) => covers(one, at));
-  return obstacle >= 0 ? { obstacle } : null;
+  const found = world.shapes.findLast((one) => covers(one, at));
+  return found ? { obstacle: found.entry } : null;
 }
 
 export function obstaclesEdit(list: Obstacle[]): Edit {
@@ -39,8 +47,10 @@ export function positionsOf(setting: Setting, kind: string, but: ItemView | null
 
 export function moved(obstacle: Obstacle, dx: number, dy: number): Obstacle {
   const shift = ([x, y]: Point) => rounded([x + dx, y + dy]);
-  const [polygon, circle] = [polygonOf(obstacle), circleOf(obstacle)];
+  const [polygon, circle, rectangle] = [polygonOf(obstacle), circleOf(obstacle), rectangleOf(obstacle)];
   if (polygon) return { ...obstacle, polygon_m: polygon.map(shift) };
+  if (isPoint(rectangle?.at_m))
+    return { ...obstacle, rectangle: { ...rectangle, at_m: shift(rectangle.at_m) } };
   return circle ? { ...obstacle, circle: { ...circle, at_m: shift(circle.at_m) } } : obstacle;
 }
 
@@ -51,31 +61,33 @@ export function outlineOf(world: World, { items }: Setting, object: WorldObject,
     if (item) ring(path, item.at, tolerance * 0.6);
     return path;
   }
-  addObstacle(path, world.obstacles[object.obstacle] ?? {});
+  addObstacle(path, world, object.obstacle);
   return path;
 }
 
-export function addObstacle(path: Path2D, obstacle: Obstacle): void {
-  const [polygon, circle] = [polygonOf(obstacle), circleOf(obstacle)];
-  if (polygon) outline(path, polygon);
-  if (circle) ring(path, circle.at_m, circle.radius_m);
+/** Adds all copies of an obstacle, moved by [dx, dy]. */
+export function addObstacle(path: Path2D, world: World, entry: number, by?: Point): void {
+  for (const one of world.shapes) if (one.entry === entry) shape(path, one, by);
 }
 
-/** Such as `circle at 8, 16`. */
-export function obstacleLabel(obstacle: Obstacle): string {
-  const [polygon, circle] = [polygonOf(obstacle), circleOf(obstacle)];
-  if (circle) return `circle at ${circle.at_m.join(", ")}`;
-  if (polygon) return `polygon at ${polygon[0]?.join(", ") ?? "–"}`;
-  return `map ${String(obstacle.map ?? "")}`;
+/** Such as `circle at 8, 16` or `26 rectangles from 3, 4`. */
+export function obstacleLabel({ obstacles, shapes }: World, entry: number): string {
+  const obstacle = obstacles[entry] ?? {};
+  const [polygon, circle, rectangle] = [polygonOf(obstacle), circleOf(obstacle), rectangleOf(obstacle)];
+  if (!polygon && !circle && !rectangle) return `map ${String(obstacle.map ?? "")}`;
+  const name = polygon ? "polygon" : circle ? "circle" : "rectangle";
+  const at = polygon?.[0] ?? circle?.at_m ?? rectangle?.at_m;
+  const place = isPoint(at) ? at.join(", ") : "–";
+  const copies = shapes.filter((one) => one.entry === entry).length;
+  return copies > 1 ? `${copies} ${name}s from ${place}` : `${name} at ${place}`;
 }
 
 export function distance(a: Point, b: Point): number {
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-function covers(obstacle: Obstacle, at: Point): boolean {
-  const [polygon, circle] = [polygonOf(obstacle), circleOf(obstacle)];
-  return circle ? distance(circle.at_m, at) <= circle.radius_m : polygon !== null && inside(polygon, at);
+function covers({ polygon, circle }: ObstacleView, at: Point): boolean {
+  return circle ? distance(circle.at, at) <= circle.radius : polygon !== null && inside(polygon, at);
 }
 
 /** Ray casting: whether a ray from the point crosses the outline an odd number of times. */

@@ -11,11 +11,7 @@ export const move: Tool = {
     const object = objectAt(context, from);
     const path = new Path2D();
     if (object && "item" in object) ring(path, to, context.tolerance * 0.6);
-    else if (object)
-      addObstacle(
-        path,
-        moved(context.world.obstacles[object.obstacle] ?? {}, to[0] - from[0], to[1] - from[1]),
-      );
+    else if (object) addObstacle(path, context.world, object.obstacle, [to[0] - from[0], to[1] - from[1]]);
     return path;
   },
   edit(context, from, to) {

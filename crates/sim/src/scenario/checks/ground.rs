@@ -2,7 +2,7 @@
 
 use crate::world::WorldSpec;
 use crate::world::grid::Still;
-use crate::world::obstacles::{ObstacleSpec, Solid};
+use crate::world::obstacles::{ObstacleSpec, RepeatSpec, Solid};
 use crate::world::terrain::{Area, TerrainSpec};
 use base::document::Place;
 use base::error::InputError;
@@ -13,7 +13,10 @@ use std::collections::BTreeMap;
 /// Returns the bytes of a file that a scenario names, or the reason why it cannot.
 type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
-/// The valid obstacles; reports those that are invalid, or outside the world.
+/// Maximum number of corners of all obstacles that are repeated: preparing them for runs takes some seconds.
+const MAX_CORNERS: usize = 100_000;
+
+/// The valid obstacles, with all their copies; reports those that are invalid, or outside the world.
 pub(super) fn solids(
     world: &WorldSpec,
     at: &Place,
@@ -21,29 +24,88 @@ pub(super) fn solids(
     errors: &mut Vec<InputError>,
 ) -> Vec<Solid> {
     let mut solids = Vec::new();
-    let rectangle = rectangle(world);
+    let mut free_corners = MAX_CORNERS;
     for (index, obstacle) in world.obstacles.iter().enumerate() {
         let at = at.key("obstacles").item(index);
-        match solid(obstacle, &at, open) {
-            Ok(solid) => {
-                let [least, greatest] = solid.bounds();
-                let is_there = if world.periodic {
-                    rectangle.contains(least) && rectangle.contains(greatest)
-                } else {
-                    rectangle.overlaps(&Rectangle::spanned(least, greatest))
-                };
-                if is_there {
-                    solids.push(solid);
-                } else {
-                    let is_map = matches!(obstacle, ObstacleSpec::Map { .. });
-                    let advice = if is_map { "; at_m places a map" } else { "" };
-                    errors.push(at.error(where_obstacles_are(world) + advice));
-                }
-            }
+        let copies = repeat_errors(obstacle, &mut free_corners, &at)
+            .and_then(|()| copies(obstacle, world, &at, open));
+        match copies {
+            Ok(copies) => solids.extend(copies),
             Err(found) => errors.extend(found),
         }
     }
     solids
+}
+
+/// Checks the number and the spacing of copies. Reduces the number of corners that repeated obstacles
+/// may still have.
+fn repeat_errors(
+    obstacle: &ObstacleSpec,
+    free_corners: &mut usize,
+    at: &Place,
+) -> Result<(), Vec<InputError>> {
+    let at = at.key("repeat");
+    let repeat = obstacle.repeat();
+    let RepeatSpec {
+        columns,
+        rows,
+        spacing_m,
+    } = repeat;
+    let is_stacked = |count: u32, spacing_m: f64| count > 1 && spacing_m == 0.0;
+    if is_stacked(columns, spacing_m.x) || is_stacked(rows, spacing_m.y) {
+        let allowed =
+            format!("other than 0 between copies: there are {columns} along x and {rows} along y");
+        return Err(vec![at.key("spacing_m").error(allowed)]);
+    }
+    let corners = if repeat.count() > 1 {
+        obstacle.corners()
+    } else {
+        0
+    };
+    *free_corners = free_corners.checked_sub(corners).ok_or_else(|| {
+        let allowed =
+            format!("fewer copies: all repeated obstacles together may have {MAX_CORNERS} corners");
+        vec![at.error(allowed)]
+    })?;
+    Ok(())
+}
+
+/// All copies of an obstacle, or the errors of the first that is invalid.
+fn copies(
+    obstacle: &ObstacleSpec,
+    world: &WorldSpec,
+    at: &Place,
+    open: Open,
+) -> Result<Vec<Solid>, Vec<InputError>> {
+    let repeat = obstacle.repeat();
+    let mut solids = Vec::new();
+    for copy in repeat.copies() {
+        let solid = solid(obstacle, copy.shift, at, open)?;
+        if !is_there(&solid, world) {
+            let advice = match obstacle {
+                ObstacleSpec::Map { .. } => "; at_m places a map".to_owned(),
+                _ if repeat.count() > 1 => format!(
+                    "; the copy in column {} and row {} is not",
+                    copy.column, copy.row
+                ),
+                _ => String::new(),
+            };
+            return Err(vec![at.error(where_obstacles_are(world) + &advice)]);
+        }
+        solids.push(solid);
+    }
+    Ok(solids)
+}
+
+/// Whether an obstacle is where obstacles may be.
+fn is_there(solid: &Solid, world: &WorldSpec) -> bool {
+    let rectangle = rectangle(world);
+    let [least, greatest] = solid.bounds();
+    if world.periodic {
+        rectangle.contains(least) && rectangle.contains(greatest)
+    } else {
+        rectangle.overlaps(&Rectangle::spanned(least, greatest))
+    }
 }
 
 /// The rectangle of a world.
@@ -70,13 +132,27 @@ pub(super) fn words(world: &WorldSpec) -> String {
     format!("the world, from [0, 0] to [{}, {}]", width.0, height.0)
 }
 
-fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<InputError>> {
+/// The copy of an obstacle at `shift`.
+fn solid(
+    obstacle: &ObstacleSpec,
+    shift: Point,
+    at: &Place,
+    open: Open,
+) -> Result<Solid, Vec<InputError>> {
+    let shifted = |corners: &[Point]| -> Vec<Point> {
+        corners.iter().map(|corner| corner.plus(shift)).collect()
+    };
     match obstacle {
-        ObstacleSpec::Polygon { polygon_m } => {
-            polygon(polygon_m, &at.key("polygon_m")).map(Solid::Polygon)
+        ObstacleSpec::Polygon { polygon_m, .. } => {
+            polygon(&shifted(polygon_m), &at.key("polygon_m")).map(Solid::Polygon)
         }
-        ObstacleSpec::Circle { circle } => Ok(Solid::Disc(Disc {
-            centre: circle.at_m,
+        ObstacleSpec::Rectangle { rectangle, .. } => {
+            let mut rectangle = *rectangle;
+            rectangle.at_m = rectangle.at_m.plus(shift);
+            polygon(&rectangle.corners(), &at.key("rectangle")).map(Solid::Polygon)
+        }
+        ObstacleSpec::Circle { circle, .. } => Ok(Solid::Disc(Disc {
+            centre: circle.at_m.plus(shift),
             radius_m: circle.radius_m,
         })),
         ObstacleSpec::Map {

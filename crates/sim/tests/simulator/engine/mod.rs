@@ -22,6 +22,7 @@ mod judge;
 mod layers;
 mod links;
 mod meetings;
+mod obstacles;
 mod periodic;
 mod radio;
 mod random;
