@@ -11,7 +11,7 @@ import {
   ownScenario,
 } from "./page";
 import { hang_ms } from "../dev/real-server.mjs";
-import { formAt, openAnswer, sentence, test } from "./studies";
+import { formAt, openAnswer, recommendation, test } from "./studies";
 
 test("a study is defined, started and answered by keyboard alone, and its confidence is raised", async ({
   page,
@@ -38,7 +38,7 @@ test("a study is defined, started and answered by keyboard alone, and its confid
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expect(page.getByText(/^\d of 6$/)).toBeVisible();
   showAnswer();
-  await expect(sentence(page)).toBeVisible({ timeout: 4 * hang_ms });
+  await expect(recommendation(page)).toBeVisible({ timeout: 4 * hang_ms });
 
   const box = page.getByRole("textbox", { name: /^Raise confidence/ });
   await expect(box).toHaveValue("0.99");
