@@ -4,12 +4,14 @@ import { openAnswer, recommendation, test } from "./studies";
 
 const meritChart = (page: Page) => page.getByRole("img", { name: /^Figure of merit with its interval/ });
 
-test("an answer has its recommendation, guarantee, charts with tables, and files", async ({
+test("an answer has its verdict, guarantee, charts with tables, and files", async ({
   page,
   server,
   answered,
 }) => {
   await openAnswer(page, server, answered);
+  await expect(page.getByText(/a run takes [\d.]+ s on average/i)).toBeVisible();
+  await expect(page.getByText(/^95% confidence; differences under 0.3 merit/)).toBeVisible();
   await expect(page.getByText("selected one with 95% confidence")).toBeVisible();
   await expect(meritChart(page).locator("svg")).toBeVisible();
   await expect(page.getByRole("row", { name: /^4 rovers/ }).first()).toBeVisible();
