@@ -137,7 +137,7 @@ def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
     return Answer(
         scenario=scenario,
         seed=0,
-        verdict=verdict(scenario, ending.best, found, delta, evidence.confidence),
+        verdict=verdict(scenario, ending, found, delta, evidence.confidence),
         sentence=sentence(scenario, delta, ending, found, has_prices=False),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,

@@ -52,7 +52,7 @@ def answer(**arguments: Any) -> study.AnyAnswer:
         (lambda: recording(percepts=None), rf"^percepts = None: {NAMES}$"),
         (lambda: recording(percepts="rover/0"), rf"^percepts = 'rover/0': {NAMES}$"),
         (lambda: recording(percepts=[[]]), rf"^percepts = \[\[\]\]: {NAMES}$"),
-        (lambda: answer(scenario="classic"), r"^scenario = 'classic': must be a Scenario$"),
+        (lambda: answer(scenario=NO), r"^scenario = 5: must be a Scenario, a file, or the name of"),
         (lambda: answer(vary=NO), r"^vary = 5: must be a dict of values by their paths$"),
         (lambda: answer(vary={"contact": NO}), r"^vary: contact = 5: must be a list of values"),
         (lambda: answer(vary={NO: "1"}), r"^vary: path = 5: must be keys from the root"),

@@ -95,7 +95,7 @@ def test_changes_are_logged_and_reproduce_the_run() -> None:
         ("contact", "nose", "one of"),
         ("clock.time_limit_s", -1, "a number from 0"),
         ("clock.paints_per_s", 10_000, "a number from 0.1 to 1000"),
-        ("world.size_m", [3, 3], "is not a known key"),
+        ("world.size_m", [3, 3], 'only the engine "metric" has it'),
         ("engine", "metric", "is not a known key"),
     ],
 )

@@ -239,7 +239,7 @@ def test_run_takes_names_conditions_and_weights() -> None:
     assert isinstance(answer, RequirementAnswer)
     assert answer.requirement.probability == 0.5
     assert repr(answer).startswith("RequirementAnswer('Send 3 wanderers. Success within 100 s in")
-    assert "<b>Send 3 wanderers.</b>" in answer._repr_html_()  # noqa: SLF001  (for notebooks)
+    assert "<b>Send 3 wanderers.</b>" in answer._repr_html_()
     best = study.run("classic", merit="failed=-1", runs=20, **options)
     assert isinstance(best, study.Answer)
     assert best.scenario.merit.name == "failed=-1"

@@ -53,7 +53,7 @@ def test_a_narrow_terminal_shows_all_columns_of_an_answer(answered: Path) -> Non
     printed = lines("report", answered)
     rows = [line for line in printed if re.match(r"  [12] rovers?,", line)]
     assert len(rows) == 8
-    assert all(re.search(r"%.*(best|undecided|worse|tied.*) *$", row) for row in rows)
+    assert all(re.search(r"(%|none).*(best|undecided|worse|tied.*) *$", row) for row in rows)
 
 
 @pytest.mark.parametrize("is_terminal", [False, True])

@@ -44,7 +44,7 @@ pub(crate) struct EndCondition {
 impl Count {
     /// All counts, named as the outcome columns of scenarios with these kinds of items.
     fn all<'k>(kinds: impl Iterator<Item = &'k str>) -> Vec<(String, Self)> {
-        let of_kind = kinds.enumerate().flat_map(|(number, kind)| {
+        let of_one_kind = kinds.enumerate().flat_map(|(number, kind)| {
             [
                 (format!("found_{kind}"), Self::FoundOf(number)),
                 (format!("missed_{kind}"), Self::MissedOf(number)),
@@ -58,7 +58,7 @@ impl Count {
             ("robots_stopped", Self::RobotsStopped),
         ];
         let of_all = of_all.map(|(name, count)| (name.to_owned(), count));
-        of_all.into_iter().chain(of_kind).collect()
+        of_all.into_iter().chain(of_one_kind).collect()
     }
 }
 

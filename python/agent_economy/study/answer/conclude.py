@@ -85,7 +85,7 @@ def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
-        verdict=verdict(plan.scenario, best, found, delta, plan.confidence),
+        verdict=verdict(plan.scenario, ending, found, delta, plan.confidence),
         sentence=sentence(plan.scenario, delta, ending, found, has_prices=evidence.has_prices),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,

@@ -56,7 +56,7 @@ class Sample(EqualByValue):
     @property
     def runs(self) -> int:
         """Number of runs."""
-        return len(self.columns["time_s"])
+        return len(next(iter(self.columns.values())))
 
     @property
     def is_possible(self) -> bool:

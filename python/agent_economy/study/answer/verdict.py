@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from html import escape
 
 from agent_economy.scenario import Scenario
-from agent_economy.study.answer.labels import alternatives, recommendation
-from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.labels import alternatives, listed, recommendation
+from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.selection import percentage
 
 MAX_NAMED = 4
@@ -20,10 +20,10 @@ Verdict = tuple[str, str, str, str]
 
 
 def verdict(
-    scenario: Scenario, best: int, results: Sequence[Result], delta: float, confidence: float
+    scenario: Scenario, ending: Ending, results: Sequence[Result], delta: float, confidence: float
 ) -> Verdict:
     """Return the verdict of a study of the best by merit."""
-    chosen = results[best]
+    chosen = results[ending.best]
     fails = failures(chosen)
     send = recommendation(chosen.values)
     time_s = f"{chosen.time_s.value:,.3g} s on average"
@@ -33,7 +33,14 @@ def verdict(
     else:
         first = f"{send}."
         second = f"A run takes {time_s}; {fails}."
-    return first, second, others(chosen, results), precision(scenario, delta, confidence)
+    third = " ".join([others(chosen, results), *impossible(results, ending.obstacle)])
+    return first, second, third, precision(scenario, delta, confidence)
+
+
+def impossible(results: Sequence[Result], obstacle: str) -> list[str]:
+    """Return a sentence about the configurations that cannot be run, if any, with the reason."""
+    labels = [each.label for each in results if not each.is_possible]
+    return [f"Cannot be run: {listed(named(labels))} ({obstacle})."] if labels else []
 
 
 def upper(words: str) -> str:
