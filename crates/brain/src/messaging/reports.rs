@@ -17,7 +17,9 @@
 //!
 //! Bound: *whatever c robots send, they make the belief in an item that no honest robot observed at
 //! most `1 - (1 - prior) (1 - t1) ... (1 - tc)`, where `ti` is the trust in each of them, at any
-//! number of honest robots that relay.* Proof: a radio names the true sender. A report of an honest
+//! number of honest robots that relay.* A report joins the reports of an item by its place and kind,
+//! or because its sender sent the same one before, and never because another sender named the same
+//! observations. Proof: a radio names the true sender. A report of an honest
 //! sender is of its own observations or was received from the observer that it names (1), so a
 //! report that no honest robot's observations are behind has one of the c robots as sender or as
 //! observer. Counted reports share no robot (2), so at most c of them are such reports, each with
@@ -88,9 +90,8 @@ impl Items {
         if report.provenance.observer == reception.own {
             return;
         }
-        let has_source = |track: &Track| track.slot_of(report.provenance).is_some();
         let per_m2 = density(per_m2, report.kind);
-        let known = self.tracks.iter().position(has_source);
+        let known = self.tracks.iter().position(|track| track.continues(report));
         let near = || self.nearest(report.kind, report.at, variance_m2, 0);
         let new = || Track::new(report.kind, report.at, variance_m2, per_m2);
         let Some(index) = known
@@ -119,11 +120,15 @@ impl Items {
             let Some(verdict) = track.own_verdict(own) else {
                 continue;
             };
-            for source in &mut track.sources[..track.count] {
+            for place in 0..track.count {
+                let source = track.sources[place];
                 let is_report = source.provenance.observer != own && source.log_odds() > 0.0;
                 if is_report && !source.is_judged {
-                    source.is_judged = true;
-                    trust.learn(source.from, verdict);
+                    let is_credited = track.is_credited(own, source.from);
+                    track.sources[place].is_judged = true;
+                    if !is_credited {
+                        trust.learn(source.from, verdict);
+                    }
                 }
             }
         }
@@ -183,6 +188,22 @@ impl Track {
         sum.max(log_odds(min)).min(log_odds(max))
     }
 
+    /// Whether a report updates one that its sender sent before. A report of the same observations by
+    /// another sender is of this item only if it is near: otherwise a liar that names the observations
+    /// of others before they do could gather their reports at a place of its own.
+    fn continues(&self, report: &Report) -> bool {
+        let slot = self.slot_of(report.provenance);
+        slot.is_some_and(|slot| self.sources[slot].from == report.from)
+    }
+
+    /// Whether own observations have confirmed a report of this item by a sender. Trust then does not
+    /// grow by further ones: otherwise a liar could earn it by one item with many numbers.
+    fn is_credited(&self, own: RobotId, sender: RobotId) -> bool {
+        let mut sources = self.sources[..self.count].iter();
+        self.own_verdict(own) == Some(true)
+            && sources.any(|source| source.from == sender && source.is_judged)
+    }
+
     /// Adds or replaces the source of a report; `prior` is that of a new source. Returns whether it
     /// changed.
     fn replace(&mut self, reception: &Reception, report: &Report, prior: f64) -> bool {
@@ -192,6 +213,7 @@ impl Track {
             return false;
         }
         let prior = known.map_or(prior, |slot| self.sources[slot].prior);
+        let is_credited = self.is_credited(reception.own, report.from);
         let log_ratio = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - prior;
         let spare = known
             .is_none()
@@ -203,6 +225,7 @@ impl Track {
         };
         let source = &mut self.sources[slot];
         (source.provenance, source.from, source.prior) = (provenance, report.from, prior);
+        source.is_judged |= is_credited;
         source.log_ratio = log_ratio.max(-MAX_LOG_ODDS).min(MAX_LOG_ODDS - prior);
         true
     }

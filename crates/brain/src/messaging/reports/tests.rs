@@ -1,3 +1,5 @@
+mod liars;
+
 use super::*;
 use crate::perception::beliefs::TrustSpec;
 use crate::perception::beliefs::items::tests::{
@@ -521,51 +523,6 @@ fn of_reports_that_share_a_robot_only_the_strongest_counts() {
         assert!(alone(&[weaker, strong]) <= both);
     }
     assert!(alone(&[strong, report(3, 0.5)]) > alone(&[strong]));
-}
-
-#[test]
-fn a_liar_cannot_keep_honest_reports_out_of_a_track() {
-    let mut items = Items::default();
-    for observer in 10..30 {
-        receive(
-            &mut items,
-            ME,
-            &Report {
-                from: robot(7),
-                ..report(observer, 1.0)
-            },
-        );
-    }
-    let by_liar = confidence(&items, ME);
-    receive(&mut items, ME, &report(1, 0.5));
-    assert!(confidence(&items, ME) > by_liar);
-}
-
-#[test]
-fn a_liar_cannot_move_a_reported_item_far() {
-    let mut items = Items::default();
-    receive(&mut items, ME, &report(1, 0.9));
-    for number in 0..100 {
-        let provenance = Provenance {
-            track_id: number,
-            ..report(7, 1.0).provenance
-        };
-        let at = items.tracks[0].at.plus(Point { x: 0.2, y: 0.0 });
-        receive(
-            &mut items,
-            ME,
-            &Report {
-                at,
-                provenance,
-                ..report(7, 1.0)
-            },
-        );
-    }
-    assert!(
-        items.tracks[0].at.to(POSITION).length() < 0.2,
-        "{:?}",
-        items.tracks[0].at
-    );
 }
 
 impl Track {

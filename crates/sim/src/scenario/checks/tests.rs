@@ -5,6 +5,7 @@ use base::error::InputErrors;
 mod brains;
 mod end;
 mod obstacles;
+mod periodic;
 mod renamed;
 
 const GOOD: &str = r#"

@@ -1,0 +1,96 @@
+//! Single tricks of liars.
+
+use super::*;
+
+#[test]
+fn a_liar_cannot_keep_honest_reports_out_of_a_track() {
+    let mut items = Items::default();
+    for observer in 10..30 {
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                from: robot(7),
+                ..report(observer, 1.0)
+            },
+        );
+    }
+    let by_liar = confidence(&items, ME);
+    receive(&mut items, ME, &report(1, 0.5));
+    assert!(confidence(&items, ME) > by_liar);
+}
+
+#[test]
+fn a_liar_cannot_move_a_reported_item_far() {
+    let mut items = Items::default();
+    receive(&mut items, ME, &report(1, 0.9));
+    for number in 0..100 {
+        let provenance = Provenance {
+            track_id: number,
+            ..report(7, 1.0).provenance
+        };
+        let at = items.tracks[0].at.plus(Point { x: 0.2, y: 0.0 });
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                at,
+                provenance,
+                ..report(7, 1.0)
+            },
+        );
+    }
+    assert!(
+        items.tracks[0].at.to(POSITION).length() < 0.2,
+        "{:?}",
+        items.tracks[0].at
+    );
+}
+
+#[test]
+fn a_liar_cannot_gather_the_reports_of_others_by_naming_them_first() {
+    let mut items = Items::default();
+    let lie = POSITION.plus(Point { x: -15.0, y: 9.0 });
+    let named = |observer| Report {
+        from: robot(7),
+        at: lie,
+        ..report(observer, 1.0)
+    };
+    let lies = [7, 1, 2, 3].map(named);
+    for each in &lies {
+        receive(&mut items, ME, each);
+    }
+    let alone = confidence(&items, ME);
+    for observer in 1..4 {
+        receive(&mut items, ME, &report(observer, 1.0));
+        // Also relayed.
+        let relayed = Report {
+            from: robot(5),
+            ..report(observer, 1.0)
+        };
+        receive(&mut items, ME, &relayed);
+    }
+    assert!((confidence(&items, ME) - alone).abs() < 1e-12);
+    assert!(items.tracks[0].at.to(lie).length() < 1e-9);
+    assert!(items.tracks[1].at.to(POSITION).length() < 1e-9);
+}
+
+#[test]
+fn an_item_earns_trust_once_however_often_it_is_reported() {
+    let mut items = Items::default();
+    let mut trust = Trust::new(&TrustSpec::default());
+    (0..10).for_each(|_| hit(&mut items, ME));
+    let mut after = [0.0; 2];
+    for number in 0..100 {
+        let repeated = Report {
+            from: robot(7),
+            ..report(100 + number, 0.9)
+        };
+        receive(&mut items, ME, &repeated);
+        hit(&mut items, ME);
+        items.learn(ME, &mut trust);
+        after[usize::from(number > 0)] = trust.of(robot(7));
+    }
+    assert!(after[0] > TrustSpec::default().initial);
+    assert!((after[1] - after[0]).abs() < 1e-9, "{after:?}");
+}
