@@ -81,7 +81,7 @@ def allowed_at(root: Part, document: Any, keys: Sequence[str]) -> dict[str, Any]
         inside = [each for part in parts for each in branches(root, part, value)]
         parts = [part for each in inside if (part := below(each, key)) is not None]
         value = value.get(key, MISSING) if isinstance(value, dict) else MISSING
-    return allowed([each for part in parts for each in branches(root, part, value)])
+    return allowed([each for part in parts for each in branches(root, part, value)], document)
 
 
 def below(part: Part, key: str) -> Part | None:
@@ -115,7 +115,7 @@ def is_of_another_kind(part: Part, value: Any) -> bool:
     )
 
 
-def allowed(parts: Sequence[Part]) -> dict[str, Any] | None:
+def allowed(parts: Sequence[Part], document: Any) -> dict[str, Any] | None:
     """Return the bounds or choices of the values that parts describe."""
     kinds = {part.get("type") for part in parts}
     if kinds & {"number", "integer"}:
@@ -126,6 +126,7 @@ def allowed(parts: Sequence[Part]) -> dict[str, Any] | None:
             "values": None,
         }
     choices = [choice for part in parts for choice in (*part.get("enum", ()), *const(part))]
+    choices += [name for part in parts for name in document.get(part.get("x-names"), ())]
     if "boolean" in kinds:
         choices = [False, True]
     if len(choices) < len(("one", "other")):
