@@ -9,23 +9,24 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import pytest
-from page_client import OWN, WS, Page
-from starlette.testclient import TestClient
+from page_client import WS, Page
 from starlette.websockets import WebSocketDisconnect
+from study_client import Folder, Response, served
 
 from agent_economy import Scenario, study
-from agent_economy.server import Workspace, app
 from agent_economy.server.studies import job
 from agent_economy.server.studies.factors import factors
 from agent_economy.study import report
 from agent_economy.study.answer.any_answer import expect_best
+from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
+from agent_economy.study.progress import Leader
 from agent_economy.study.report import View
 
 TEAM = "robots.wanderer.count"
@@ -35,56 +36,6 @@ SIZES, RUNS = {"robots.rover.count": "2..5"}, 2000
 METRIC = {"scenario": "search", "vary": SIZES, "delta": 0.01, "max_runs": RUNS}
 """A study that takes some seconds, however fast the machine, to be stopped and killed meanwhile."""
 FIRST_ROUND = 4 * FIRST_ANALYSIS_RUNS
-
-Response = dict[str, Any]
-
-
-class Folder:
-    """A server's folder, and a client of its studies."""
-
-    def __init__(self, client: TestClient, path: Path) -> None:
-        """Keep the client and the folder."""
-        self.client, self.path = client, path
-        self.progress: list[Response] = []
-
-    def post(self, address: str, **body: Any) -> Response:
-        """Post a request, and return the response."""
-        response = self.client.post(address, json=body)
-        assert response.status_code in (200, 201), response.text
-        answer: Response = response.json()
-        return answer
-
-    def get(self, address: str, **query: Any) -> Response:
-        """Return the response of an address."""
-        response = self.client.get(address, params=query)
-        assert response.status_code == 200, response.text
-        answer: Response = response.json()
-        return answer
-
-    def refused(self, address: str, **body: Any) -> list[Response]:
-        """Post a request that is refused, and return its errors."""
-        response = self.client.post(address, json=body)
-        assert response.status_code == 422
-        errors: list[Response] = response.json()["errors"]
-        return errors
-
-    def watched(self, name: str, runs: float = float("inf")) -> list[Response]:
-        """Follow a study until its end, or until it has this number of runs."""
-        received: list[Response] = []
-        with self.client.websocket_connect(f"{WS}?study={name}") as socket:
-            while not received or received[-1]["runs"] < runs:
-                message = socket.receive()
-                if message["type"] == "websocket.close":
-                    assert message["code"] == 1000
-                    break
-                received.append(json.loads(message["text"]))
-        return received
-
-
-@contextmanager
-def served(path: Path) -> Iterator[Folder]:
-    with TestClient(app(Workspace(path), "127.0.0.1"), OWN) as client:
-        yield Folder(client, path)
 
 
 @pytest.fixture
@@ -131,7 +82,7 @@ def test_progress_is_monotonic_and_ends_with_the_answer(answered: Folder) -> Non
     outs = {row["configuration"] for row in shown["answer"]["results"] if row["eliminated"]}
     assert {row[0] for row in last["eliminated"]} == outs
     best = shown["answer"]["results"][last["standings"][0][0]]
-    assert last["standings"][0] == [best["configuration"], best["runs"], *best["merit"]]
+    assert last["standings"][0] == [best["configuration"], best["runs"], *best["merit"], None]
 
 
 def test_a_page_that_connects_late_gets_the_current_progress(answered: Folder) -> None:
@@ -274,14 +225,13 @@ def test_a_configuration_eliminated_after_the_estimate_is_not_among_the_standing
     monkeypatch.setattr(job, "REPORT_S", 0.0)
     monkeypatch.setattr(job, "ESTIMATE_S", 1e9)
     theirs, mine = multiprocessing.Pipe()
-    teller = job.ProgressReporter(mine)
-    monkeypatch.setattr(
-        job, "estimates", lambda _: {"standings": [[0], [1]], "remaining_runs": None}
-    )
+    reporter = job.ProgressReporter(mine)
+    shown = tuple((Leader(each, 20, 0.5), Interval(0.5, 0.4, 0.6)) for each in range(2))
     for gone in ([], [[1, 0, 20]]):
         facts = {"runs": 40, "survivors": 2, "leaders": [], "eliminated": gone, "is_over": False}
-        teller(study.Progress.of_facts(1, facts, 40, 1.0))
-    assert [theirs.recv()["standings"] for _ in range(2)] == [[[0], [1]], [[0]]]
+        now = study.Progress.of_facts(1, facts, 40, 1.0)
+        reporter(replace(now, intervals=lambda: shown))
+    assert [[row[0] for row in theirs.recv()["standings"]] for _ in range(2)] == [[0, 1], [0]]
 
 
 def test_a_study_is_interrupted_once() -> None:
@@ -543,13 +493,15 @@ def test_factors_are_listed_with_their_bounds(folder: Folder) -> None:
     assert response["merits"] == ["equation-5.2", "appendix"]
     assert response["delta"] == 0.01
     team, *others = response["factors"]
+    assert team.pop("help").startswith("Number of robots")
     assert team == {
         "path": TEAM,
         "value": 4,
         "low": 1,
         "high": 250,
-        "whole": True,
+        "kind": "whole",
         "values": None,
+        "unit": None,
         "varied": "1..8",
     }
     assert {each["path"] for each in others} == {
@@ -557,10 +509,30 @@ def test_factors_are_listed_with_their_bounds(folder: Folder) -> None:
         "clock.time_limit_s",
         "contact",
     }
+
+
+def test_every_number_and_choice_that_a_path_can_name_is_a_factor(folder: Folder) -> None:
     text = Scenario.load("search").source.text
     response = folder.post("/api/factors", text=text)
-    speed = next(each for each in response["factors"] if each["path"].endswith("max_speed_m_s"))
-    assert (speed["low"], speed["high"], speed["whole"], speed["value"]) == (0, 100, False, 1)
+    found = {each["path"]: each for each in response["factors"]}
+    speed = found["robots.rover.drive.max_speed_m_s"]
+    assert (speed["value"], speed["low"], speed["high"]) == (1, 0, 100)
+    assert (speed["kind"], speed["unit"]) == ("real", "m/s")
+    # Of the model, of the schema, and not set anywhere.
+    values = {
+        "robots.rover.sensors.lidar.range_m": 10,
+        "world.periodic": False,
+        "robots.rover.payload_kg": None,
+    }
+    assert {path: found[path]["value"] for path in values} == values
+    assert found["robots.rover.layer"]["values"] == ["ground", "air"]
+    assert not any(path.startswith(("study.", "merit")) or "[" in path for path in found)
+
+
+def test_a_key_that_needs_others_is_no_factor() -> None:
+    paths = {each["path"] for each in factors(Scenario.load("flock"))}
+    assert "robots.bird.radio.range_m" in paths
+    assert "robots.bird.radio.loss_probability" not in paths
 
 
 @pytest.mark.parametrize("name", ["classic", "search", "search-beliefs", "open-field", "flock"])
@@ -569,4 +541,5 @@ def test_every_listed_factor_can_be_varied(name: str) -> None:
     found = factors(scenario)
     assert found
     for factor in found:
-        assert scenario.configuration({factor["path"]: factor["value"]})
+        if factor["value"] is not None:
+            assert scenario.configuration({factor["path"]: factor["value"]})

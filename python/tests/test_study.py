@@ -304,7 +304,7 @@ def test_the_last_ranges_of_the_progress_are_those_of_the_answer(scenario: Scena
 def test_a_long_round_reports_its_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(race, "ROUND_S", 0.0)
     seen: list[study.Progress] = []
-    left: list[float | None] = []
+    left: list[tuple[float, float] | None] = []
 
     def look(now: study.Progress) -> None:
         seen.append(now)
@@ -318,7 +318,7 @@ def test_a_long_round_reports_its_progress(monkeypatch: pytest.MonkeyPatch) -> N
     runs = [each.runs for each in seen]
     assert runs == sorted(runs) == [each.computed for each in seen]
     assert 0 < runs[0] < runs[-1] == answer.runs == 120
-    assert left == [120 - each for each in runs]
+    assert left == [(120 - each, 120 - each) for each in runs]
     assert seen[0].leaders == ()
 
 

@@ -1,15 +1,17 @@
 import type { Page } from "@playwright/test";
 import { downloaded, expect, expectAccessible, status, time_s } from "./page";
-import { openAnswer, sentence, test } from "./studies";
+import { openAnswer, recommendation, test } from "./studies";
 
 const meritChart = (page: Page) => page.getByRole("img", { name: /^Figure of merit with its interval/ });
 
-test("an answer has its sentence, guarantee, charts with tables, and files", async ({
+test("an answer has its verdict, guarantee, charts with tables, and files", async ({
   page,
   server,
   answered,
 }) => {
   await openAnswer(page, server, answered);
+  await expect(page.getByText(/a run takes [\d.]+ s on average/i)).toBeVisible();
+  await expect(page.getByText(/^95% confidence; differences under 0.3 merit/)).toBeVisible();
   await expect(page.getByText("selected one with 95% confidence")).toBeVisible();
   await expect(meritChart(page).locator("svg")).toBeVisible();
   await expect(page.getByRole("row", { name: /^4 rovers/ }).first()).toBeVisible();
@@ -63,7 +65,7 @@ test("a click on a point of a chart opens the runs of its configuration, and fro
   await expect(dialog).toBeVisible();
   await page.keyboard.press("Escape");
   await expect(dialog).toBeHidden();
-  await expect(sentence(page)).toBeVisible();
+  await expect(recommendation(page)).toBeVisible();
   await expect.poll(() => page.url()).not.toContain("configuration");
   // Back to the run, not to the dialog that was closed.
   await page.goBack();

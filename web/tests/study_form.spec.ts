@@ -11,7 +11,7 @@ import {
   ownScenario,
 } from "./page";
 import { hang_ms } from "../dev/real-server.mjs";
-import { formAt, openAnswer, sentence, test } from "./studies";
+import { formAt, openAnswer, recommendation, test } from "./studies";
 
 test("a study is defined, started and answered by keyboard alone, and its confidence is raised", async ({
   page,
@@ -38,7 +38,7 @@ test("a study is defined, started and answered by keyboard alone, and its confid
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expect(page.getByText(/^\d of 6$/)).toBeVisible();
   showAnswer();
-  await expect(sentence(page)).toBeVisible({ timeout: 4 * hang_ms });
+  await expect(recommendation(page)).toBeVisible({ timeout: 4 * hang_ms });
 
   const box = page.getByRole("textbox", { name: /^Raise confidence/ });
   await expect(box).toHaveValue("0.99");
@@ -87,7 +87,7 @@ test("further factors are found by name, added and removed", async ({ page, serv
   await page.goto(formAt(server));
   await page.getByText("Add a factor").click();
   await page.getByRole("searchbox").fill("max speed");
-  await expect(page.getByText("1 parameter", { exact: true })).toBeVisible();
+  await expect(page.getByText("2 parameters", { exact: true })).toBeVisible();
   await page.getByRole("button", { name: "Vary robots.rover.drive.max_speed_m_s" }).click();
   const speed = page.getByRole("textbox", { name: "robots.rover.drive.max_speed_m_s" });
   await expect(speed).toBeFocused();

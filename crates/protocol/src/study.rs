@@ -36,20 +36,40 @@ pub struct StudyProgress {
     pub runs_per_s: f64,
     /// Configurations that remain.
     pub remaining: u64,
-    /// Estimated remaining runs.
-    pub remaining_runs: Option<u64>,
-    /// Estimated remaining time.
-    pub remaining_s: Option<f64>,
-    /// The best of the remaining configurations, at most 50.
+    /// The range of the remaining time; null if it is unknown.
+    pub remaining_s: Option<(f64, f64)>,
+    /// At most 50 configurations: the best of those that remain; with a requirement, all that have runs,
+    /// the cheapest first.
     pub standings: Vec<Standing>,
-    /// The eliminations in order: configuration, the one that eliminated it, its number of runs.
-    pub eliminated: Vec<(u32, u32, u64)>,
+    /// The eliminations in order: configuration, the one that eliminated it if one did, its number of runs.
+    /// With a requirement, these are the refuted ones.
+    pub eliminated: Vec<(u32, Option<u32>, u64)>,
+    /// The number of certified configurations; null without a requirement.
+    pub certified: Option<u64>,
     /// The labels of all configurations; in the first message only.
     pub labels: Option<Vec<String>>,
 }
 
-/// A remaining configuration: index, runs, merit, and the bounds of its confidence interval, null
-/// before they are computed.
+/// What is known of a configuration in a study of a requirement.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub enum RequirementStatus {
+    /// It meets the requirement.
+    #[serde(rename = "certified")]
+    Certified,
+    /// It does not meet it with tolerance to spare.
+    #[serde(rename = "refuted")]
+    Refuted,
+    /// Neither is shown.
+    #[serde(rename = "open")]
+    Open,
+    /// Neither is shown, and one that is not dearer is certified.
+    #[serde(rename = "not needed")]
+    NotNeeded,
+}
+
+/// A configuration: index, runs, merit, the bounds of its confidence interval, null before they are
+/// computed, and its status, null without a requirement. With one, the merit is the share of runs that
+/// meet it.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Standing(
     pub u32,
@@ -57,4 +77,5 @@ pub struct Standing(
     pub Option<f64>,
     pub Option<f64>,
     pub Option<f64>,
+    pub Option<RequirementStatus>,
 );

@@ -58,7 +58,20 @@ def time_left(share: float, seconds: float) -> str:
 
 def duration(seconds: float) -> str:
     """Return a duration in a readable unit."""
+    return " ".join(in_unit(seconds))
+
+
+def durations(low_s: float, high_s: float) -> str:
+    """Return a range of durations, such as "2 to 6 min"; one if both ends are the same."""
+    low, high = in_unit(low_s), in_unit(high_s)
+    if low == high:
+        return " ".join(high)
+    return f"{low[0] if low[1] == high[1] else ' '.join(low)} to {' '.join(high)}"
+
+
+def in_unit(seconds: float) -> tuple[str, str]:
+    """Return a duration as a number and a readable unit."""
     for unit, length in (("h", 3600), ("min", 60)):
         if seconds >= 2 * length:
-            return f"{seconds / length:.0f} {unit}"
-    return f"{seconds:.0f} s"
+            return f"{seconds / length:.0f}", unit
+    return f"{seconds:.0f}", "s"

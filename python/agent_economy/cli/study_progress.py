@@ -11,8 +11,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy.cli.run_progress import PAUSE_S, duration
-from agent_economy.study.progress import OnProgress, Progress
+from agent_economy.cli.run_progress import PAUSE_S, durations
+from agent_economy.study.progress import Leader, OnProgress, Progress, Range
 from agent_economy.study.selection import Elimination
 
 ESTIMATE_PERIOD_S = 1.0
@@ -28,7 +28,7 @@ class ProgressDisplay:
     def __init__(self, names: Sequence[str]) -> None:
         """Start; `names` are the labels of the configurations."""
         self.names = names
-        self._left: float | None = None
+        self._left: Range | None = None
         self._estimated_at = -math.inf
 
     @contextmanager
@@ -71,25 +71,27 @@ class ProgressDisplay:
             f"round {progress.round}: {progress.runs:,} runs, {progress.survivors} of "
             f"{len(self.names)} remaining" + (f", {rate:,.0f} runs/s" if rate else "")
         )
-        return Text(text + self._time_left(progress, rate))
+        return Text(text + self._time_left(progress))
 
-    def _time_left(self, progress: Progress, rate: float) -> str:
-        """Return the estimated time left, updated each second: the estimate takes a moment."""
-        if not rate or progress.is_over:
+    def _time_left(self, progress: Progress) -> str:
+        """Return the range of the time left, updated each second: the estimate takes a moment."""
+        if progress.is_over:
             return ""
         if time.monotonic() - self._estimated_at > ESTIMATE_PERIOD_S:
             self._estimated_at = time.monotonic()
             self._left = progress.estimate_remaining()
-        return "" if self._left is None else f", about {duration(self._left / rate)} left"
+        left_s = progress.time_left_s(self._left)
+        return "" if left_s is None else f", about {durations(*left_s)} left"
 
     def _leaders(self, progress: Progress) -> Table:
-        table = Table(box=box.SIMPLE_HEAD)
-        table.add_column("leading")
-        table.add_column("runs", justify="right")
-        table.add_column("current merit", justify="right")
+        table = Table("leading", box=box.SIMPLE_HEAD)
+        for head in ("runs", "current merit" if progress.certified is None else "share"):
+            table.add_column(head, justify="right")
+        if progress.certified is not None:
+            table.add_column("status")
         for leader in progress.leaders:
             name = Text(self.names[leader.configuration])
-            table.add_row(name, f"{leader.runs:,}", f"{leader.merit:.3f}")
+            table.add_row(name, f"{leader.runs:,}", *known_of(leader))
         return table
 
     def _by(self, elimination: Elimination) -> str:
@@ -106,4 +108,12 @@ class ProgressDisplay:
         more = len(progress.eliminated) - MAX_NAMED
         if more > 0:
             words.append(f"{more} more")
-        return f"; eliminated: {', '.join(words)}" if words else ""
+        verb = "eliminated" if progress.certified is None else "refuted"
+        return f"; {verb}: {', '.join(words)}" if words else ""
+
+
+def known_of(leader: Leader) -> tuple[str, ...]:
+    """Return the cells of what is known of a leading configuration."""
+    if leader.status is None:
+        return (f"{leader.merit:.3f}",)
+    return f"{leader.merit:.1%}", leader.status

@@ -208,15 +208,23 @@ def check_requirement(plan: Plan) -> None:
     if not isinstance(plan.question, Cheapest):
         return
     limits = [plan.engine.limits(each) for each in range(len(plan.configurations))]
-    plan.costs  # noqa: B018  (computed and checked once)
     fix = "must be a condition that can hold and can fail"
-    found = [
+    found = error_of(lambda: plan.costs) + [
         f"require.all[{number}] = {condition.text!r}: {fault}: {fix}"
         for number, condition in enumerate(plan.question.requirement.conditions)
         if (fault := condition.triviality([each[condition.column] for each in limits]))
     ]
     if found:
         raise InputError("\n".join(found))
+
+
+def error_of(check: Callable[[], object]) -> list[str]:
+    """Return the message of the error that a check finds, if it finds one."""
+    try:
+        check()
+    except InputError as error:
+        return [str(error)]
+    return []
 
 
 def default_delta(limits: Floats) -> float:

@@ -5,19 +5,35 @@ from dataclasses import dataclass
 from typing import Any
 
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.requirement_results import Status
 from agent_economy.study.selection import Elimination
 
 
 @dataclass(frozen=True)
 class Leader:
-    """One of the leading configurations."""
+    """One of the leading configurations.
+
+    Attributes:
+        configuration: Its index.
+        runs: Number of runs.
+        merit: Mean merit; with a requirement, the share of runs that meet it.
+        status: With a requirement, what is known of it; else None.
+    """
 
     configuration: int
     runs: int
     merit: float
+    status: Status | None = None
+
+    def facts(self) -> list[int | float | str]:
+        """Return what the ledger stores of it."""
+        status = [self.status] if self.status else []
+        return [self.configuration, self.runs, self.merit, *status]
 
 
 LeaderInterval = tuple[Leader, Interval]
+Range = tuple[float, float]
+"""The lower and the upper end of an estimate."""
 
 
 @dataclass(frozen=True)
@@ -30,12 +46,14 @@ class Progress:
         computed: Those of them that this process computed.
         seconds: Seconds since the start.
         survivors: Remaining configurations.
-        leaders: The best of them by their current estimates.
+        leaders: The best of them by their current estimates; with a requirement, the dearest
+            configurations that have runs, the cheapest first.
         eliminated: Configurations that the completed round eliminated.
+        certified: With a requirement, the certified configurations; else None.
         is_over: Whether it was the last round.
-        estimate_remaining: Returns the approximate number of runs left; None if it is unknown.
+        estimate_remaining: Returns the range of the number of runs left; None if it is unknown.
             Takes milliseconds.
-        intervals: Returns the best of the survivors, each with its mean merit and bounds that hold
+        intervals: Returns more of the leaders, each with its mean merit and bounds that hold
             simultaneously with all of the answer's. Takes milliseconds.
     """
 
@@ -46,19 +64,29 @@ class Progress:
     survivors: int
     leaders: tuple[Leader, ...]
     eliminated: tuple[Elimination, ...]
+    certified: tuple[int, ...] | None
     is_over: bool
-    estimate_remaining: Callable[[], float | None]
+    estimate_remaining: Callable[[], Range | None]
     intervals: Callable[[], tuple[LeaderInterval, ...]]
 
     def facts(self) -> dict[str, Any]:
         """Return what the ledger stores of the round: facts that follow from the data alone."""
-        return {
+        facts: dict[str, Any] = {
             "runs": self.runs,
             "survivors": self.survivors,
-            "leaders": [[each.configuration, each.runs, each.merit] for each in self.leaders],
+            "leaders": [each.facts() for each in self.leaders],
             "eliminated": [[each.configuration, each.by, each.runs] for each in self.eliminated],
             "is_over": self.is_over,
         }
+        return facts if self.certified is None else {**facts, "certified": list(self.certified)}
+
+    def time_left_s(self, remaining: Range | None) -> Range | None:
+        """Return the range of the time in which a range of runs is computed; None if unknown."""
+        if remaining is None or not (self.computed and self.seconds):
+            return None
+        low, high = remaining
+        rate = self.computed / self.seconds
+        return low / rate, high / rate
 
     @classmethod
     def of_facts(
@@ -73,6 +101,7 @@ class Progress:
             survivors=facts["survivors"],
             leaders=tuple(Leader(*each) for each in facts["leaders"]),
             eliminated=tuple(Elimination(*each) for each in facts["eliminated"]),
+            certified=tuple(facts["certified"]) if "certified" in facts else None,
             is_over=facts["is_over"],
             estimate_remaining=lambda: None,
             intervals=tuple,

@@ -19,7 +19,7 @@ from agent_economy.runs import quarantine
 from agent_economy.scenario.validation import check
 from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.conclude import conclude
-from agent_economy.study.answer.effort import remaining_runs
+from agent_economy.study.answer.effort import MIN_ROUNDS, remaining_range, remaining_runs
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.requirement import conclude_requirement
 from agent_economy.study.answer.requirement_results import RequirementEnding
@@ -27,8 +27,9 @@ from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
 from agent_economy.study.errors import NoConfigurationError
+from agent_economy.study.leaders import leaders
 from agent_economy.study.plan import Plan, digest, may_replace
-from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress
+from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
 from agent_economy.study.question import Best, Cheapest
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import (
@@ -43,9 +44,6 @@ from agent_economy.study.store import Store, StoredRuns
 
 LEADERS = 10
 """Leaders in a progress report."""
-
-INTERVALS = 50
-"""Leaders with intervals in a progress report."""
 
 ROUND_S = 0.5
 """Interval of progress reports during a round."""
@@ -235,8 +233,8 @@ class Race:
 
     def _progress(self) -> Progress:
         procedure = self._procedure
-        survivors = procedure.survivors
-        best = self._best()
+        is_cheapest = isinstance(self._plan.question, Cheapest)
+        best = leaders(self._plan, procedure, self._sums)
         eliminated = tuple(Elimination(*each) for each in procedure.eliminations)
         new = tuple(each for each in eliminated if each.configuration not in self._eliminated)
         self._eliminated = {each.configuration for each in eliminated}
@@ -245,28 +243,19 @@ class Race:
             runs=int(self._runs.sum()) + self._store.pending,
             computed=self._store.computed,
             seconds=time.monotonic() - self._start,
-            survivors=len(survivors),
-            leaders=best[:LEADERS],
+            survivors=len(procedure.survivors),
+            leaders=best[-LEADERS:] if is_cheapest else best[:LEADERS],
             eliminated=new,
+            certified=tuple(procedure.certified.tolist()) if is_cheapest else None,
             is_over=self._is_over(),
             estimate_remaining=self._estimate_remaining,
-            intervals=lambda: self._intervals(best[:INTERVALS]),
+            intervals=lambda: self._intervals(best),
         )
 
-    def _best(self) -> tuple[Leader, ...]:
-        """Return the remaining configurations that have runs, the best or the cheapest first."""
-        runs, survivors = self._runs, self._procedure.survivors
-        sampled = survivors[runs[survivors] > 0]
-        means = self._sums[sampled] / runs[sampled]
-        is_cheapest = isinstance(self._plan.question, Cheapest)
-        order = np.argsort(self._plan.costs[sampled] if is_cheapest else -means, kind="stable")
-        rows = zip(sampled[order], runs[sampled[order]], means[order], strict=True)
-        return tuple(Leader(int(each), int(count), float(mean)) for each, count, mean in rows)
-
-    def _intervals(self, leaders: tuple[Leader, ...]) -> tuple[LeaderInterval, ...]:
+    def _intervals(self, shown: tuple[Leader, ...]) -> tuple[LeaderInterval, ...]:
         evidence = self.evidence()
         quantity = self._plan.question.quantity
-        return tuple((each, evidence.interval(each.configuration, quantity)) for each in leaders)
+        return tuple((each, evidence.interval(each.configuration, quantity)) for each in shown)
 
     def _is_over(self) -> bool:
         """Return whether it has selected, or its run budget does not allow another round."""
@@ -277,18 +266,21 @@ class Race:
         configurations, _, runs = request
         return bool(self._runs.sum() + len(configurations) * runs > max_runs)
 
-    def _estimate_remaining(self) -> float | None:
-        plan, procedure = self._plan, self._procedure
+    def _estimate_remaining(self) -> Range | None:
+        plan, procedure, pending = self._plan, self._procedure, self._store.pending
         if plan.runs is not None:
             missing = float(plan.runs * len(procedure.survivors) - procedure.runs.sum())
-        elif self._rounds and isinstance(plan.question, Best):
-            survivors = procedure.survivors.tolist()
-            evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
-            best, rivals = survivors.index(leading(procedure)), len(plan.configurations) - 1
-            missing = remaining_runs(evidence, best, plan.question.delta, rivals)
-        else:
+            return missing - pending, missing - pending
+        request = procedure.next()
+        if self._rounds < MIN_ROUNDS or request is None or not isinstance(plan.question, Best):
             return None
-        return max(0.0, missing - self._store.pending)
+        survivors = procedure.survivors.tolist()
+        evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
+        best, rivals = survivors.index(leading(procedure)), len(plan.configurations) - 1
+        expected = remaining_runs(evidence, best, plan.question.delta, rivals)
+        configurations, _, runs = request
+        low, high = remaining_range(max(expected, float(len(configurations) * runs)))
+        return max(0.0, low - pending), max(0.0, high - pending)
 
 
 def question_in_words(plan: Plan) -> str:

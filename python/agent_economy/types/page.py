@@ -353,6 +353,10 @@ class Refused(TypedDict):
     errors: Sequence[InputError]
 
 
+RequirementStatus: TypeAlias = Literal["certified", "refuted", "open", "not needed"]
+"""What is known of a configuration in a study of a requirement."""
+
+
 class RobotView(TypedDict):
     """Details of a robot as labelled strings.
 
@@ -462,9 +466,13 @@ class Setting(TypedDict):
     maps: Sequence[MapView]
 
 
-Standing: TypeAlias = tuple[int, int, float | None, float | None, float | None]
-"""A remaining configuration: index, runs, merit, and the bounds of its confidence interval,
-null before they are computed.
+Standing: TypeAlias = tuple[
+    int, int, float | None, float | None, float | None, RequirementStatus | None
+]
+"""A configuration: index, runs, merit, the bounds of its confidence interval, null before they
+are computed, and its status, null without a requirement.
+
+With one, the merit is the share of runs that meet it.
 """
 
 
@@ -519,11 +527,12 @@ class StudyProgress(TypedDict):
         seconds: Time since then.
         runs_per_s: The rate of computation.
         remaining: Configurations that remain.
-        remaining_runs: Estimated remaining runs.
-        remaining_s: Estimated remaining time.
-        standings: The best of the remaining configurations, at most 50.
-        eliminated: The eliminations in order: configuration, the one that eliminated it, its
-            number of runs.
+        remaining_s: The range of the remaining time; null if it is unknown.
+        standings: At most 50 configurations: the best of those that remain; with a requirement,
+            all that have runs, the cheapest first.
+        eliminated: The eliminations in order: configuration, the one that eliminated it if one
+            did, its number of runs. With a requirement, these are the refuted ones.
+        certified: The number of certified configurations; null without a requirement.
         labels: The labels of all configurations; in the first message only.
     """
 
@@ -536,10 +545,10 @@ class StudyProgress(TypedDict):
     seconds: float
     runs_per_s: float
     remaining: int
-    remaining_runs: int | None
-    remaining_s: float | None
+    remaining_s: tuple[float, float] | None
     standings: Sequence[Standing]
-    eliminated: Sequence[tuple[int, int, int]]
+    eliminated: Sequence[tuple[int, int | None, int]]
+    certified: int | None
     labels: Sequence[str] | None
 
 

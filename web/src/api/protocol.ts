@@ -35,6 +35,7 @@ export type {
   PageMessage,
   RecordingEntry,
   Refused,
+  RequirementStatus,
   RingView,
   RobotView,
   Saved,

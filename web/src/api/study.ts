@@ -1,10 +1,17 @@
 /** Messages about studies. Names and shapes are those of the server. */
-import type { Engine, InputError, StudyProgress, StudyState } from "./protocol";
+import type { Engine, InputError, RequirementStatus, StudyProgress, StudyState } from "./protocol";
 
-export type { StudyProgress, StudyState };
+export type { RequirementStatus, StudyProgress, StudyState };
 
 export type Value = number | string | boolean;
 export type Guarantee = "indifference" | "pgs";
+
+export interface Requirement {
+  words: string;
+  conditions: string[];
+  probability: number;
+  tolerance: number;
+}
 
 /** A scenario of the server by id, or the text of one: exactly one of the two. */
 export type ScenarioSource = { scenario: string; text: null } | { scenario: null; text: string };
@@ -53,9 +60,12 @@ export interface StudyPlan {
   /** Labels of the first configurations. */
   labels: string[];
   words: string;
-  delta: number;
+  /** Null with a requirement, as the guarantee. */
+  delta: number | null;
   confidence: number;
-  guarantee: Guarantee;
+  guarantee: Guarantee | null;
+  /** Null without a requirement. */
+  requirement: (Requirement & { minimize: string }) | null;
   merit: string;
   /** Each has either values or a range. */
   factors: { path: string; values: Value[]; range: [low: number, high: number] | null }[];
@@ -72,13 +82,14 @@ export interface StudySummary {
   configurations: number;
   runs: number;
   confidence: number;
-  delta: number;
+  /** Null with a requirement. */
+  delta: number | null;
   sentence: string | null;
+  /** Whether the answer recommends a configuration without reservation; null without an answer. */
+  is_recommended: boolean | null;
   message: string | null;
   changed_s: number;
 }
-
-export type Interval = [value: number | null, low: number | null, high: number | null];
 
 export interface StudyTable {
   caption: string;
@@ -106,12 +117,13 @@ export interface Result {
   configuration: number;
   label: string;
   runs: number;
-  merit: Interval;
-  verdict: "best" | "tied" | "not better" | "undecided" | "worse" | "impossible";
-  eliminated: boolean;
+  /** With a requirement, that of the selected configuration is `best`, and that of others its status. */
+  verdict: "best" | "tied" | "not better" | "undecided" | "worse" | "impossible" | RequirementStatus;
 }
 
 export interface StudyAnswer {
+  /** What to send, how it does, what is known of the others, and what is not distinguished. */
+  verdict: [first: string, second: string, third: string, small: string];
   sentence: string;
   guarantee: string;
   facts: [value: string, words: string][];

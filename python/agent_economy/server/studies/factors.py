@@ -6,7 +6,9 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from agent_economy.scenario import Scenario
+from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.scenario import Requirement, Scenario, Value
 from agent_economy.study.paths import robot_kind
 from agent_economy.study.plan import WITHOUT_RUNS
 
@@ -28,22 +30,67 @@ def described(scenario: Scenario) -> dict[str, Any]:
         "merit": scenario.merit.name,
         "delta": scenario.delta,
         "confidence": scenario.confidence,
+        "requirement": scenario.requirement and required(scenario.requirement),
+        "columns": columns(scenario),
+        "minimize": scenario.cost,
+        "where": scenario.where,
     }
+
+
+def required(requirement: Requirement) -> dict[str, Any]:
+    """Return a requirement as the page takes it."""
+    return {
+        "words": str(requirement),
+        "conditions": [each.text for each in requirement.conditions],
+        "probability": requirement.probability,
+        "tolerance": requirement.tolerance,
+    }
+
+
+def columns(scenario: Scenario) -> list[str]:
+    """Return the outcome columns that conditions can be about."""
+    return [name for name, *_ in scenario.configuration({}).columns]
 
 
 def factors(scenario: Scenario) -> list[dict[str, Any]]:
     """Return all numbers and choices that a study can vary, team sizes first."""
-    document = scenario.to_dict()
-    varied = document.get("study", {}).get("vary", {})
-    own = {key: part for key, part in document.items() if key not in {*WITHOUT_RUNS, "engine"}}
-    values = {".".join(keys): value for keys, value in leaves(own)}
-    values |= {path: None for path in varied if path not in values}
-    found = []
-    for path, value in values.items():
-        allowed = allowed_at(schema(scenario.engine), document, path.split("."))
-        if allowed:
-            found.append({"path": path, "value": value, **allowed, "varied": varied.get(path)})
+    varied = scenario.to_dict().get("study", {}).get("vary", {})
+    root = schema(scenario.engine)
+    document = _core.read_filled(scenario.source)
+    found = [
+        {"path": path, **limits, "varied": varied.get(path)}
+        for keys, limits in walk(root, document, [root], document)
+        if keys[0] not in {*WITHOUT_RUNS, "engine"}
+        and ((path := ".".join(keys)) in varied or can_be_varied(scenario, document, keys, limits))
+    ]
     return sorted(found, key=lambda factor: robot_kind(factor["path"]) is None)
+
+
+def can_be_varied(
+    scenario: Scenario, document: Part, keys: Sequence[str], limits: Mapping[str, Any]
+) -> bool:
+    """Return whether a factor has a value that is allowed alone, such as that of the document.
+
+    A factor of a missing table may need other keys of the table.
+    """
+    for key in keys:
+        document = document.get(key, MISSING)
+        if document is MISSING:
+            break
+    else:
+        return True
+    usual = next((each for each in (limits["value"], limits["low"]) if each is not None), 1)
+    samples = [usual] if limits["values"] is None else limits["values"]
+    return any(is_allowed(scenario, {".".join(keys): each}) for each in samples)
+
+
+def is_allowed(scenario: Scenario, values: Mapping[str, Value]) -> bool:
+    """Return whether a configuration is valid."""
+    try:
+        scenario.configuration(values)
+    except InputError:
+        return False
+    return True
 
 
 def merits(engine: str) -> list[str]:
@@ -61,27 +108,45 @@ def schema(engine: str) -> Part:
     return read
 
 
-def leaves(
-    part: Mapping[str, Any], keys: tuple[str, ...] = ()
-) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Yield the numbers and strings of a document that a path with dots can name."""
-    for key, value in part.items():
-        if "." in key or isinstance(value, list):
-            continue
-        if isinstance(value, dict):
-            yield from leaves(value, (*keys, key))
-        else:
-            yield (*keys, key), value
+def walk(
+    root: Part, document: Part, parts: Sequence[Part], value: Any, keys: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], Part]]:
+    """Yield the keys and the limits of all numbers and choices that a path with dots can name.
+
+    Args:
+        root: The schema.
+        document: The whole document; it defines names, such as those of models.
+        parts: Those of the schema's parts that describe the value.
+        value: The value; `MISSING` if the document has none.
+        keys: Those from the root to the value.
+    """
+    inside = [each for part in parts for each in branches(root, part, value)]
+    if not isinstance(value, dict | list) and (limits := allowed(inside, document)):
+        default = next((each["default"] for each in inside if "default" in each), None)
+        yield keys, {"value": default if value is MISSING else value, **limits, **words(inside)}
+    elif isinstance(value, dict) or value is MISSING:
+        for key in names(inside, value):
+            described = [part for each in inside if (part := below(each, key)) is not None]
+            within = value.get(key, MISSING) if isinstance(value, dict) else MISSING
+            yield from walk(root, document, described, within, (*keys, key))
 
 
-def allowed_at(root: Part, document: Any, keys: Sequence[str]) -> dict[str, Any] | None:
-    """Return the bounds or choices of a value at a path; None if it has neither."""
-    parts, value = [root], document
-    for key in keys:
-        inside = [each for part in parts for each in branches(root, part, value)]
-        parts = [part for each in inside if (part := below(each, key)) is not None]
-        value = value.get(key, MISSING) if isinstance(value, dict) else MISSING
-    return allowed([each for part in parts for each in branches(root, part, value)], document)
+def names(parts: Sequence[Part], value: Any) -> list[str]:
+    """Return the keys of a table that a study can vary."""
+    known = dict.fromkeys(name for part in parts for name in part.get("properties", {}))
+    if isinstance(value, dict):
+        return [name for name in {**known, **value} if "." not in name]
+    # Of a missing table with several kinds, none; of others, those that need no other key.
+    tables = [part for part in parts if "properties" in part]
+    required = {name for table in tables for name in table.get("required", ())}
+    return [name for name in known if len(tables) == 1 and required <= {name}]
+
+
+def words(parts: Sequence[Part]) -> Part:
+    """Return the unit and the description of what parts describe."""
+    unit = next((part["x-unit"] for part in parts if "x-unit" in part), None)
+    help_text = next((part["description"] for part in parts if "description" in part), "")
+    return {"unit": unit, "help": help_text}
 
 
 def below(part: Part, key: str) -> Part | None:
@@ -122,7 +187,7 @@ def allowed(parts: Sequence[Part], document: Any) -> dict[str, Any] | None:
         return {
             "low": bound(parts, "minimum", "exclusiveMinimum"),
             "high": bound(parts, "maximum", "exclusiveMaximum"),
-            "whole": "number" not in kinds,
+            "kind": "real" if "number" in kinds else "whole",
             "values": None,
         }
     choices = [choice for part in parts for choice in (*part.get("enum", ()), *const(part))]
@@ -131,7 +196,7 @@ def allowed(parts: Sequence[Part], document: Any) -> dict[str, Any] | None:
         choices = [False, True]
     if len(choices) < len(("one", "other")):
         return None
-    return {"low": None, "high": None, "whole": False, "values": choices}
+    return {"low": None, "high": None, "kind": "choice", "values": choices}
 
 
 def bound(parts: Sequence[Part], *words: str) -> float | None:

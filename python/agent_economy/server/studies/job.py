@@ -17,7 +17,9 @@ from typing import Any
 from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.study import Plan, Progress
+from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.errors import StudyError
+from agent_economy.study.progress import Leader, LeaderInterval, Range
 from agent_economy.study.store.folder import QUESTION
 
 NICENESS = 10
@@ -51,9 +53,10 @@ NO_PROGRESS: dict[str, Any] = {
     "computed": 0,
     "seconds": 0.0,
     "remaining": 0,
-    "remaining_runs": None,
+    "remaining_s": None,
     "standings": [],
     "eliminated": [],
+    "certified": None,
 }
 """The progress of a study that has just begun."""
 
@@ -171,7 +174,7 @@ class ProgressReporter:
         self._line = line
         self._new: list[list[int | None]] = []
         self._eliminated: set[int] = set()
-        self._estimates: dict[str, Any] = {}
+        self._estimates: tuple[tuple[LeaderInterval, ...], Range | None] = ((), None)
         self._report_at_s = self._estimate_at_s = 0.0
 
     def __call__(self, now: Progress) -> None:
@@ -182,23 +185,30 @@ class ProgressReporter:
         if now_s < self._report_at_s and not now.is_over:
             return
         if now_s >= self._estimate_at_s:
-            self._estimates = estimates(now)
+            self._estimates = now.intervals(), None if now.is_over else now.estimate_remaining()
             took_s = time.monotonic() - now_s
             self._estimate_at_s = now_s + max(ESTIMATE_S, took_s / ESTIMATE_SHARE)
-        counts = {name: getattr(now, source) for name, source in COUNTS.items()}
-        # Some may have been eliminated since the estimate.
-        left = [row for row in self._estimates["standings"] if row[0] not in self._eliminated]
-        self._line.send({**counts, **self._estimates, "standings": left, "eliminated": self._new})
+        self._line.send(self._message(now))
         self._new = []
         self._report_at_s = time.monotonic() + REPORT_S
 
+    def _message(self, now: Progress) -> dict[str, Any]:
+        shown, remaining_runs = self._estimates
+        return {
+            **{name: getattr(now, source) for name, source in COUNTS.items()},
+            "remaining_s": now.time_left_s(remaining_runs),
+            "standings": [row for each in shown if (row := self._standing(now, *each))],
+            "eliminated": self._new,
+            "certified": None if now.certified is None else len(now.certified),
+        }
 
-def estimates(now: Progress) -> dict[str, Any]:
-    """Return what takes time to compute: the best with their intervals, and remaining runs."""
-    return {
-        "standings": [
-            [leader.configuration, leader.runs, leader.merit, merit.low, merit.high]
-            for leader, merit in now.intervals()
-        ],
-        "remaining_runs": None if now.is_over else now.estimate_remaining(),
-    }
+    def _standing(self, now: Progress, leader: Leader, merit: Interval) -> list[Any] | None:
+        """Return a row of the standings; None if it was eliminated since the estimate."""
+        status = leader.status
+        if leader.configuration in self._eliminated:
+            if status is None:
+                return None
+            status = "refuted"
+        elif leader.configuration in (now.certified or ()):
+            status = "certified"
+        return [leader.configuration, leader.runs, leader.merit, merit.low, merit.high, status]

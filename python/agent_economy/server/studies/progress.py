@@ -12,6 +12,7 @@ from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.summary import read_answer
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.study.answer.labels import label
+from agent_economy.study.answer.requirement_results import Status
 
 MAX_STANDINGS = 50
 """Maximum number of configurations whose merit is sent."""
@@ -80,15 +81,13 @@ def progress(studies: StudyManager, name: str) -> dict[str, Any]:
             counts = {**counts, **(stored(studies.folder(name)) or begun)}
     except InputError as error:
         row = {"state": "damaged", "message": str(error)}
-    return {"state": row["state"], "message": row["message"], **with_rates(counts)}
+    return {"state": row["state"], "message": row["message"], **with_rate(counts)}
 
 
-def with_rates(counts: dict[str, Any]) -> dict[str, Any]:
-    """Return the progress of a study with its rate, and the time that remains."""
-    seconds, remaining_runs = counts["seconds"], counts["remaining_runs"]
-    rate = counts["computed"] / seconds if seconds else 0.0
-    remaining_s = remaining_runs / rate if rate and remaining_runs is not None else None
-    return {**counts, "runs_per_s": rate, "remaining_s": remaining_s}
+def with_rate(counts: dict[str, Any]) -> dict[str, Any]:
+    """Return the progress of a study with its rate."""
+    seconds = counts["seconds"]
+    return {**counts, "runs_per_s": counts["computed"] / seconds if seconds else 0.0}
 
 
 def stored(folder: Path) -> dict[str, Any]:
@@ -108,27 +107,49 @@ def stored(folder: Path) -> dict[str, Any]:
     if answer:
         standings = final_standings(answer)
     else:
-        standings = [[*leader, None, None] for leader in facts["leaders"]]
+        standings = [stored_standing(*each) for each in facts["leaders"]]
+    certified = facts.get("certified")
     return {
         "rounds": len(decisions),
         "runs": facts["runs"] if answer else store.count(),
         "remaining": facts["survivors"],
-        "remaining_runs": None,
+        "remaining_s": None,
         "standings": standings,
         "eliminated": [row for each in decisions for row in each.facts["eliminated"]],
+        "certified": None if certified is None else len(certified),
     }
 
 
+def stored_standing(
+    configuration: int, runs: int, merit: float, status: Status | None = None
+) -> list[Any]:
+    """Return a row of the standings from the ledger, which has no intervals."""
+    return [configuration, runs, merit, None, None, status]
+
+
 def final_standings(answer: dict[str, Any]) -> list[list[Any]]:
-    """Return the best of the configurations that were not eliminated, with their intervals."""
+    """Return the best configurations that were not eliminated, with their intervals.
+
+    With a requirement, these are the dearest of all that have runs, the cheapest first.
+    """
     if "requirement" in answer:
-        known = [row for row in answer["results"] if row["met"] and row["status"] != "refuted"]
-        first = sorted(known, key=lambda row: row["cost"])[:MAX_STANDINGS]
-        return [[row["configuration"], row["runs"], *row["met"].values()] for row in first]
+        known = [row for row in answer["results"] if row["met"] and row["status"] != "impossible"]
+        last = sorted(known, key=lambda row: row["cost"])[-MAX_STANDINGS:]
+        return [standing(row, row["met"], running_status(row["status"])) for row in last]
     remaining = [
         row
         for row in answer["results"]
         if row["eliminated"] is None and row["standing"]["verdict"] != "impossible"
     ]
     best = sorted(remaining, key=lambda row: -row["merit"]["value"])[:MAX_STANDINGS]
-    return [[row["configuration"], row["runs"], *row["merit"].values()] for row in best]
+    return [standing(row, row["merit"], None) for row in best]
+
+
+def standing(row: dict[str, Any], merit: dict[str, Any], status: str | None) -> list[Any]:
+    """Return a row of the standings from the answer."""
+    return [row["configuration"], row["runs"], *merit.values(), status]
+
+
+def running_status(status: Status) -> Status:
+    """Return the status of a configuration while its study runs, which selects none."""
+    return "certified" if status == "selected" else status

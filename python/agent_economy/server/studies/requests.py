@@ -1,6 +1,7 @@
 """Reads the study that a page requests, and reports all errors at once."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, TypeVar
 
 from agent_economy import study
@@ -8,14 +9,37 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, validation
 from agent_economy.scenario.source import check_path
 from agent_economy.server.messages import ONE_SOURCE, Error, errors_of, number
+from agent_economy.server.studies.factors import required
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
 from agent_economy.study.description import Description
+from agent_economy.study.expression import Expression
 from agent_economy.study.plan import check_question
 from agent_economy.study.question import Best
+from agent_economy.study.teams import names
 
 T = TypeVar("T")
+
+MERIT, REQUIREMENT = "merit", "requirement"
+"""The questions: the best by merit, and the cheapest that meets a requirement."""
+
+FOREIGN = {
+    MERIT: ("require", "probability", "tolerance", "minimize"),
+    REQUIREMENT: ("delta", "guarantee", "runs", "merit"),
+}
+"""Parts of a request that belong to the other question."""
+
+PATHS = {
+    "merit": ("merit",),
+    "design": ("study", "design"),
+    "require": ("require", "all"),
+    "probability": ("require", "probability"),
+    "tolerance": ("require", "tolerance"),
+    "minimize": ("study", "minimize"),
+    "where": ("study", "where"),
+}
+"""Paths in a scenario of the parts of a request that replace its values."""
 
 MAX_LABELS = 50
 """Maximum number of configurations of a plan that are labelled."""
@@ -65,23 +89,63 @@ def plan(request: Any, workspace: Workspace) -> Plan:
     """
     validation.of_type("request", request, dict, "an object")
     errors = Errors()
+    errors.gather(lambda: check_kind(request))
     scenario = errors.gather(lambda: scenario_of(request, workspace))
-    changed = errors.gather(lambda: scenario.changed(overrides(request))) if scenario else None
-    seed = errors.gather(lambda: number("seed", request.get("seed", "0")))
-    question = {name: request.get(name) for name in ("delta", "confidence", "runs")}
-    guarantee = request.get("guarantee")
-    wanted = "indifference" if guarantee is None else guarantee
-    errors.gather(lambda: check_question(seed=seed or 0, **question, guarantee=wanted))
+    changed = None
+    if scenario is not None:
+        changed = errors.gather(lambda: scenario.changed(overrides(request)))
+        check_expressions(errors, request, scenario)
+    if changed is not None and request.get("question") == REQUIREMENT:
+        errors.gather(lambda: check_conditions(changed))
+    seed = errors.gather(lambda: number("seed", request.get("seed", "0"))) or 0
+    question = {name: request.get(name) for name in ("delta", "guarantee", "confidence", "runs")}
+    if request.get("question") == MERIT and question["guarantee"] is None:
+        question["guarantee"] = "indifference"
+    guarantee = question["guarantee"]
+    wanted = {**question, "guarantee": "indifference" if guarantee is None else guarantee}
+    errors.gather(lambda: check_question(seed=seed, **wanted))
     if not errors and changed is not None:
         max_runs = request.get("max_runs")
         made = errors.gather(
-            lambda: study.make_plan(
-                changed, seed=seed or 0, max_runs=max_runs, guarantee=guarantee, **question
-            )
+            lambda: study.make_plan(changed, seed=seed, max_runs=max_runs, **question)
         )
         if made is not None:
             return made
     raise StudyRequestError(errors)
+
+
+def check_kind(request: Mapping[str, Any]) -> None:
+    """Check that a request has only what belongs to its question.
+
+    Raises:
+        InputError: If not.
+    """
+    kind = request.get("question")
+    if kind is None:
+        return
+    is_known = isinstance(kind, str) and kind in FOREIGN
+    validation.check(is_known, "question", kind, f"one of {', '.join(FOREIGN)}")
+    for name in FOREIGN[kind]:
+        given = request.get(name)
+        validation.check(given is None, name, given, f"null with the question {kind!r}")
+
+
+def check_conditions(scenario: Scenario) -> None:
+    """Check that the scenario of a study of a requirement has conditions.
+
+    Raises:
+        InputError: If it has none.
+    """
+    allowed = "a list of at least one condition, such as time_s <= 1200"
+    validation.check(scenario.requirement is not None, "require.all", [], allowed)
+
+
+def check_expressions(errors: Errors, request: Mapping[str, Any], scenario: Scenario) -> None:
+    """Check the expressions on teams that a request contains."""
+    for name in ("where", "minimize"):
+        text = request.get(name)
+        if validation.is_text(text):
+            errors.gather(partial(Expression, ".".join(PATHS[name]), text, names(scenario)))
 
 
 def scenario_of(request: Mapping[str, Any], workspace: Workspace) -> Scenario:
@@ -111,13 +175,17 @@ def overrides(request: Mapping[str, Any]) -> tuple[Override, ...]:
         validation.check(
             validation.is_text(values), f"vary.{path}", values, 'a string such as "1..40"'
         )
-    texts = {("merit",): request.get("merit"), ("study", "design"): request.get("design")}
-    for path, text in texts.items():
-        validation.check(text is None or validation.is_text(text), path[-1], text, "a string")
+    for name in ("merit", "design", "minimize", "where"):
+        text = request.get(name)
+        validation.check(text is None or validation.is_text(text), name, text, "a string")
+    validation.of_type("require", request.get("require"), list | None, "a list of conditions")
     # They replace all factors of the scenario, not only those with the same paths.
     varied = [Override(("study", "vary"), vary, "vary")] if vary else []
-    others = [Override(path, text, path[-1]) for path, text in texts.items() if text is not None]
-    return (*varied, *others)
+    given = {name: request.get(name) for name in PATHS}
+    return (
+        *varied,
+        *(Override(PATHS[name], value, name) for name, value in given.items() if value is not None),
+    )
 
 
 def planned(plan: Plan, name: str, state: str | None) -> dict[str, Any]:
@@ -132,7 +200,9 @@ def planned(plan: Plan, name: str, state: str | None) -> dict[str, Any]:
         "delta": question.delta if isinstance(question, Best) else None,
         "confidence": plan.confidence,
         "guarantee": question.guarantee if isinstance(question, Best) else None,
-        "requirement": None if isinstance(question, Best) else str(question.requirement),
+        "requirement": None
+        if isinstance(question, Best)
+        else {**required(question.requirement), "minimize": question.cost},
         "merit": plan.scenario.merit.name,
         "factors": [
             {"path": each.path, "values": each.values, "range": each.range}

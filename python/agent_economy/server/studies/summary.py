@@ -12,6 +12,7 @@ from agent_economy._core import InputError
 from agent_economy.scenario.validation import is_whole
 from agent_economy.server.messages import escaped
 from agent_economy.study import Plan
+from agent_economy.study.answer.verdict import fails_often
 from agent_economy.study.description import Description
 from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, STAGING, read_bytes
 
@@ -30,6 +31,8 @@ class Summary:
         question: What it compares; None if the study is damaged.
         runs: The number of runs so far.
         sentence: The answer in one sentence.
+        is_recommended: Whether the answer recommends a configuration without reservation: it is
+            certified, or does not fail often. None without an answer.
         message: What is wrong.
         changed_s: The time of the last change, in seconds since 1970.
     """
@@ -40,6 +43,7 @@ class Summary:
     question: Description | None
     runs: int
     sentence: str | None
+    is_recommended: bool | None
     message: str | None
     changed_s: float
 
@@ -57,6 +61,7 @@ class Summary:
             "confidence": question.confidence if question else 0,
             "delta": question.delta if question else None,
             "sentence": self.sentence,
+            "is_recommended": self.is_recommended,
             "message": self.message,
             "changed_s": self.changed_s,
         }
@@ -100,14 +105,16 @@ def summary(folder: Path, changed_s: float) -> Summary:
             return answered(folder, answer, changed_s)
         return of_plan(study.load_plan(folder), runs_so_far(folder), changed_s)
     except InputError as error:
-        return Summary("damaged", folder.name, "", None, 0, None, escaped(str(error)), changed_s)
+        message = escaped(str(error))
+        return Summary("damaged", folder.name, "", None, 0, None, None, message, changed_s)
 
 
 def of_plan(plan: Plan, runs: int, changed_s: float) -> Summary:
     """Return the summary of a study that has no answer yet."""
     scenario = plan.scenario
     question = Description.of(plan)
-    return Summary("stopped", scenario.name, scenario.engine, question, runs, None, None, changed_s)
+    name, engine = scenario.name, scenario.engine
+    return Summary("stopped", name, engine, question, runs, None, None, None, changed_s)
 
 
 def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summary:
@@ -127,7 +134,8 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
         )
         name, engine = str(scenario["name"]), str(scenario["engine"])
         runs, sentence = int(answer["runs"]), str(answer["sentence"])
-        found = Summary("answered", name, engine, question, runs, sentence, None, changed_s)
+        good = is_recommended(answer)
+        found = Summary("answered", name, engine, question, runs, sentence, good, None, changed_s)
         json.dumps(found.listed(""), ensure_ascii=False, allow_nan=False).encode()
     except tomllib.TOMLDecodeError as error:
         message = f"{folder / QUESTION}: is not a study: {error}"
@@ -136,6 +144,13 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
         message = f"{folder}: {QUESTION} or {ANSWER} is damaged: restore it, or use another folder"
         raise InputError(message) from None
     return found
+
+
+def is_recommended(answer: Mapping[str, Any]) -> bool:
+    """Return whether an answer recommends a configuration without reservation."""
+    if "requirement" in answer:
+        return answer["selected"] is not None
+    return not fails_often(float(answer["results"][answer["best"]]["failed"]["value"]))
 
 
 def read_answer(folder: Path) -> dict[str, Any] | None:

@@ -16,6 +16,15 @@ PARTS = (2, 5, 10)
 """Divisors of the study's delta."""
 
 
+MIN_ROUNDS = 12
+"""Rounds before which the runs of a study are too few to predict the others."""
+
+SPREAD = (1 / 2, 3)
+"""Ends of the range of the remaining runs, as parts of their prediction, which is often too low: it
+takes the current lead for the true one. Measured: the actual number was within this range in two of
+three rounds of 75 studies of `classic`, and in three of four rounds of 12 studies of `search`.
+"""
+
 SMALLEST = 1e-100
 """Lower limit of a lead, to avoid a division by zero."""
 
@@ -66,6 +75,12 @@ def remaining_runs(survivors: Evidence, best: int, delta: float, rivals: int) ->
         if other != best
     ]
     return sum(missing) + max(missing, default=0.0)
+
+
+def remaining_range(expected: float) -> tuple[float, float]:
+    """Return the range of the remaining runs of a race, of which this number is predicted."""
+    low, high = SPREAD
+    return low * expected, high * expected
 
 
 def predicted_runs(evidence: Evidence, best: int, delta: float) -> float:

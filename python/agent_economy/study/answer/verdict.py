@@ -27,7 +27,7 @@ def verdict(
     fails = failures(chosen)
     send = recommendation(chosen.values)
     time_s = f"{chosen.time_s.value:,.3g} s on average"
-    if chosen.failed.value > OFTEN:
+    if fails_often(chosen.failed.value):
         first = f"{upper(fails)} even with the best compared team, {chosen.label}."
         second = f"{send} only if that is acceptable: a run takes {time_s}."
     else:
@@ -41,6 +41,11 @@ def impossible(results: Sequence[Result], obstacle: str) -> list[str]:
     """Return a sentence about the configurations that cannot be run, if any, with the reason."""
     labels = [each.label for each in results if not each.is_possible]
     return [f"Cannot be run: {listed(named(labels))} ({obstacle})."] if labels else []
+
+
+def fails_often(share: float) -> bool:
+    """Return whether runs fail so often that the failures are stated first."""
+    return share > OFTEN
 
 
 def upper(words: str) -> str:

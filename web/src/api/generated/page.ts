@@ -278,6 +278,9 @@ export interface RecordingEntry {
   error: string | null;
 }
 
+/** What is known of a configuration in a study of a requirement. */
+export type RequirementStatus = "certified" | "refuted" | "open" | "not needed";
+
 /** The rays of a range ring. */
 export interface RingView {
   /** The bearing of each ray, from the front of the robot. */
@@ -482,22 +485,22 @@ export interface StudyProgress {
   runs_per_s: number;
   /** Configurations that remain. */
   remaining: number;
-  /** Estimated remaining runs. */
-  remaining_runs: number | null;
-  /** Estimated remaining time. */
-  remaining_s: number | null;
-  /** The best of the remaining configurations, at most 50. */
+  /** The range of the remaining time; null if it is unknown. */
+  remaining_s: [number, number] | null;
+  /** At most 50 configurations: the best of those that remain; with a requirement, all that have runs, the cheapest first. */
   standings: Standing[];
-  /** The eliminations in order: configuration, the one that eliminated it, its number of runs. */
-  eliminated: [number, number, number][];
+  /** The eliminations in order: configuration, the one that eliminated it if one did, its number of runs. With a requirement, these are the refuted ones. */
+  eliminated: ([number, number | null, number])[];
+  /** The number of certified configurations; null without a requirement. */
+  certified: number | null;
   /** The labels of all configurations; in the first message only. */
   labels: string[] | null;
 }
 
 export type ServerMessage = Opened | Setting | State | MapPart | Saving | Saved | Exported | Refused | Ended | StudyProgress;
 
-/** A remaining configuration: index, runs, merit, and the bounds of its confidence interval, null before they are computed. */
-export type Standing = [number, number, number | null, number | null, number | null];
+/** A configuration: index, runs, merit, the bounds of its confidence interval, null before they are computed, and its status, null without a requirement. With one, the merit is the share of runs that meet it. */
+export type Standing = [number, number, number | null, number | null, number | null, RequirementStatus | null];
 
 /** A configuration of a study. */
 export interface StudyMember {

@@ -8,6 +8,7 @@ const standing = (low: number | null, high: number | null, value: number | null 
   value,
   low,
   high,
+  null,
 ];
 
 test("the axis contains all intervals and ends at round values", () => {

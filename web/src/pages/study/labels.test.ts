@@ -1,8 +1,18 @@
 import { expect, test } from "vitest";
-import { type Interval, RequestError, type StudyProgress } from "../../api/study";
-import { ago, decimal, duration, raceFigures, places, raceSummary, errorText } from "./labels";
+import { RequestError, type StudyProgress } from "../../api/study";
+import {
+  ago,
+  bestOf,
+  decimal,
+  duration,
+  durations,
+  meritText,
+  raceFigures,
+  places,
+  raceSummary,
+  errorText,
+} from "./labels";
 
-const bounds: Interval = [-1.66, -1.7, -1.6];
 const race: StudyProgress = {
   type: "study_progress",
   state: "running",
@@ -13,18 +23,36 @@ const race: StudyProgress = {
   seconds: 12,
   runs_per_s: 3033,
   remaining: 3,
-  remaining_runs: 9000,
-  remaining_s: 3.2,
-  standings: [[3, 405, ...bounds]],
+  remaining_s: [3.2, 9],
+  standings: [[3, 405, -1.66, -1.7, -1.6, null]],
   eliminated: [],
+  certified: null,
   labels: null,
+};
+const required: StudyProgress = {
+  ...race,
+  remaining_s: null,
+  standings: [
+    [0, 40, 0.5, 0.3, 0.7, "refuted"],
+    [1, 90, 0.8, 0.7, 0.9, "open"],
+    [2, 90, 0.9, 0.8, 1, "certified"],
+  ],
+  eliminated: [[0, null, 40]],
+  certified: 1,
 };
 const labels = ["1 wanderer", "2 wanderers", "3 wanderers", "4 wanderers"];
 
 test("the race is summarised in a sentence", () => {
   expect(raceSummary(race, 8, labels)).toBe(
-    "Running: 3 configurations of 8 remaining, 2,031 runs, about 3 s left. Leading: 4 wanderers.",
+    "Running: 3 of 8 remaining, 2,031 runs, about 3 to 9 s left. Leading: 4 wanderers.",
   );
+});
+
+test("a race with a requirement is summarised by its statuses", () => {
+  expect(raceSummary(required, 3, labels)).toBe(
+    "Running: 1 certified, 1 refuted, 2,031 runs. Cheapest certified: 3 wanderers.",
+  );
+  expect(bestOf({ ...required, standings: required.standings.slice(0, 2) })).toBe(null);
 });
 
 test("a stopped race has no speed and no time left", () => {
@@ -34,14 +62,21 @@ test("a stopped race has no speed and no time left", () => {
 
 test("a race in another process has no known speed", () => {
   const words = raceFigures({ ...race, seconds: 0, runs_per_s: 0, remaining_s: null }, 8);
-  expect(words.slice(3)).toEqual([
-    ["–", "runs per second"],
-    ["–", "time left (estimate)"],
-  ]);
+  expect(words.slice(3)).toEqual([["–", "runs per second"]]);
 });
 
 test("durations are rounded for reading", () => {
   expect([0.2, 42, 180, 7500].map(duration)).toEqual(["1 s", "42 s", "3 min", "2 h 5 min"]);
+});
+
+test("a range of durations has its unit once if both ends have it", () => {
+  const ranges: [number, number][] = [
+    [3, 9],
+    [60, 300],
+    [3, 3.2],
+    [120, 7500],
+  ];
+  expect(ranges.map(durations)).toEqual(["3 to 9 s", "60 s to 5 min", "3 s", "2 min to 2 h 5 min"]);
 });
 
 test("past times are relative to now", () => {
@@ -57,6 +92,11 @@ test("past times are relative to now", () => {
 test("merits are rounded so that delta has two significant digits", () => {
   expect([0.01, 0.05, 0.2, 3, 40].map(places)).toEqual([3, 3, 2, 1, 0]);
   expect([decimal(-1.655, 2), decimal(null, 2)]).toEqual(["−1.66", "–"]);
+  expect([meritText(-1.655, 0.2), meritText(0.9123, null), meritText(null, null)]).toEqual([
+    "−1.66",
+    "91.2%",
+    "–",
+  ]);
 });
 
 test("a request error has the server's message, and a missing server has ours", () => {

@@ -8,29 +8,51 @@ export const stateLabels: Record<StudyState, string> = {
   damaged: "Damaged",
 };
 
-/** The state of the race in one sentence, for screen readers. */
+/** The state of the race in one or two sentences, for screen readers. */
 export function raceSummary(race: StudyProgress, total: number, labels: string[]): string {
-  const parts = [`${plural(race.remaining, "configuration")} of ${count(total)} remaining`];
-  parts.push(plural(race.runs, "run"));
-  if (race.remaining_s !== null) parts.push(`about ${duration(race.remaining_s)} left`);
-  const [best] = race.standings;
-  const leads = best ? ` Leading: ${nameOf(labels, best[0])}.` : "";
+  const known = race.certified === null ? remaining(race, total) : decided(race);
+  const parts = [...known.map(([value, name]) => `${value} ${name}`), plural(race.runs, "run")];
+  if (race.remaining_s !== null) parts.push(`about ${durations(race.remaining_s)} left`);
+  const best = bestOf(race);
+  const verb = race.certified === null ? "Leading" : "Cheapest certified";
+  const leads = best === null ? "" : ` ${verb}: ${nameOf(labels, best)}.`;
   return `${stateLabels[race.state]}: ${parts.join(", ")}.${leads}`;
 }
 
+/** The configuration that would be selected now; null if there is none. */
+export function bestOf({ certified, standings }: StudyProgress): number | null {
+  const best =
+    certified === null ? standings[0] : standings.find(([, , , , , status]) => status === "certified");
+  return best?.[0] ?? null;
+}
+
+type Figure = [value: string, label: string];
+
+function remaining(race: StudyProgress, total: number): Figure[] {
+  return [[`${count(race.remaining)} of ${count(total)}`, "remaining"]];
+}
+
+function decided({ certified, eliminated }: StudyProgress): Figure[] {
+  return [
+    [count(certified ?? 0), "certified"],
+    [count(eliminated.length), "refuted"],
+  ];
+}
+
 /** The key figures of a race, with labels. */
-export function raceFigures(race: StudyProgress, total: number): [value: string, label: string][] {
-  const first: [string, string][] = [
-    [`${count(race.remaining)} of ${count(total)}`, "remaining"],
+export function raceFigures(race: StudyProgress, total: number): Figure[] {
+  const first: Figure[] = [
+    ...(race.certified === null ? remaining(race, total) : decided(race)),
     [count(race.runs), "runs"],
     [count(race.rounds), "round"],
   ];
   if (race.state !== "running")
     return [...first, [race.seconds > 0 ? duration(race.seconds) : "–", "elapsed"]];
-  const left = race.remaining_s === null ? "–" : duration(race.remaining_s);
+  const left: Figure[] =
+    race.remaining_s === null ? [] : [[durations(race.remaining_s), "time left (estimate)"]];
   // Unknown if another process computes the runs.
   const rate = race.seconds > 0 ? count(race.runs_per_s) : "–";
-  return [...first, [rate, "runs per second"], [left, "time left (estimate)"]];
+  return [...first, [rate, "runs per second"], ...left];
 }
 
 export function nameOf(labels: string[], configuration: number): string {
@@ -47,6 +69,15 @@ export function duration(time_s: number): string {
   const minutes = Math.round(time_s / 60);
   if (minutes < 100) return `${minutes} min`;
   return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
+}
+
+/** A range of durations, such as `2 to 6 min`; one if both ends are the same. */
+export function durations([low_s, high_s]: [number, number]): string {
+  const [low, high] = [duration(low_s), duration(high_s)];
+  if (low === high) return low;
+  const [, number, unit] = /^(\d+) (\w+)$/.exec(low) ?? [];
+  const isShared = unit !== undefined && new RegExp(`^\\d+ ${unit}$`).test(high);
+  return `${isShared ? number : low} to ${high}`;
 }
 
 /** Time since a change, such as `3 minutes ago`. */
@@ -66,6 +97,12 @@ export function places(delta: number): number {
 
 export function decimal(value: number | null, digits: number): string {
   return value === null ? "–" : value.toFixed(digits).replace("-", "−");
+}
+
+/** The text of a merit in a study with this delta; of a share of runs if it is null. */
+export function meritText(value: number | null, delta: number | null): string {
+  if (delta !== null || value === null) return decimal(value, delta === null ? 0 : places(delta));
+  return `${(100 * value).toFixed(1)}%`;
 }
 
 export function percent(share: number): string {

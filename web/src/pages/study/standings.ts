@@ -5,8 +5,15 @@ export function hasRanges(standings: Standing[]): boolean {
   return standings.some(([, , , low, high]) => low !== null && high !== null);
 }
 
-/** The race after a message. A stopped race keeps the last ranges. */
+/** The race after a message. A stopped race keeps the last ranges, with the statuses of the message. */
 export function updatedRace(before: StudyProgress | null, message: StudyProgress): StudyProgress {
   const keepsRanges = before !== null && message.state !== "running" && !hasRanges(message.standings);
-  return keepsRanges ? { ...message, standings: before.standings } : message;
+  if (!keepsRanges) return message;
+  const statuses = new Map(
+    message.standings.map(([configuration, , , , , status]) => [configuration, status]),
+  );
+  const standings = before.standings.map(([configuration, runs, value, low, high, status]): Standing => {
+    return [configuration, runs, value, low, high, statuses.get(configuration) ?? status];
+  });
+  return { ...message, standings };
 }

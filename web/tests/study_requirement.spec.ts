@@ -1,0 +1,66 @@
+import { altered, asOnPhone, expect, expectAccessible, expectToFit } from "./page";
+import { alterStudy, post, studyAt, summaryOf, test as base } from "./studies";
+import { hang_ms } from "../dev/real-server.mjs";
+
+const request = {
+  scenario: "classic",
+  question: "requirement",
+  vary: { "robots.wanderer.count": "1..6" },
+  require: ["time_s <= 40"],
+  probability: 0.8,
+  tolerance: 0.1,
+};
+
+/** `required` is the id of a study of a requirement with an answer. */
+const test = base.extend<object, { required: string }>({
+  required: [
+    async ({ server }, use) => {
+      const { id } = await post(server, "studies", request);
+      const state = async () => (await summaryOf(server, id)).state;
+      await expect.poll(state, { timeout: 5 * hang_ms }).toBe("answered");
+      await use(id);
+    },
+    { scope: "worker", timeout: 5 * hang_ms },
+  ],
+});
+
+test("a race with a requirement has the status of each configuration as text", async ({
+  page,
+  server,
+  required,
+}) => {
+  const stopped = { state: "stopped", message: null } as const;
+  await altered(page, (sent) => (sent.type === "study_progress" ? { ...sent, ...stopped } : sent));
+  await alterStudy(page, { ...stopped, answer: null, is_recommended: null });
+  await page.goto(studyAt(server, required));
+  await expect(page.getByText("Share of runs so far with time_s <= 40")).toBeVisible();
+  await expect(page.getByRole("listitem").filter({ hasText: "1 wanderer" }).first()).toContainText("refuted");
+  await expect(page.getByText("certified", { exact: true }).first()).toBeVisible();
+  await expect(page.getByText(/^refuted after \d+ runs$/).first()).toBeVisible();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Table" }).click();
+  await expect(page.getByRole("columnheader", { name: "share" })).toBeVisible();
+  await expect(page.getByRole("row", { name: /^1 wanderer .*%.* refuted$/ })).toBeVisible();
+  const inkOf = (status: string) =>
+    page
+      .getByRole("cell", { name: status, exact: true })
+      .first()
+      .locator("span")
+      .evaluate((mark) => getComputedStyle(mark).color);
+  expect(await inkOf("refuted")).not.toBe(await inkOf("certified"));
+  await expectAccessible(page);
+  await asOnPhone(page);
+  await page.reload();
+  await expect(page.getByText("certified", { exact: true }).first()).toBeVisible();
+  await expectToFit(page);
+});
+
+test("the answer to a requirement is its verdict", async ({ page, server, required }) => {
+  await page.goto(studyAt(server, required));
+  await expect(page.getByText(/^Send \d wanderers\.$/)).toBeVisible();
+  await expect(page.getByText(/in at least 80% of missions \([\d.]+% of [\d,]+ did\)\.$/)).toBeVisible();
+  await expect(page.getByText("shares from 80% to 90% are not distinguished")).toBeVisible();
+  await expectAccessible(page);
+  await page.getByRole("link", { name: "1 wanderer" }).first().click();
+  await expect(page.getByRole("dialog", { name: "Runs of 1 wanderer" })).toBeVisible();
+});
