@@ -1,6 +1,7 @@
 """Single brains: percepts and commands have the names of the Rust types, and errors name paths."""
 
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -184,3 +185,23 @@ def test_a_percept_that_contains_itself_is_an_error() -> None:
 def test_a_kind_must_be_a_string(kind: Any) -> None:
     with pytest.raises(ae.InputError, match=r"kind = .*: must be the name of a robot kind"):
         ae.Brain.of("search", kind)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("field", [[0, 0], [1e300, 1e300]], "body.field = 1e300"),
+        ("field", [[0, 0], [1e8, 20]], "body.field = 1e8"),
+        (
+            "rings",
+            [{"bearings_rad": [0.0, 1e100], "range_m": 3, "period_s": 0.1, "latency_s": 0}],
+            "body.rings[0].bearings_rad[1] = 1e100",
+        ),
+    ],
+)
+def test_a_body_that_maps_cannot_represent_is_an_input_error(
+    key: str, value: object, named: str
+) -> None:
+    body: Any = ROVER | {key: value}
+    with pytest.raises(ae.InputError, match=re.escape(named)):
+        ae.Brain({"arbitration": {"kind": "goals"}, "behaviours": [{"kind": "avoid"}]}, body)

@@ -4,6 +4,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -56,6 +57,20 @@ def test_the_readme_quotes_the_verdict_and_the_guarantee_of_make_study() -> None
     quoted = " ".join(page.replace("\n> ", " ").split())
     for line in (*answer.verdict[:3], answer.guarantee):
         assert line in quoted
+
+
+def test_the_readme_and_the_requirements_page_quote_the_verdict_of_the_warehouse() -> None:
+    first, *others = study.run("warehouse").verdict
+    quote = "\\\n> ".join([f"> **{first}**", *others])
+    assert quote in (ROOT / "README.md").read_text()
+    assert quote in (ROOT / "docs/requirements.md").read_text()
+
+
+def test_the_requirements_page_shows_the_requirement_of_the_warehouse() -> None:
+    page = (ROOT / "docs/requirements.md").read_text()
+    shown = tomllib.loads(page.split("```toml\n")[1].split("```")[0])
+    bundled = tomllib.loads((ROOT / "scenarios/warehouse.toml").read_text())
+    assert shown == {key: bundled[key] for key in ("end", "require", "study")}
 
 
 def run_blocks(page: str) -> None:

@@ -40,7 +40,7 @@ SPOILED = [
     ("time_limit_s = 120", "time_limit_s = -1"),
     ("size_m = [25, 25]", "size_m = [25]"),
     ("count = 4\n", ""),
-    ('model = "ugv"', 'model = "ugw"'),
+    ('model = "ugv"', "model = 3"),
     ('model = "ugv"', ""),
     ("max_speed_m_s = 1", 'max_speed_m_s = "fast"'),
     ("circle = {", "cirle = {"),

@@ -50,6 +50,7 @@ def test_the_gallery_lists_bundled_scenarios_and_those_of_the_folder(
         "search",
         "search-beliefs",
         "open-field",
+        "warehouse",
         "marked.toml",
         "mine/field.toml",
     }

@@ -18,6 +18,9 @@ use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// Brains ignore positions farther from the origin.
+const MAX_COORDINATE_M: f64 = 1e7;
+
 /// The brain of a robot.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Brain(Mutex<brain::Brain>);
@@ -30,6 +33,7 @@ impl Brain {
         let mut errors = Vec::new();
         let spec = read::<BrainSpec>("brain", spec, &mut errors)?;
         let body = read::<Body>("body", body, &mut errors)?;
+        errors.extend(body.as_ref().and_then(field_too_large));
         let both = spec.zip(body);
         let (spec, body) =
             InputErrors::or(errors, both).map_err(|errors| input_error(&errors, ""))?;
@@ -96,6 +100,19 @@ impl Brain {
     fn with<T>(&self, act: impl FnOnce(&mut brain::Brain) -> T) -> T {
         act(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
+}
+
+/// An error, if the brain's maps could not cover the mission area of a body.
+fn field_too_large(body: &Body) -> Option<InputError> {
+    let field = body.field?;
+    let farthest_m = [field.min(), field.max()]
+        .map(|corner| corner.x.abs().max(corner.y.abs()))
+        .into_iter()
+        .fold(0.0, f64::max);
+    let allowed = format!("coordinates within {MAX_COORDINATE_M:e} m of the origin");
+    let given = Some(format!("{farthest_m:e}"));
+    (farthest_m > MAX_COORDINATE_M)
+        .then(|| InputError::new("body.field".to_owned(), given, allowed))
 }
 
 /// Reads a dict that is checked like a document; None counts as missing. `name` is its path in errors.

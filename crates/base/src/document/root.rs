@@ -59,6 +59,15 @@ impl Document {
         parse::parse(file, text).map(Self::of)
     }
 
+    /// A document of this table.
+    #[must_use]
+    pub fn of_table(table: Table, origin: &str) -> Self {
+        Self::of(Node {
+            value: Value::Table(table),
+            origin: origin.to_owned(),
+        })
+    }
+
     /// Reads plain YAML `text`: mappings, lists and plain values, a few levels deep. `file` is its name
     /// in errors.
     ///

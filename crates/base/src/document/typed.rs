@@ -14,7 +14,20 @@ impl Document {
     /// # Errors
     /// All errors of the document.
     pub fn typed<T: DeserializeOwned>(&self, schema: &Schema) -> Result<T, InputErrors> {
-        let errors = schema.errors(self);
+        self.typed_unless(schema, |_| false)
+    }
+
+    /// As [`Document::typed`], but some errors are `ignored`.
+    ///
+    /// # Errors
+    /// All other errors of the document.
+    pub fn typed_unless<T: DeserializeOwned>(
+        &self,
+        schema: &Schema,
+        ignored: impl Fn(&InputError) -> bool,
+    ) -> Result<T, InputErrors> {
+        let mut errors = schema.errors(self);
+        errors.retain(|error| !ignored(error));
         if !errors.is_empty() {
             return Err(InputErrors(errors));
         }

@@ -160,6 +160,7 @@ pub struct Detector {
 #[serde(deny_unknown_fields)]
 pub struct RangeRing {
     /// Direction of each ray relative to the robot's front, anticlockwise; above -pi, up to pi.
+    #[schemars(inner(range(min = -3.15, max = 3.15)))]
     pub bearings_rad: Vec<f64>,
     /// Maximum range from the centre of the robot.
     #[schemars(range(min = 0.0))]

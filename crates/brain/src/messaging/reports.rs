@@ -33,7 +33,7 @@ use super::trust::{MIN_TRUST, Trust};
 use crate::io::body::RobotId;
 use crate::io::message::{About, Message, Provenance};
 use crate::perception::beliefs::items::track::{
-    MAX_LOG_ODDS, SOURCES, Source, Track, log_odds, probability,
+    MAX_LOG_ODDS, MAX_PRIOR, SOURCES, Source, Track, log_odds, probability,
 };
 use crate::perception::beliefs::items::tracks::{Items, bits, density};
 use alloc::vec::Vec;
@@ -56,6 +56,21 @@ pub(crate) struct Report {
     pub(crate) confidence: f64,
     /// The sender.
     pub(crate) from: RobotId,
+}
+
+impl Report {
+    /// Log likelihood ratio of the observations behind it, given the receiver's prior.
+    ///
+    /// Priors differ: that of a robot with a poor position is higher. What it reports after a miss
+    /// can be above the receiver's prior, so a probability that may be a prior is never support.
+    fn log_ratio(&self, prior: f64) -> f64 {
+        let log_ratio = log_odds(self.confidence.clamp(1e-6, 1.0 - 1e-6)) - prior;
+        if self.confidence <= MAX_PRIOR {
+            log_ratio.min(0.0)
+        } else {
+            log_ratio
+        }
+    }
 }
 
 /// The receiving robot, and its trust in others.
@@ -214,7 +229,7 @@ impl Track {
         }
         let prior = known.map_or(prior, |slot| self.sources[slot].prior);
         let is_credited = self.is_credited(reception.own, report.from);
-        let log_ratio = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - prior;
+        let log_ratio = report.log_ratio(prior);
         let spare = known
             .is_none()
             .then(|| self.spare_slot(reception, report))

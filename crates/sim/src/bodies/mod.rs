@@ -17,7 +17,7 @@ use battery::BatterySpec;
 use brain::BrainSpec;
 use collision::CollisionSpec;
 use drive::DriveSpec;
-use models::Model;
+use models::ModelName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -25,8 +25,8 @@ use std::collections::BTreeMap;
 /// A kind of robot, and the number of these robots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RobotSpec {
-    /// A bundled robot model. Its values replace all keys that are not set here.
-    pub model: Option<Model>,
+    /// A robot model: a bundled one, or one of `[models]`. Its values replace all keys that are not set here.
+    pub model: Option<ModelName>,
     /// Number of robots of this kind in the team.
     #[schemars(range(max = 1_000_000))]
     pub count: u32,

@@ -4,11 +4,13 @@ mod checked;
 mod checks;
 mod counts;
 mod facts;
+mod models;
 mod reading;
 mod ready;
 mod spec;
 mod world_hash;
 
 pub use checked::Checked;
+pub use models::ModelSpec;
 pub use ready::Scenario;
 pub use spec::ScenarioSpec;

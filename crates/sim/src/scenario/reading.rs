@@ -2,9 +2,10 @@
 
 use super::checked::Checked;
 use super::checks;
+use super::models;
 use super::spec::{SCHEMA, ScenarioSpec};
 use base::document::{Document, Files};
-use base::error::InputErrors;
+use base::error::{InputErrors, Problem};
 
 impl ScenarioSpec {
     /// Reads [`ScenarioSpec::KEYS`], and nothing else.
@@ -13,9 +14,22 @@ impl ScenarioSpec {
     /// Everything that is wrong there: keys and values first and, if these are valid, their meaning
     /// together.
     pub fn read(document: &Document) -> Result<Checked, InputErrors> {
-        let document = Self::filled(document);
-        let spec = document.typed(&SCHEMA)?;
-        checks::checked(spec, &document)
+        let filled = Self::filled(document);
+        let of_models = models::errors(document);
+        let read = match Self::typed(&filled) {
+            Ok(spec) if of_models.is_empty() => checks::checked(spec, &filled),
+            Ok(_) => Err(InputErrors(of_models)),
+            Err(InputErrors(errors)) => Err(InputErrors([of_models, errors].concat())),
+        };
+        read.map_err(|errors| models::at_models(errors, document))
+    }
+
+    /// Reads a document that is completed from its models. Keys that a model lacks are missing only where a robot
+    /// kind needs them.
+    fn typed(filled: &Document) -> Result<Self, InputErrors> {
+        filled.typed_unless(&SCHEMA, |error| {
+            error.problem == Problem::Missing && error.path.starts_with("models.")
+        })
     }
 
     /// The same for a document whose files `open` reads: it returns the bytes of a file by its
@@ -42,7 +56,7 @@ impl ScenarioSpec {
 
     /// The files that a document names and that have not been read.
     pub(crate) fn files(document: &Document) -> Vec<String> {
-        let spec: Result<Self, InputErrors> = Self::filled(document).typed(&SCHEMA);
+        let spec: Result<Self, InputErrors> = Self::typed(&Self::filled(document));
         spec.map_or_else(
             |_| Vec::new(),
             |spec| checks::missing_files(&spec, document),

@@ -1,5 +1,6 @@
 //! A scenario as it is written.
 
+use super::models::{self, ModelSpec};
 use crate::bodies::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::end::EndSpec;
@@ -26,6 +27,9 @@ pub struct ScenarioSpec {
     /// Kinds of items, each under a name of your choice.
     #[serde(default)]
     pub items: BTreeMap<String, ItemSpec>,
+    /// Robot models, each under a name of your choice, which `model` selects beside the bundled ones.
+    #[serde(default)]
+    pub models: BTreeMap<String, ModelSpec>,
     /// Kinds of robots, each under a name of your choice.
     pub robots: BTreeMap<String, RobotSpec>,
     /// When a run is complete and over; without this table, when all targets are found.
@@ -37,7 +41,9 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<Scena
 
 impl ScenarioSpec {
     /// The keys at the root of a document that this type reads.
-    pub const KEYS: [&str; 6] = ["clock", "world", "terrain", "items", "robots", "end"];
+    pub const KEYS: [&str; 7] = [
+        "clock", "world", "terrain", "items", "models", "robots", "end",
+    ];
 
     /// The schema of [`ScenarioSpec::KEYS`], once every robot kind is completed from its model.
     #[must_use]
@@ -45,11 +51,11 @@ impl ScenarioSpec {
         &SCHEMA
     }
 
-    /// A document in which every robot kind is completed from its model.
+    /// A document in which every robot kind and every model is completed from its model.
     #[must_use]
     pub fn filled(document: &Document) -> Document {
         let mut filled = document.clone();
-        crate::bodies::models::fill(&mut filled);
+        models::fill(&mut filled);
         filled
     }
 

@@ -39,7 +39,9 @@ fn world_and_bodies(configuration: &Configuration) -> String {
         let keys: Vec<&str> = path.split('.').collect();
         match keys[..] {
             ["world", ..] => true,
-            ["robots", _, key, ..] => matches!(key, "model" | "layer" | "radius_m" | "start"),
+            ["robots" | "models", _, key, ..] => {
+                matches!(key, "model" | "layer" | "radius_m" | "start")
+            }
             _ => false,
         }
     });

@@ -59,7 +59,7 @@ def factors(scenario: Scenario) -> list[dict[str, Any]]:
     document = _core.read_filled(scenario.source)
     found = [
         {"path": path, **limits, "varied": varied.get(path)}
-        for keys, limits in walk(root, [root], document)
+        for keys, limits in walk(root, document, [root], document)
         if keys[0] not in {*WITHOUT_RUNS, "engine"}
         and ((path := ".".join(keys)) in varied or can_be_varied(scenario, document, keys, limits))
     ]
@@ -109,25 +109,26 @@ def schema(engine: str) -> Part:
 
 
 def walk(
-    root: Part, parts: Sequence[Part], value: Any, keys: tuple[str, ...] = ()
+    root: Part, document: Part, parts: Sequence[Part], value: Any, keys: tuple[str, ...] = ()
 ) -> Iterator[tuple[tuple[str, ...], Part]]:
     """Yield the keys and the limits of all numbers and choices that a path with dots can name.
 
     Args:
         root: The schema.
-        parts: Those of its parts that describe the value.
+        document: The whole document; it defines names, such as those of models.
+        parts: Those of the schema's parts that describe the value.
         value: The value; `MISSING` if the document has none.
         keys: Those from the root to the value.
     """
     inside = [each for part in parts for each in branches(root, part, value)]
-    if not isinstance(value, dict | list) and (limits := allowed(inside)):
+    if not isinstance(value, dict | list) and (limits := allowed(inside, document)):
         default = next((each["default"] for each in inside if "default" in each), None)
         yield keys, {"value": default if value is MISSING else value, **limits, **words(inside)}
     elif isinstance(value, dict) or value is MISSING:
         for key in names(inside, value):
             described = [part for each in inside if (part := below(each, key)) is not None]
             within = value.get(key, MISSING) if isinstance(value, dict) else MISSING
-            yield from walk(root, described, within, (*keys, key))
+            yield from walk(root, document, described, within, (*keys, key))
 
 
 def names(parts: Sequence[Part], value: Any) -> list[str]:
@@ -179,7 +180,7 @@ def is_of_another_kind(part: Part, value: Any) -> bool:
     )
 
 
-def allowed(parts: Sequence[Part]) -> dict[str, Any] | None:
+def allowed(parts: Sequence[Part], document: Any) -> dict[str, Any] | None:
     """Return the bounds or choices of the values that parts describe."""
     kinds = {part.get("type") for part in parts}
     if kinds & {"number", "integer"}:
@@ -190,6 +191,7 @@ def allowed(parts: Sequence[Part]) -> dict[str, Any] | None:
             "values": None,
         }
     choices = [choice for part in parts for choice in (*part.get("enum", ()), *const(part))]
+    choices += [name for part in parts for name in document.get(part.get("x-names"), ())]
     if "boolean" in kinds:
         choices = [False, True]
     if len(choices) < len(("one", "other")):

@@ -1,7 +1,7 @@
 //! Checks a document against its schema and collects the errors.
 
 use super::expected::expected;
-use super::forms::{choices, forms, likeness, name_at, tag};
+use super::forms::{choices, forms, likeness, name_at, open_choices, tag};
 use super::keywords::{Object, alternatives, list};
 use super::simplified::Schema;
 use crate::document::node::{Node, Table, Value, as_number, path_of};
@@ -15,7 +15,7 @@ impl Schema {
     /// All errors of `document`.
     #[must_use]
     pub fn errors(&self, document: &Document) -> Vec<InputError> {
-        let mut check = Check::new(self);
+        let mut check = Check::new(self, &document.root);
         check.value(&self.root, &document.root, "");
         check.errors
     }
@@ -23,13 +23,16 @@ impl Schema {
 
 struct Check<'s> {
     schema: &'s Schema,
+    /// The document.
+    root: &'s Node,
     errors: Vec<InputError>,
 }
 
 impl<'s> Check<'s> {
-    fn new(schema: &'s Schema) -> Self {
+    fn new(schema: &'s Schema, root: &'s Node) -> Self {
         Self {
             schema,
+            root,
             errors: Vec::new(),
         }
     }
@@ -39,7 +42,7 @@ impl<'s> Check<'s> {
         let Some(keywords) = self.schema.keywords(schema) else {
             return;
         };
-        if let Some(names) = choices(self.schema, schema) {
+        if let Some(names) = self.names(schema, keywords) {
             return self.choice(&names, node, path);
         }
         if !alternatives(keywords).is_empty() {
@@ -52,6 +55,19 @@ impl<'s> Check<'s> {
             (Some(name), _) if is_plain(name, keywords, node) => {}
             _ => self.error(schema, node, path),
         }
+    }
+
+    /// The names that `schema` allows in this document, if it allows nothing else.
+    fn names(&self, schema: &'s Json, keywords: &'s Object) -> Option<Vec<&'s str>> {
+        let Some((mut names, table)) = open_choices(self.schema, keywords) else {
+            return choices(self.schema, schema);
+        };
+        if let Value::Table(root) = &self.root.value
+            && let Some(Value::Table(table)) = root.get(table).map(|node| &node.value)
+        {
+            names.extend(table.keys().map(String::as_str));
+        }
+        Some(names)
     }
 
     fn table(&mut self, keywords: &'s Object, (table, node): (&Table, &Node), path: &str) {
@@ -111,7 +127,7 @@ impl<'s> Check<'s> {
             return self.tagged(&forms, (tag, table), (node, path));
         }
         let errors_as = |form: &'s Json| {
-            let mut check = Check::new(self.schema);
+            let mut check = Check::new(self.schema, self.root);
             check.value(form, node, path);
             check.errors
         };

@@ -1,6 +1,6 @@
 //! What a schema allows, as text for error messages and the reference.
 
-use super::forms::{choices, forms, name_at, tag};
+use super::forms::{choices, forms, name_at, open_choices, tag};
 use super::keywords::{Object, alternatives, list};
 use super::simplified::Schema;
 use super::units::unit;
@@ -26,6 +26,10 @@ pub(super) fn expected(schema: &Schema, part: &Json) -> String {
     let Some(keywords) = schema.keywords(part) else {
         return "a value".to_owned();
     };
+    if let Some((names, table)) = open_choices(schema, keywords) {
+        let names = quoted(&names).join(", ");
+        return format!("one of {names}, or a name in `{table}`");
+    }
     if !alternatives(keywords).is_empty() {
         return union(schema, part);
     }

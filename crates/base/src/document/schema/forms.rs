@@ -1,6 +1,6 @@
 //! The alternatives of a schema: a list of names, or several forms of which a value has one.
 
-use super::keywords::{Object, alternatives, list};
+use super::keywords::{NAMES, Object, alternatives, list};
 use super::simplified::Schema;
 use crate::document::node::{Node, Value};
 use crate::document::renamed;
@@ -22,6 +22,17 @@ pub(super) fn choices<'s>(schema: &'s Schema, part: &'s Json) -> Option<Vec<&'s 
     names
         .filter(|names| !names.is_empty())
         .map(|names| names.concat())
+}
+
+/// The names that `keywords` list beside those of a table of the document, and the name of that table.
+pub(super) fn open_choices<'s>(
+    schema: &'s Schema,
+    keywords: &'s Object,
+) -> Option<(Vec<&'s str>, &'s str)> {
+    let table = keywords.get(NAMES)?.as_str()?;
+    let listed = alternatives(keywords).iter();
+    let listed = listed.filter_map(|part| choices(schema, part));
+    Some((listed.flatten().collect(), table))
 }
 
 /// The alternatives of `schema`, with nested alternatives expanded.

@@ -2,6 +2,10 @@
 
 use serde_json::{Map, Value as Json};
 
+/// The keyword of a string that is one of the listed names, or a key of the table of this name in the
+/// document.
+pub(super) const NAMES: &str = "x-names";
+
 /// The properties of an object's schema, or the keywords of any.
 pub(super) type Object = Map<String, Json>;
 

@@ -312,3 +312,36 @@ fn a_type_that_disagrees_with_its_schema_is_reported_with_its_path() {
         "{reported}"
     );
 }
+
+#[test]
+fn a_name_may_be_one_of_a_table_of_the_document() {
+    let schema = schemars::json_schema!({
+        "type": "object",
+        "properties": {
+            "tool": { "anyOf": [{ "enum": ["saw", "drill"] }, { "type": "string" }], "x-names": "tools" },
+            "tools": { "type": "object", "additionalProperties": { "type": "number" } },
+        },
+    });
+    let schema = Schema::closed(schema);
+    let errors = |text: &str| {
+        let document = Document::parse("t", text).unwrap();
+        let errors = schema.errors(&document).into_iter();
+        errors.map(|error| error.to_string()).collect::<Vec<_>>()
+    };
+    let none: [&str; 0] = [];
+    for tool in ["saw", "lathe"] {
+        assert_eq!(errors(&format!("tool = {tool:?}\ntools.lathe = 3")), none);
+    }
+    assert_eq!(
+        errors("tool = \"lahte\"\ntools.lathe = 3"),
+        [
+            "t:1: tool = \"lahte\": must be one of \"saw\", \"drill\", \"lathe\"; did you mean \"lathe\"?"
+        ]
+    );
+    assert!(errors("tool = 3\ntools = 4")[0].ends_with("must be one of \"saw\", \"drill\""));
+    let part = &schema.json()["properties"]["tool"];
+    assert_eq!(
+        schema.expected(part),
+        "one of \"saw\", \"drill\", or a name in `tools`"
+    );
+}

@@ -326,7 +326,13 @@ proptest! {
             let reports = last.iter().filter(|report| report.provenance.observer != own);
             let reported = reports.map(|report| {
                 let prior = track.sources[track.slot_by(report.provenance.observer)].prior;
-                log_odds(0.9 * report.confidence + 0.1 * probability(prior)) - prior
+                let prior_probability = probability(prior);
+                let confidence = if report.confidence <= MAX_PRIOR {
+                    report.confidence.min(prior_probability)
+                } else {
+                    report.confidence
+                };
+                log_odds(0.9 * confidence + 0.1 * prior_probability) - prior
             });
             let others = i32::try_from(reported.clone().count()).unwrap();
             let [sure, prior] = [0.1_f64.powi(others), probability(track.prior)];

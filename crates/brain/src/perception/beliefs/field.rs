@@ -34,10 +34,12 @@ impl Field {
     )]
     pub(crate) fn new(area: &Rectangle, min_cell_m: f64, max_cells: usize) -> Self {
         let size = area.size();
-        // (width / cell + 1) (height / cell + 1) = max_cells, since both are rounded up.
+        // (width / cell + 1) (height / cell + 1) = max_cells, since both are rounded up. The root that
+        // adds numbers of equal sign: the other one cancels for a long and narrow area.
         let (sum_m, area_m2) = (size.x + size.y, size.x * size.y);
-        let root = libm::sqrt(sum_m * sum_m + 4.0 * area_m2 * (max_cells.max(4) as f64 - 1.0));
-        let coarse_m = 2.0 * area_m2 / (root - sum_m);
+        let more = max_cells.max(4) as f64 - 1.0;
+        let root = libm::sqrt(sum_m * sum_m + 4.0 * area_m2 * more);
+        let coarse_m = (root + sum_m) / (2.0 * more);
         let cell_m = min_cell_m.max(coarse_m);
         let count = |length_m: f64| (libm::ceil(length_m / cell_m) as usize).max(1);
         Self {
@@ -151,6 +153,7 @@ impl Field {
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,
         clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
         reason = "at most some thousands"
     )]
     pub(crate) fn crossed(&self, from: Point, to: Point) -> impl Iterator<Item = usize> + use<> {
@@ -164,7 +167,13 @@ impl Field {
             (Some(_), None) => steps.min(self.steps_within([right, up], stride)),
             (None, _) => 0.0,
         };
-        let count = if count.is_finite() { count as u32 } else { 0 };
+        // A line to a point that is no number would have any number of cells.
+        let most = (self.columns + self.rows) as f64;
+        let count = if count.is_finite() {
+            count.min(most) as u32
+        } else {
+            0
+        };
         // Fixed-point numbers with 20 fractional bits: sums have no rounding errors.
         let fixed = |cells: f64| (cells * f64::from(1 << FRACTION_BITS)) as i64;
         let (mut at, stride) = ([fixed(right), fixed(up)], stride.map(fixed));
@@ -261,8 +270,9 @@ mod tests {
     proptest! {
         #[test]
         fn the_number_of_cells_is_limited_and_each_cell_contains_its_centre(
-            width in 0.1_f64..1e5, height in 0.1_f64..1e5, max_cells in 4_usize..5000,
+            width in -12_f64..7.0, height in -12_f64..7.0, max_cells in 4_usize..5000,
         ) {
+            let [width, height] = [width, height].map(|exponent| libm::pow(10.0, exponent));
             let corner = Point { x: width, y: height };
             let field = Field::new(&Rectangle::spanned(Point::default(), corner), 0.25, max_cells);
             prop_assert!(field.cells() <= max_cells, "{field:?}");
@@ -271,6 +281,16 @@ mod tests {
                 prop_assert_eq!(field.cell(field.centre(cell)), Some(cell));
             }
             prop_assert_eq!(field.cell(Point { x: -0.1, y: 0.1 }), None);
+        }
+    }
+
+    #[test]
+    fn a_line_to_a_point_that_is_no_number_crosses_no_more_cells_than_the_field_has() {
+        let corner = Point { x: 5.0, y: 5.0 };
+        let field = Field::new(&Rectangle::spanned(Point::default(), corner), 1.0, 1000);
+        let from = Point { x: 2.0, y: 2.0 };
+        for (x, y) in [(f64::NAN, 1e300), (1e300, f64::NAN), (-1e308, 1e308)] {
+            assert!(field.crossed(from, Point { x, y }).count() <= 10, "{x} {y}");
         }
     }
 

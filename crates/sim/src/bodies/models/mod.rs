@@ -1,13 +1,31 @@
-//! The bundled robot models, selected by the key `model`; docs/robots.md has the source of every
+//! The bundled robot models, which the key `model` selects beside those of the scenario; docs/robots.md has the source of every
 //! figure.
 
-use base::document::{Document, Value};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// The name of a robot model: a bundled one, or one of the scenario.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct ModelName(pub String);
+
+impl JsonSchema for ModelName {
+    fn schema_name() -> Cow<'static, str> {
+        "ModelName".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "anyOf": [generator.subschema_for::<Model>(), { "type": "string" }],
+            "x-names": "models",
+        })
+    }
+}
 
 /// A bundled robot model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, JsonSchema)]
+#[schemars(rename_all = "snake_case")]
 pub enum Model {
     /// A small tracked robot of about 2003 with sonars and a metal detector.
     Tracked,
@@ -25,6 +43,13 @@ impl Model {
         ("quadrotor", Self::Quadrotor),
     ];
 
+    /// The bundled model of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let found = Self::NAMES.iter().find(|(known, _)| *known == name);
+        found.map(|(_, model)| *model)
+    }
+
     /// Its TOML, with which the table of a robot kind is completed.
     #[must_use]
     pub fn text(self) -> &'static str {
@@ -36,43 +61,11 @@ impl Model {
     }
 }
 
-/// Completes each robot kind of `document` with the values of its `model`. A wrong name of a model
-/// is reported where that key is read.
-pub(crate) fn fill(document: &mut Document) {
-    let Some(Value::Table(kinds)) = document.get(&["robots"]).map(|node| &node.value) else {
-        return;
-    };
-    let names: Vec<String> = kinds.keys().cloned().collect();
-    for name in names {
-        let model = document.get(&["robots", &name, "model"]);
-        // A kind whose model is unknown does not also get errors for keys that the model would
-        // have.
-        let model = model.map(|model| named(&model.value).unwrap_or(Model::Ugv));
-        if let Some(model) = model {
-            fill_with(document, &name, model);
-        }
-    }
-}
-
-fn named(name: &Value) -> Option<Model> {
-    let Value::Text(name) = name else { return None };
-    let found = Model::NAMES.iter().find(|(known, _)| known == name);
-    found.map(|(_, model)| *model)
-}
-
-fn fill_with(document: &mut Document, name: &str, model: Model) {
-    let found = Model::NAMES.iter().find(|(_, each)| *each == model);
-    let origin = found.map_or(String::new(), |(name, _)| format!("bundled model {name}"));
-    // A test checks that each is valid TOML.
-    if let Ok(defaults) = Document::parse(&origin, model.text()) {
-        document.fill(&["robots", name], &defaults);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scenario::ScenarioSpec;
+    use base::document::Document;
 
     const REST: &str =
         "[clock]\ntime_limit_s = 9\n[world]\nsize_m = [9, 9]\n[robots.r]\ncount = 1\n";
@@ -88,9 +81,12 @@ mod tests {
 
     #[test]
     fn every_model_is_a_robot_that_lacks_only_its_number() {
-        for (name, model) in Model::NAMES {
+        for (name, _) in Model::NAMES {
             let robot = read(&format!("model = {name:?}"));
-            assert_eq!(robot.map(|robot| robot.model), Ok(Some(model)));
+            assert_eq!(
+                robot.map(|robot| robot.model),
+                Ok(Some(ModelName(name.to_owned())))
+            );
         }
     }
 

@@ -25,6 +25,12 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         &at.key("items"),
     ));
     errors.extend(errors_of(
+        &names(&spec.models),
+        0,
+        MAX_KINDS,
+        &at.key("models"),
+    ));
+    errors.extend(errors_of(
         &names(&spec.terrain),
         0,
         MAX_KINDS,

@@ -37,6 +37,9 @@ pub(crate) fn generate(schema: &Schema, part: &Json, random: &mut Random) -> Val
     let Some(keywords) = schema.keywords(part) else {
         return Value::Bool(true);
     };
+    if keywords.contains_key("x-names") {
+        return generate(schema, &keywords["anyOf"][0], random);
+    }
     for key in ["oneOf", "anyOf"] {
         if let Some(forms) = keywords.get(key).and_then(Json::as_array) {
             return generate(schema, random.pick(forms), random);

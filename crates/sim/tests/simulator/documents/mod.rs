@@ -32,8 +32,11 @@ brain = { behaviours = [{ kind = "cruise" }, { kind = "avoid", near_m = 0.2 }] }
 [robots.rover.sensors]
 eye = { kind = "items", range_m = 3, detection_probability = { mine = [[0, 1], [3, 0.5]], scrap = 0.1 } }
 sonar = { kind = "range", rays = 8, range_m = 2 }
-[robots.bird]
+[models.best]
 model = "quadrotor"
+price = 3
+[robots.bird]
+model = "best"
 count = 1
 start = { kind = "uniform", within_m = [[10, 1], [19, 9]] }
 "#;

@@ -5,8 +5,8 @@ use serde_json::{Map, Value as Json, json};
 use sim::scenario::ScenarioSpec;
 use std::collections::BTreeSet;
 
-/// The schema of the reader, with the keys that all engines share; a robot with a bundled `model`
-/// does not need the keys that the model sets.
+/// The schema of the reader, with the keys that all engines share; a robot with a `model` does not need the
+/// keys that the model sets.
 pub(crate) fn schema() -> Json {
     let mut schema = ScenarioSpec::schema().json().clone();
     let common = super::common();
@@ -40,12 +40,14 @@ fn joined(one: &Json, other: &Json) -> Json {
     Json::Object(both.into_iter().flatten().collect::<Map<_, _>>())
 }
 
-/// The definitions that are used by robots only.
+/// The definitions that are used by robots and their models only.
 fn of_robots_only(schema: &Json) -> BTreeSet<String> {
     let mut rest = schema["properties"].clone();
-    rest["robots"].take();
     let [mut robots, mut others] = [BTreeSet::new(), BTreeSet::new()];
-    refer(schema, &schema["properties"]["robots"], &mut robots);
+    for key in ["robots", "models"] {
+        rest[key].take();
+        refer(schema, &schema["properties"][key], &mut robots);
+    }
     refer(schema, &rest, &mut others);
     &robots - &others
 }

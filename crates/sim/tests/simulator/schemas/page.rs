@@ -24,7 +24,11 @@ pub(crate) fn reference() -> String {
     page.schema = ScenarioSpec::schema();
     let root = page.schema.json()["properties"].as_object().unwrap();
     for (key, part) in root {
-        page.inner(part, key);
+        match key.as_str() {
+            // Its keys are those of another section.
+            "models" => page.head("`[models.NAME]`", part, part),
+            _ => page.inner(part, key),
+        }
     }
     page.shared();
     page.text
@@ -73,7 +77,17 @@ impl<'s> Page<'s> {
     fn head(&mut self, heading: &str, part: &Json, inner: &Json) {
         let of_type = self.schema.keywords(inner).unwrap().get("description");
         let mut all: Vec<String> = Vec::new();
-        for text in [part.get("description"), inner.get("description"), of_type] {
+        let each = self.schema.keywords(inner).unwrap();
+        let each = each
+            .get("additionalProperties")
+            .and_then(|each| self.schema.keywords(each));
+        let of_each = each.and_then(|each| each.get("description"));
+        for text in [
+            part.get("description"),
+            inner.get("description"),
+            of_type,
+            of_each,
+        ] {
             let text = text.and_then(Json::as_str).unwrap_or_default();
             let text = text.replace("\n\n", " ");
             if !text.is_empty() && !all.contains(&text) {

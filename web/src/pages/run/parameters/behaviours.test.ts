@@ -16,6 +16,17 @@ test("a robot kind without behaviours searches by random bounce", () => {
   expect(isOn(behaviours, named("Flock"))).toBe(false);
 });
 
+test("a robot kind has the behaviours of its model, unless it lists others", () => {
+  const brain = { behaviours: [{ kind: "frontier" }], arbitration: { kind: "goals" } };
+  const models = { cart: { model: "base" }, base: { model: "cart", brain } };
+  const robots = { a: { model: "cart" }, b: { model: "cart", brain: { behaviours: [{ kind: "avoid" }] } } };
+  const document = { models, robots };
+  expect(kinds(behavioursOf(document, "a"))).toEqual(["frontier"]);
+  expect(kinds(behavioursOf(document, "b"))).toEqual(["avoid"]);
+  expect(usesGoals(document, "b")).toBe(true);
+  expect(usesGoals({ models, robots: { c: { model: "ugv" } } }, "c")).toBe(false);
+});
+
 test("switching off and on again gives the behaviour back with its values, below the reflexes", () => {
   const off = switched(seekers, named("Search"), [], true);
   expect(kinds(off)).toEqual(["return_home", "avoid"]);

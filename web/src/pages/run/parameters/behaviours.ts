@@ -1,5 +1,5 @@
 import type { Json, Table } from "../../../api/protocol";
-import { valueAt } from "./list";
+import { type Step, valueAt } from "./list";
 import { isTable } from "./schema";
 
 export interface Behaviour {
@@ -31,7 +31,7 @@ const defaultBehaviours: Behaviour[] = [{ kind: "cruise" }, { kind: "random_boun
 const reflexes = new Set(["avoid", "return_home"]);
 
 export function behavioursOf(document: Table, robotKind: string): Behaviour[] {
-  const given = valueAt(document, ["robots", robotKind, "brain", "behaviours"]);
+  const given = valueOfKind(document, robotKind, ["brain", "behaviours"]);
   return Array.isArray(given) ? given.filter(isBehaviour) : defaultBehaviours;
 }
 
@@ -59,8 +59,21 @@ export function switched(
 
 /** Whether the brain of a robot kind selects goals. */
 export function usesGoals(document: Table, robotKind: string): boolean {
-  const arbitration = valueAt(document, ["robots", robotKind, "brain", "arbitration"]);
+  const arbitration = valueOfKind(document, robotKind, ["brain", "arbitration"]);
   return isTable(arbitration) && arbitration.kind === "goals";
+}
+
+/** A value of a robot kind, or of the models of the scenario that it is based on. */
+function valueOfKind(document: Table, robotKind: string, steps: Step[]): Json | undefined {
+  const known = new Set<string>();
+  let place: [string, string] = ["robots", robotKind];
+  while (true) {
+    const value = valueAt(document, [...place, ...steps]);
+    const model = valueAt(document, [...place, "model"]);
+    if (value !== undefined || typeof model !== "string" || known.has(model)) return value;
+    known.add(model);
+    place = ["models", model];
+  }
 }
 
 function firstKind(toggle: Switch, goals: boolean): string {

@@ -13,6 +13,7 @@ const document: Table = {
   clock: { time_limit_s: 120 },
   world: { size_m: [25, 20], obstacles: [{ circle: { at_m: [8, 16], radius_m: 1.5 } }] },
   items: { mine: { count: 4 } },
+  models: { cart: { model: "ugv", price: 9000 } },
   robots: {
     rover: {
       model: "ugv",
@@ -61,9 +62,16 @@ test("values of a bundled robot model are listed as defaults", () => {
 test("names to choose from are choices", () => {
   expect(at("robots.rover.model")).toMatchObject({
     type: "choice",
-    choices: ["tracked", "ugv", "quadrotor"],
+    choices: ["tracked", "ugv", "quadrotor", "cart"],
   });
+  expect(at("models.cart.model")).toMatchObject({ type: "choice", value: "ugv" });
   expect(at("robots.rover.layer")).toMatchObject({ choices: ["ground", "air"], fallback: "ground" });
+});
+
+test("the values of a model of the scenario are parameters", () => {
+  expect(at("models.cart.price")).toMatchObject({ type: "number", minimum: 0, value: 9000 });
+  expect(at("models.cart.drive.max_speed_m_s")).toMatchObject({ value: undefined });
+  expect(at("models.cart.count")).toBeUndefined();
 });
 
 test("entries of lists are listed by their kind", () => {

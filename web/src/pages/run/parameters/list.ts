@@ -25,7 +25,7 @@ export function parametersOf(root: Schema, document: Table, kinds: KindView[] = 
   const top = Object.entries(root.properties ?? {}).filter(([name]) => !notOfRun.has(name));
   const known = knownOf(kinds);
   return top.flatMap(([name, schema]) =>
-    new SchemaWalk(root).at(schema, document[name], known[name], [name]),
+    new SchemaWalk(root, document).at(schema, document[name], known[name], [name]),
   );
 }
 
@@ -57,7 +57,7 @@ function replaced(whole: Json, [step, ...rest]: Step[], value: Json): Json {
   return { ...table, [step]: replaced(table[step] ?? {}, rest, value) };
 }
 
-/** Values that bundled robot models supply and scenarios leave out, as far as the setting contains them. */
+/** Values that robot models supply and robot kinds leave out, as far as the setting contains them. */
 function knownOf(kinds: KindView[]): Table {
   const robots = kinds.map((kind): [string, Json] => {
     const sensors = kind.sensors.map((sensor): [string, Json] => [
@@ -81,15 +81,18 @@ function degrees(rad: number): number {
 }
 
 class SchemaWalk {
-  constructor(private readonly root: Schema) {}
+  constructor(
+    private readonly root: Schema,
+    private readonly document: Table,
+  ) {}
 
   at(given: Schema, value: Json | undefined, known: Json | undefined, steps: Step[]): Parameter[] {
     const outer = resolved(given, this.root);
-    const choices = choicesOf(outer, this.root);
+    const choices = choicesOf(outer, this.root, this.document);
     if (choices) return [this.parameter(outer, "choice", choices, value, known, steps)];
     const schema = variantOf(outer, value ?? known, this.root);
     if (!schema) return [];
-    const names = choicesOf(schema, this.root);
+    const names = choicesOf(schema, this.root, this.document);
     if (names) return [this.parameter(outer, "choice", names, value, known, steps)];
     const { type } = schema;
     if (type === "number" || type === "integer" || type === "boolean") {

@@ -1,4 +1,4 @@
-import type { Json } from "../../../api/protocol";
+import type { Json, Table } from "../../../api/protocol";
 
 /** The part of JSON Schema that the page uses. */
 export interface Schema {
@@ -22,6 +22,8 @@ export interface Schema {
   minItems?: number;
   maxItems?: number;
   definitions?: Record<string, Schema>;
+  /** The table of the document whose keys are allowed besides the names of the alternatives. */
+  "x-names"?: string;
 }
 
 /** The schema with its references inlined; its own keys take precedence. */
@@ -46,8 +48,14 @@ export function variantOf(schema: Schema, value: Json | undefined, root: Schema)
   return alternatives.find((one) => fits(one, value)) ?? null;
 }
 
-/** The allowed names, if the schema allows only names. */
-export function choicesOf(schema: Schema, root: Schema): string[] | null {
+/** The allowed names, if the schema allows only names, some of which may be keys of a table of the document. */
+export function choicesOf(schema: Schema, root: Schema, document: Table): string[] | null {
+  const { "x-names": table, ...rest } = schema;
+  if (table !== undefined) {
+    const [listed, others] = [rest.anyOf?.[0], document[table]];
+    const names = listed && choicesOf(resolved(listed, root), root, document);
+    return [...(names ?? []), ...(isTable(others) ? Object.keys(others) : [])];
+  }
   if (schema.enum) return schema.enum.filter((name): name is string => typeof name === "string");
   const alternatives = (schema.anyOf ?? schema.oneOf)?.map((one) => resolved(one, root).const);
   if (!alternatives || alternatives.length === 0) return null;

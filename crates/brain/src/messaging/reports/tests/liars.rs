@@ -94,3 +94,23 @@ fn an_item_earns_trust_once_however_often_it_is_reported() {
     assert!(after[0] > TrustSpec::default().initial);
     assert!((after[1] - after[0]).abs() < 1e-9, "{after:?}");
 }
+
+#[test]
+fn a_miss_of_a_robot_with_a_poor_position_is_not_support() {
+    let mut items = Items::default();
+    let lie = report(7, 1.0);
+    receive(&mut items, ME, &lie);
+    let alone = confidence(&items, ME);
+    let (observer, mut of_observer) = (robot(1), Items::default());
+    with_initial_trust(observer, |reception| {
+        of_observer.receive(reception, &lie, 4.0, &[PER_M2]);
+    });
+    miss(&mut of_observer, observer);
+    let own = sent(&mut of_observer);
+    let own = own.iter().find(|sent| sent.provenance.observer == observer);
+    let missed = own.expect("it reports its miss");
+    let prior = TAU * 0.01 * PER_M2;
+    assert!(missed.confidence > prior, "{}", missed.confidence);
+    receive(&mut items, ME, missed);
+    assert!(confidence(&items, ME) <= alone);
+}

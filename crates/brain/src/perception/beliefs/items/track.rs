@@ -16,6 +16,9 @@ pub(crate) const MIN_DEVIATION_M: f64 = 0.05;
 /// Limit of the log odds that an item exists, in nats.
 pub(crate) const MAX_LOG_ODDS: f64 = 15.0;
 
+/// The highest probability of an item before any observation.
+pub(crate) const MAX_PRIOR: f64 = 0.1;
+
 /// A track of an item, or of false alarms.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Track {
@@ -169,7 +172,7 @@ impl Source {
 
 /// Prior log odds of an item at a position with a variance, given the density of items.
 fn prior_log_odds(variance_m2: f64, per_m2: f64) -> f64 {
-    log_odds((2.0 * PI * variance_m2 * per_m2).clamp(1e-9, 0.1))
+    log_odds((2.0 * PI * variance_m2 * per_m2).clamp(1e-9, MAX_PRIOR))
 }
 
 pub(crate) fn log_odds(probability: f64) -> f64 {
