@@ -8,6 +8,12 @@ const computing_ms = 5 * hang_ms;
 const request: StudyRequest = {
   scenario: "search",
   text: null,
+  question: "merit",
+  require: null,
+  probability: null,
+  tolerance: null,
+  minimize: null,
+  where: null,
   vary: {},
   design: null,
   delta: null,
@@ -67,7 +73,7 @@ export async function alterStudy(page: Page, values: Partial<Study>): Promise<vo
 }
 
 export const studyAt = ({ url }: RealServer, id: string) => `${url}/#/study?id=${id}`;
-export const formAt = ({ url }: RealServer) => `${url}/#/study/new?scenario=search`;
+export const formAt = ({ url }: RealServer, scenario = "search") => `${url}/#/study/new?scenario=${scenario}`;
 export const recommendation = (page: Page) =>
   page.getByText(/^Send \d rovers?(\.$| only if that is acceptable)/);
 

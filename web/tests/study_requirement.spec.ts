@@ -1,5 +1,5 @@
 import { altered, asOnPhone, expect, expectAccessible, expectToFit } from "./page";
-import { alterStudy, post, studyAt, summaryOf, test as base } from "./studies";
+import { alterStudy, formAt, post, studyAt, summaryOf, test as base } from "./studies";
 import { hang_ms } from "../dev/real-server.mjs";
 
 const request = {
@@ -63,4 +63,24 @@ test("the answer to a requirement is its verdict", async ({ page, server, requir
   await expectAccessible(page);
   await page.getByRole("link", { name: "1 wanderer" }).first().click();
   await expect(page.getByRole("dialog", { name: "Runs of 1 wanderer" })).toBeVisible();
+});
+
+test("a requirement is entered in the form, with its errors beside the fields", async ({ page, server }) => {
+  await page.goto(formAt(server, "classic"));
+  const conditions = page.getByRole("textbox", { name: "Conditions" });
+  await expect(conditions).toBeHidden();
+  await page.getByRole("combobox", { name: "Question" }).selectOption("requirement");
+  await expect(page.getByRole("textbox", { name: "Delta" })).toBeHidden();
+  await conditions.fill("tim_s <= 40");
+  await page.getByRole("textbox", { name: "Probability" }).fill("1.8");
+  await expect(conditions).toHaveAccessibleDescription(/time_s/);
+  await expect(page.getByRole("textbox", { name: "Probability" })).toHaveAccessibleDescription(/must be/);
+  await expect(page.getByRole("button", { name: "Start" })).toBeDisabled();
+  await expectAccessible(page);
+  await conditions.fill("time_s <= 40\nfailed <= 0");
+  await page.getByRole("textbox", { name: "Probability" }).fill("0.8");
+  await page.getByRole("textbox", { name: "Tolerance" }).fill("0.1");
+  await page.getByRole("textbox", { name: "Number of wanderers" }).fill("1..5");
+  await page.getByRole("button", { name: "Start" }).click();
+  await expect(page.getByText(/^Send \d wanderers\.$/)).toBeVisible({ timeout: 4 * hang_ms });
 });

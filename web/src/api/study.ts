@@ -13,6 +13,9 @@ export interface Requirement {
   tolerance: number;
 }
 
+/** The best by merit, or the cheapest that meets a requirement. */
+export type Question = "merit" | "requirement";
+
 /** A scenario of the server by id, or the text of one: exactly one of the two. */
 export type ScenarioSource = { scenario: string; text: null } | { scenario: null; text: string };
 
@@ -22,7 +25,7 @@ export interface Factor {
   value: Value | null;
   low: number | null;
   high: number | null;
-  whole: boolean;
+  kind: "whole" | "real" | "choice";
   /** The choices, if it is not a number. */
   values: Value[] | null;
   /** The scenario's own range, such as `1..8`. */
@@ -39,9 +42,24 @@ export interface Factors {
   merit: string;
   delta: number | null;
   confidence: number;
+  /** That of the scenario; null without one. */
+  requirement: Requirement | null;
+  /** Columns that conditions can be about. */
+  columns: string[];
+  /** What a study with a requirement minimizes. */
+  minimize: string;
+  /** Limits the combinations; null if all are compared. */
+  where: string | null;
 }
 
+/** Parts that belong to the other question are null. */
 export type StudyRequest = ScenarioSource & {
+  question: Question;
+  require: string[] | null;
+  probability: number | null;
+  tolerance: number | null;
+  minimize: string | null;
+  where: string | null;
   vary: Record<string, string>;
   design: string | null;
   delta: number | null;

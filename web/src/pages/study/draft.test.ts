@@ -4,7 +4,7 @@ import type { Factor, Factors, ScenarioSource } from "../../api/study";
 import { requestOf, type Draft, draftOf, rangeText, teamOf, fieldErrors } from "./draft";
 
 const factor = (path: string, value: number, varied: string | null): Factor => {
-  return { path, value, low: 0, high: 250, whole: true, values: null, varied };
+  return { path, value, low: 0, high: 250, kind: "whole", values: null, varied };
 };
 const known: Factors = {
   name: "classic",
@@ -20,6 +20,10 @@ const known: Factors = {
   merit: "equation-5.2",
   delta: 0.01,
   confidence: 0.95,
+  requirement: null,
+  columns: ["time_s", "collisions"],
+  minimize: "robots",
+  where: null,
 };
 const source: ScenarioSource = { scenario: "classic", text: null };
 const requested = (change: Partial<Draft>) =>
@@ -84,7 +88,7 @@ test("errors are assigned to the fields that they refer to", () => {
 
 test("allowed values are described", () => {
   expect(rangeText(factor("a", 1, null))).toBe("whole numbers from 0 to 250");
-  expect(rangeText({ ...factor("a", 1, null), whole: false, high: null })).toBe("numbers from 0");
+  expect(rangeText({ ...factor("a", 1, null), kind: "real", high: null })).toBe("numbers from 0");
   expect(rangeText({ ...factor("a", 1, null), values: ["touch", "ahead"] })).toBe("touch, ahead");
 });
 
@@ -94,4 +98,45 @@ test("a robot kind is recognised by its path", () => {
     null,
     null,
   ]);
+});
+
+test("each question is requested with its own parts only", () => {
+  const filled = {
+    delta: "0.05",
+    merit: "m",
+    require: " time_s <= 60 \n\ncollisions <= 0",
+    probability: "0.9",
+    minimize: "price",
+  };
+  expect(requested({ ...filled, question: "requirement" })).toMatchObject({
+    request: {
+      question: "requirement",
+      require: ["time_s <= 60", "collisions <= 0"],
+      probability: 0.9,
+      tolerance: null,
+      minimize: "price",
+      delta: null,
+      guarantee: null,
+      merit: null,
+    },
+  });
+  expect(requested({ ...filled, question: "merit" })).toMatchObject({
+    request: { question: "merit", require: null, probability: null, minimize: null, delta: 0.05, merit: "m" },
+  });
+});
+
+test("the question is that of the scenario, and errors of conditions are beside them", () => {
+  const requirement = { words: "", conditions: ["time_s <= 60"], probability: 0.9, tolerance: 0.02 };
+  const draft = draftOf({ ...known, requirement });
+  expect(draft.question).toBe("requirement");
+  const paths = ["require.all[1]", "require.probability", "study.minimize"];
+  const errors = fieldErrors(
+    paths.map((path) => inputError(path, path)),
+    draft,
+  );
+  expect(errors).toEqual({
+    require: "require.all[1]",
+    probability: "require.probability",
+    minimize: "study.minimize",
+  });
 });

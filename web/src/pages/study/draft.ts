@@ -1,10 +1,17 @@
-import type { Factor, Factors, Guarantee, ScenarioSource, StudyRequest } from "../../api/study";
+import type { Factor, Factors, Guarantee, Question, ScenarioSource, StudyRequest } from "../../api/study";
 import type { InputError } from "../../api/protocol";
 
 /** The text fields of the study form; empty fields use the scenario's value or the default. */
 export interface Draft {
   /** By path, for all factors in the form; empty: not varied. */
   vary: Record<string, string>;
+  question: Question;
+  /** One condition per line. */
+  require: string;
+  probability: string;
+  tolerance: string;
+  minimize: string;
+  where: string;
   design: string;
   delta: string;
   confidence: string;
@@ -18,15 +25,21 @@ export interface Draft {
 /** Error messages by field; general ones under "". */
 export type FieldErrors = Record<string, string>;
 
-const numbers = ["delta", "confidence", "runs", "max_runs"] as const;
+const numbers = ["delta", "confidence", "runs", "max_runs", "probability", "tolerance"] as const;
 const defaultGuarantee: Guarantee = "indifference";
 const teamPath = /^robots\.([^.]+)\.count$/;
 
 /** A draft with the scenario's own factors and the counts of all robot kinds. */
-export function draftOf({ factors }: Factors): Draft {
+export function draftOf({ factors, requirement }: Factors): Draft {
   const offered = factors.filter(({ path, varied }) => varied !== null || teamPath.test(path));
   return {
     vary: Object.fromEntries(offered.map(({ path, varied }) => [path, varied ?? ""])),
+    question: requirement === null ? "merit" : "requirement",
+    require: "",
+    probability: "",
+    tolerance: "",
+    minimize: "",
+    where: "",
     design: "",
     delta: "",
     confidence: "",
@@ -52,20 +65,49 @@ export function requestOf(
   if (Object.values(draft.vary).every((text) => text.trim() === ""))
     errors[""] = "No factor is varied: enter at least one range, such as 1..8.";
   if (Object.keys(errors).length > 0) return { errors };
-  const [delta, confidence, runs, max_runs] = numbers.map((name) => numberOf(draft[name]));
   const request = {
     ...source,
+    ...(draft.question === "merit" ? meritOf(draft) : requirementOf(draft)),
     vary: variedOf(draft, factors),
+    where: draft.where.trim() || null,
     design: draft.design.trim() || null,
-    delta: delta ?? null,
-    confidence: confidence ?? null,
-    guarantee: draft.guarantee === defaultGuarantee ? null : draft.guarantee,
-    merit: draft.merit.trim() || null,
-    runs: runs ?? null,
-    max_runs: max_runs ?? null,
+    confidence: numberOf(draft.confidence),
+    max_runs: numberOf(draft.max_runs),
     seed: draft.seed.trim() || "0",
   };
   return { request };
+}
+
+/** What only a study of the best by merit has. */
+function meritOf(draft: Draft) {
+  return {
+    question: "merit" as const,
+    delta: numberOf(draft.delta),
+    guarantee: draft.guarantee === defaultGuarantee ? null : draft.guarantee,
+    merit: draft.merit.trim() || null,
+    runs: numberOf(draft.runs),
+    require: null,
+    probability: null,
+    tolerance: null,
+    minimize: null,
+  };
+}
+
+/** What only a study of a requirement has. */
+function requirementOf(draft: Draft) {
+  const conditions = draft.require.split("\n").map((line) => line.trim());
+  const require = conditions.filter((line) => line !== "");
+  return {
+    question: "requirement" as const,
+    require: require.length > 0 ? require : null,
+    probability: numberOf(draft.probability),
+    tolerance: numberOf(draft.tolerance),
+    minimize: draft.minimize.trim() || null,
+    delta: null,
+    guarantee: null,
+    merit: null,
+    runs: null,
+  };
 }
 
 /** The messages of input errors, by the field of `draft` that they refer to. */
@@ -90,9 +132,9 @@ export function teamOf(path: string): string | null {
 }
 
 /** The allowed values of a factor. */
-export function rangeText({ low, high, whole, values }: Factor): string {
+export function rangeText({ low, high, kind: type, values }: Factor): string {
   if (values) return values.map(String).join(", ");
-  const kind = whole ? "whole numbers" : "numbers";
+  const kind = type === "whole" ? "whole numbers" : "numbers";
   if (low !== null && high !== null) return `${kind} from ${numberText(low)} to ${numberText(high)}`;
   if (low !== null) return `${kind} from ${numberText(low)}`;
   return high === null ? kind : `${kind} up to ${numberText(high)}`;
@@ -106,11 +148,13 @@ function numberOf(text: string): number | null {
   return text.trim() === "" ? null : Number(text);
 }
 
-/** `study.vary."robots.rover.count"` refers to `robots.rover.count`. */
+/** `study.vary."robots.rover.count"` refers to `robots.rover.count`, and `require.all[0]` to `require`. */
 function fieldOf(path: string): string {
   return path
     .replace(/^study\./, "")
     .replace(/^vary\./, "")
+    .replace(/^require\.all.*$/, "require")
+    .replace(/^require\./, "")
     .replaceAll('"', "");
 }
 
