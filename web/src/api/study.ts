@@ -46,7 +46,7 @@ export interface Factors {
   requirement: Requirement | null;
   /** Columns that conditions can be about. */
   columns: string[];
-  /** What a study with a requirement minimizes. */
+  /** The quantity to be minimal in a study with a requirement. */
   minimize: string;
   /** Limits the combinations; null if all are compared. */
   where: string | null;
