@@ -55,7 +55,11 @@ test("a race with a requirement has the status of each configuration as text", a
   await expectToFit(page);
 });
 
-test("a race is scaled to its contenders, until all teams are wanted", async ({ page, server, required }) => {
+test("a race is scaled to its contenders, until all teams are selected", async ({
+  page,
+  server,
+  required,
+}) => {
   const stopped = { state: "stopped", message: null } as const;
   await altered(page, (sent) => (sent.type === "study_progress" ? { ...sent, ...stopped } : sent));
   await alterStudy(page, { ...stopped, answer: null, is_recommended: null });
@@ -68,7 +72,7 @@ test("a race is scaled to its contenders, until all teams are wanted", async ({ 
   await expectAccessible(page);
 });
 
-test("a chart of the answer is scaled to the contenders, until all teams are wanted", async ({
+test("a chart of the answer is scaled to the contenders, until all teams are selected", async ({
   page,
   server,
   required,

@@ -28,6 +28,8 @@ export interface Factor {
   kind: "whole" | "real" | "choice";
   /** The choices, if it is not a number. */
   values: Value[] | null;
+  unit: string | null;
+  help: string;
   /** The scenario's own range, such as `1..8`. */
   varied: string | null;
 }
