@@ -3,6 +3,7 @@ import type {
   Factors,
   ScenarioSource,
   Study,
+  StudyList,
   StudyPlan,
   StudyRequest,
   StudyRuns,
@@ -18,7 +19,7 @@ export function plan(study: StudyRequest, signal?: AbortSignal): Promise<StudyPl
 }
 
 export async function studies(): Promise<StudySummary[]> {
-  const { studies } = await get<{ studies: StudySummary[] }>("api/studies");
+  const { studies } = await get<StudyList>("api/studies");
   return studies;
 }
 

@@ -32,6 +32,7 @@ from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.requests import StudyRequestError
 from agent_economy.server.workspace import Workspace
 from agent_economy.study.store.folder import ANSWER, REPORT
+from agent_economy.types import page
 
 DEFAULT_COUNT = "500"
 """Number of runs in a response, by default."""
@@ -75,7 +76,8 @@ class Routes:
 
     def listed(self, _: dict[str, str]) -> Response:
         """Return all studies."""
-        return JSONResponse({"studies": self.studies.listed()})
+        found: page.StudyList = {"studies": self.studies.listed()}
+        return JSONResponse(found)
 
     def start(self, body: dict[str, Any]) -> Response:
         """Start or resume a study."""
@@ -91,16 +93,17 @@ class Routes:
 
     def study(self, query: dict[str, str]) -> Response:
         """Return a study with its answer, if it has one."""
-        name = id_of(query)
+        return JSONResponse(self.found(id_of(query)))
+
+    def found(self, name: str) -> page.Study:
+        """Return a study by its id."""
         row, plan = self.studies.of(name), self.studies.plan(name)
-        return JSONResponse(
-            {
-                **row,
-                "planned": requests.planned(plan, name, row["state"]),
-                "source": {"scenario": gallery_id(plan.scenario, self.workspace)},
-                "answer": self.answers.of(self.studies.folder(name)),
-            }
-        )
+        return {
+            **row,
+            "planned": requests.planned(plan, name, row["state"]),
+            "source": {"scenario": gallery_id(plan.scenario, self.workspace)},
+            "answer": self.answers.of(self.studies.folder(name)),
+        }
 
     def runs(self, query: dict[str, str]) -> Response:
         """Return runs of a configuration of a study."""
