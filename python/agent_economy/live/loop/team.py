@@ -52,44 +52,51 @@ class Team:
             self._robots[robot.name] = Percepts(robot, frame, base, seed, start_s)
             self._bodies[robot.name] = bodies[kind]
         self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
+        self._ordered = {name: len(waypoints_m.get(name, ())) for name in self._robots}
         self._motions = dict.fromkeys(self._robots, STOP)
         self._verdicts: dict[tuple[str, str], str] = {}
 
     def add(self, message: Mapping[str, Any]) -> None:
-        """Take a line or an event of the warden."""
-        robot = self._robots[message["robot"]]
+        """Take a line, an event or an order of the warden."""
+        name = message["robot"]
+        robot = self._robots[name]
         if message["type"] == "line":
             robot.add_line(message["port"], message["line"].encode("latin-1"), message["t"])
         elif message["type"] == "event":
             robot.add_event(message)
+        elif message["type"] == "order":
+            self._orders[name].append(order(self._ordered[name], message["at_m"], "assign"))
+            self._ordered[name] += 1
 
     def percepts(self, tick: int, now_s: float) -> dict[str, Percept]:
-        """Return the percepts of the robots whose brains step in a tick: of those that are armed.
+        """Return the percepts of the robots whose brains step in a tick.
 
-        The brain of a robot that may not move does not step: it would find that it gets nowhere.
+        The brain of a robot that may not move, or that an operator drives, does not step: it would
+        find that it gets nowhere.
         """
         step_s = self._simulation.step_s
         percepts = {}
         for name, robot in self._robots.items():
             every = max(1, round(self._bodies[name]["period_s"] / step_s))
-            if robot.is_armed and tick % every == 0:
+            if robot.is_driving and tick % every == 0:
                 sonars = len(self._bodies[name]["rings"])
                 percepts[name] = robot.percept(tick, now_s, sonars)
-                percepts[name]["inbox"] = self._orders.pop(name, [])
+                percepts[name]["inbox"] = self._orders[name]
+                self._orders[name] = []
         return percepts
 
     def motions(self, commands: Mapping[str, Command]) -> dict[str, Setpoint]:
-        """Return the setpoint of each robot: its last command, or stop while it is not armed."""
+        """Return the setpoint of each robot: its last command, or stop while it steps no brain."""
         for name, command in commands.items():
             motion, heading_rad = command["motion"], command["heading_rad"]
             speed, rate = motion["speed_m_s"], motion["turn_rate_rad_s"]
             self._motions[name] = (speed, rate, heading_rad)
         for name, robot in self._robots.items():
-            if not robot.is_armed:
+            if not robot.is_driving:
                 self._motions[name] = STOP
         return dict(self._motions)
 
-    def new_verdicts(self) -> Iterator[dict[str, str]]:
+    def new_verdicts(self) -> Iterator[dict[str, Any]]:
         """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot.
 
         A verdict counts as reported when the next one is taken, so that one that could not be
@@ -99,7 +106,9 @@ class Team:
             for number, goal in enumerate(self._simulation.assigned_goals(name), 1):
                 key = (name, str(number))
                 if self._verdicts.get(key) != goal["verdict"]:
-                    yield {"robot": name, "goal": key[1], "verdict": goal["verdict"]}
+                    served_by = name if goal["verdict"] == "complete" else None
+                    where = {"at_m": goal["at"], "served_by": served_by}
+                    yield {"robot": name, "goal": key[1], "verdict": goal["verdict"], **where}
                     self._verdicts[key] = goal["verdict"]
 
 
