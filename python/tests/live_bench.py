@@ -27,11 +27,11 @@ SETTINGS = {"range_unit_m": 1.0, "no_echo": 99.0}
 BENDER = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
 
 
-def changed_scenario(path: Path, changes: Mapping[str, str]) -> Path:
-    """Write the scenario bender with other lines, by what the lines begin with."""
+def changed_scenario(path: Path, changes: Mapping[str, str], bundled: Path = BENDER) -> Path:
+    """Write a scenario, by default bender, with other lines, by what the lines begin with."""
     lines = [
         next((text for key, text in changes.items() if line.strip().startswith(key)), line)
-        for line in BENDER.read_text(encoding="utf-8").splitlines()
+        for line in bundled.read_text(encoding="utf-8").splitlines()
     ]
     path.write_text("\n".join(lines), encoding="utf-8")
     return path

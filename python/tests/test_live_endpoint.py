@@ -1,4 +1,4 @@
-"""The warden's endpoint over real sockets: what it takes, whom it obeys; stop never waits."""
+"""The endpoint of the warden over real sockets: authority, limits, and a stop that never waits."""
 
 import asyncio
 import itertools

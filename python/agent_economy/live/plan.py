@@ -57,6 +57,7 @@ class RobotPlan:
         deadman_s: Time after which the robot stops by itself without a motor line; None if it
             has no such timer.
         repeat_s: Time between two motor lines of the same motion.
+        takes_orders: Whether its brain visits waypoints that an operator orders.
     """
 
     name: str
@@ -72,6 +73,7 @@ class RobotPlan:
     fence_m: tuple[Point, ...] | None = None
     deadman_s: float | None = None
     repeat_s: float = 0.2
+    takes_orders: bool = True
 
 
 @dataclass(frozen=True)

@@ -89,6 +89,9 @@ class Loop:
         for goal in self._team.new_verdicts():
             if not self._pipe.send({"type": "goal", **goal}):
                 break  # The others are new in the next step, too.
+        for silence in self._team.new_silence():
+            if not self._pipe.send({"type": "radio", **silence}):
+                break
         if self._inputs is not None:
             self._inputs.append({"type": "input", "tick": tick, "inputs": strict(percepts)})
             while self._inputs and self._pipe.send(self._inputs[0]):

@@ -5,6 +5,7 @@ from typing import Any
 
 from agent_economy import _core
 from agent_economy.live.loop.percepts import Percepts, frame_of
+from agent_economy.live.loop.shared import shared_by
 from agent_economy.live.plan import FleetPlan
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
@@ -54,7 +55,10 @@ class Team:
         self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
         self._ordered = {name: len(waypoints_m.get(name, ())) for name in self._robots}
         self._motions = dict.fromkeys(self._robots, STOP)
-        self._verdicts: dict[tuple[str, str], str] = {}
+        self._shared = tuple(shared_by(simulation.scenario.to_dict(), self._robots))
+        self._now_s = start_s
+        self._verdicts: dict[tuple[str, str], tuple[str, str | None]] = {}
+        self._silent: set[str] = set()
 
     def add(self, message: Mapping[str, Any]) -> None:
         """Take a line, an event or an order of the warden."""
@@ -74,7 +78,7 @@ class Team:
         The brain of a robot that may not move, or that an operator drives, does not step: it would
         find that it gets nowhere.
         """
-        step_s = self._simulation.step_s
+        step_s, self._now_s = self._simulation.step_s, now_s
         percepts = {}
         for name, robot in self._robots.items():
             every = max(1, round(self._bodies[name]["period_s"] / step_s))
@@ -91,6 +95,9 @@ class Team:
             motion, heading_rad = command["motion"], command["heading_rad"]
             speed, rate = motion["speed_m_s"], motion["turn_rate_rad_s"]
             self._motions[name] = (speed, rate, heading_rad)
+            for waypoints in self._shared:
+                if name in waypoints.robots:
+                    waypoints.add(name, command["outbox"], self._now_s)
         for name, robot in self._robots.items():
             if not robot.is_driving:
                 self._motions[name] = STOP
@@ -100,16 +107,34 @@ class Team:
         """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot.
 
         A verdict counts as reported when the next one is taken, so that one that could not be
-        sent is yielded again the next time.
+        sent is yielded again the next time. A waypoint that a team shares is a goal of each of
+        its robots, with the name of the one that goes or went there.
         """
         for name in self._robots:
-            for number, goal in enumerate(self._simulation.assigned_goals(name), 1):
+            goals = [*self._own_goals(name), *self._shared_goals(name)]
+            for number, goal in enumerate(goals, 1):
                 key = (name, str(number))
-                if self._verdicts.get(key) != goal["verdict"]:
-                    served_by = name if goal["verdict"] == "complete" else None
-                    where = {"at_m": goal["at"], "served_by": served_by}
-                    yield {"robot": name, "goal": key[1], "verdict": goal["verdict"], **where}
-                    self._verdicts[key] = goal["verdict"]
+                state = (goal["verdict"], goal["served_by"])
+                if self._verdicts.get(key) != state:
+                    yield {"robot": name, "goal": key[1], **goal}
+                    self._verdicts[key] = state
+
+    def new_silence(self) -> Iterator[dict[str, Any]]:
+        """Yield the robots of teams that have become silent on the radio, or are so no more."""
+        silent = set().union(*(each.silent(self._now_s) for each in self._shared))
+        for name in sorted(silent ^ self._silent):
+            yield {"robot": name, "is_silent": name in silent}
+            self._silent ^= {name}
+
+    def _own_goals(self, name: str) -> Iterator[dict[str, Any]]:
+        for goal in self._simulation.assigned_goals(name):
+            served_by = name if goal["verdict"] == "complete" else None
+            yield {"at_m": goal["at"], "verdict": goal["verdict"], "served_by": served_by}
+
+    def _shared_goals(self, name: str) -> Iterator[dict[str, Any]]:
+        for waypoints in self._shared:
+            if name in waypoints.robots:
+                yield from waypoints.verdicts(self._now_s)
 
 
 def orders(waypoints_m: Any) -> list[Any]:

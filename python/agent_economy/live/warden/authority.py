@@ -39,7 +39,7 @@ class Authority:
                 replaced.
         """
         if not isinstance(client, str) or not 0 < len(client) <= MAX_CLIENT_LENGTH:
-            message = f"client must be a text of 1 to {MAX_CLIENT_LENGTH} characters"
+            message = f"client must be a string of 1 to {MAX_CLIENT_LENGTH} characters"
             raise ValueError(message)
         if not take_over:
             self.check(client, now_s)

@@ -200,6 +200,9 @@ class Control:
 
     def _waypoint(self, body: Body) -> Answer:
         robot = self._robot(body)
+        if not robot.takes_orders:
+            message = f"the brain of {robot.name} takes no orders: it has no behaviour correct"
+            raise ValueError(message)
         point = _point(body, self._drive.plan)
         self._check_place(robot, point)
         if len(self._warden.goals.get(robot.name, {})) >= MAX_WAYPOINTS:

@@ -50,6 +50,8 @@ def _level(event: Mapping[str, Any]) -> str:
             return _level_of_robot(event)
         case "goal":
             return "warning" if event["verdict"] == "impossible" else "info"
+        case "radio":
+            return "warning" if event["is_silent"] else "info"
         case "recording_error" | "invalid":
             return "error"
         case "message":

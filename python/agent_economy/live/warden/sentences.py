@@ -14,10 +14,19 @@ def sentence(event: Mapping[str, Any]) -> str:
             return robot_sentence(event)
         case "goal":
             return f"{event['robot']}: waypoint {event['goal']}: {event['verdict']}" + server(event)
+        case "radio":
+            return radio_sentence(event)
         case "end":
             return f"Ended: {event['reason']}.{confirmation(event)}{lateness(event)}"
         case _:
             return str(event.get("message", ""))
+
+
+def radio_sentence(event: Mapping[str, Any]) -> str:
+    """Return whether a robot sends to its team, in words."""
+    if event["is_silent"]:
+        return f"{event['robot']}: silent for 10 s: others take over its waypoint"
+    return f"{event['robot']}: sends to its team again"
 
 
 def server(event: Mapping[str, Any]) -> str:

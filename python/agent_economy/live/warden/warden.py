@@ -239,8 +239,8 @@ class Warden:
             case "goal":
                 self.goals.setdefault(message["robot"], {})[message["goal"]] = message
                 self._report(message)
-            case "recording_error":
-                error = message["message"]
+            case "radio" | "recording_error":
+                error = message.get("message", error)
                 self._report(message)
         self._loop_inputs = LoopInputs(True, now, lateness_s, error)  # noqa: FBT003
 
