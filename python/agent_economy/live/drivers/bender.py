@@ -103,16 +103,14 @@ class Bender(Driver):
         ),
         "battery_standing_h": Setting(
             8.0,
-            "Hours for which a full battery lasts while the robot stands. It reports no charge: "
-            "this is for an estimate.",
+            "Hours for which a full battery is assumed to last while the robot stands. It reports "
+            "no charge: this is for the estimate that is displayed.",
             _number(0.01, 1000),
-            is_guess=True,
         ),
         "battery_driving_h": Setting(
             2.0,
-            "Hours for which a full battery lasts while the robot drives; for the estimate.",
+            "Hours for which a full battery is assumed to last while the robot drives.",
             _number(0.01, 1000),
-            is_guess=True,
         ),
         "turn": Setting(
             "motors",
