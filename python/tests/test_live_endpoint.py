@@ -13,6 +13,7 @@ from http.client import HTTPConnection
 from typing import Any
 
 import pytest
+from bare_timer import repeated_if_late
 
 from agent_economy.live import fleet, rules
 from agent_economy.live.clock import now_s
@@ -113,6 +114,7 @@ def test_only_pages_of_the_allowed_origin_may_read_answers(served: Served) -> No
         link.close()
 
 
+@repeated_if_late
 def test_a_stop_is_not_delayed_by_requests_that_never_end_and_many_that_do(served: Served) -> None:
     idle = [socket.create_connection(served.endpoint.address) for _ in range(MAX_CONNECTIONS)]
     for each in idle:
