@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bare_timer import repeated_if_late
 from live_bench import STOP_LINE, Bench, Drive, driving, emulated, fleet_text
 
 import agent_economy as ae
@@ -42,8 +43,8 @@ class Hand:
         lines = [row["line"] for row in self.bench.lines(0) if row["t_s"] > began_s + 0.05]
         return list(dict.fromkeys(lines))
 
-    def start(self) -> None:
-        """Switch to manual mode and arm the robot."""
+    def start(self) -> "Hand":
+        """Switch to manual mode and arm the robot; return itself."""
         self.ask("/operator", take=True)
         self.ask("/mode", robot=ROBOT, mode="manual")
         time.sleep(0.1)  # the next turn
@@ -53,6 +54,7 @@ class Hand:
             self.hold(150, 150, 0.2)
         self.hold(150, 150, 0.3)
         assert self.state["is_armed"], self.state
+        return self
 
 
 @pytest.fixture(scope="module")
@@ -67,12 +69,6 @@ def hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Hand]:
             yield Hand(drive, bench)
 
 
-@pytest.fixture
-def armed(hand: Hand) -> Hand:
-    hand.start()
-    return hand
-
-
 @pytest.mark.parametrize(
     ("left", "right", "lines"),
     [
@@ -82,16 +78,20 @@ def armed(hand: Hand) -> Hand:
         (155, 150, ["x,0,155,", "x,1,150,"]),
     ],
 )
+@repeated_if_late
 def test_a_control_sends_what_it_shows_and_stop_sends_stop_only(
-    armed: Hand, left: int, right: int, lines: list[str]
+    hand: Hand, left: int, right: int, lines: list[str]
 ) -> None:
+    armed = hand.start()
     assert armed.hold(left, right) == lines
     assert armed.state["written"]["line"] == " ".join(lines)
     assert armed.state["written"]["is_acknowledged"]
     assert armed.hold(150, 150) == [STOP_LINE]
 
 
-def test_a_silent_control_stops_the_robot_after_04_s(armed: Hand) -> None:
+@repeated_if_late
+def test_a_silent_control_stops_the_robot_after_04_s(hand: Hand) -> None:
+    armed = hand.start()
     armed.hold(160, 160, 0.5)
     last_s = armed.bench.moves_after(0, 0.0)[-1]
     time.sleep(1.0)
@@ -103,7 +103,9 @@ def test_a_silent_control_stops_the_robot_after_04_s(armed: Hand) -> None:
     assert state["requested"] is None
 
 
-def test_an_emergency_stop_of_any_client_wins_over_a_control_that_is_held(armed: Hand) -> None:
+@repeated_if_late
+def test_an_emergency_stop_of_any_client_wins_over_a_control_that_is_held(hand: Hand) -> None:
+    armed = hand.start()
     armed.hold(160, 160, 0.3)
     assert armed.drive.ask("/stop")[0] == 200
     stopped_s = now_s() + 0.1
@@ -114,7 +116,9 @@ def test_an_emergency_stop_of_any_client_wins_over_a_control_that_is_held(armed:
     assert armed.hold(160, 160, 1.0) == [STOP_LINE]
 
 
-def test_a_robot_in_manual_mode_does_not_follow_its_waypoints(armed: Hand) -> None:
+@repeated_if_late
+def test_a_robot_in_manual_mode_does_not_follow_its_waypoints(hand: Hand) -> None:
+    armed = hand.start()
     quiet_s = now_s()
     armed.hold(150, 150, 2.0)
     assert armed.bench.moves_after(0, quiet_s) == []
