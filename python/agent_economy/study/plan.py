@@ -155,14 +155,18 @@ class Plan:
     def identity(self) -> str:
         """The hash of all that determines the runs: plans with the same identity share a folder.
 
-        It covers the version of the program, the seed, the configurations in their order, and the
-        scenario except for the keys that affect only scores and descriptions. It does not cover the
-        engine: a folder of another build is refused, and not passed over for a new one.
+        It covers the version of the program, the seed, the configurations in their order, the
+        columns of a run, and the scenario except for the keys that affect only scores and
+        descriptions. The columns depend on the whole design: they hold the times of as many finds
+        as any of its item counts allows. It does not cover the engine: a folder of another build is
+        refused, and not passed over for a new one.
         """
         document = self.scenario.to_dict()
         runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}
         files = {name: digest(data) for name, data in self.files.items()}
-        parts = [own_build().program, self.seed, self.runs, self.configurations, runs, files]
+        columns = [(column.name, column.kind) for column in self.engine.columns]
+        made_of = [self.seed, self.runs, self.configurations, columns, runs, files]
+        parts = [own_build().program, *made_of]
         text = json.dumps(parts, sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
 
