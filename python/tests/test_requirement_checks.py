@@ -29,7 +29,7 @@ def warehouse(*conditions: str) -> Scenario:
         "time_until(found_parcel >= 10) <= 20",
     ],
 )
-def test_a_run_that_ends_at_the_ninth_find_is_not_asked_about_the_tenth(condition: str) -> None:
+def test_a_run_that_ends_at_the_ninth_find_shows_nothing_of_the_tenth(condition: str) -> None:
     with pytest.raises(InputError, match=r"until \[end\] ends a run, when found_parcel >= 9"):
         warehouse(condition)
 
