@@ -53,6 +53,11 @@ class Drive:
         """The number of lines that robots sent."""
         return sum(message.get("type") == "line" for _, message in self.messages)
 
+    def lines_of(self, robot: str) -> list[dict[str, Any]]:
+        """Return the lines of a robot, read and written, in order."""
+        lines = (message for topic, message in self.messages if topic.startswith(WIRE))
+        return [each for each in lines if each["robot"] == robot]
+
     def mismatch(self, replayed: Replay) -> int | None:
         """Return the first tick whose percepts or setpoints its lines do not give.
 
