@@ -42,6 +42,7 @@ export type {
   Saving,
   ScenarioEntry,
   SensorView,
+  Series as SeriesAnswer,
   ServerMessage,
   Setting,
   State,
