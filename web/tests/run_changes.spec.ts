@@ -76,7 +76,7 @@ test("a run is studied as it is on the screen, with its changes", async ({ page,
   await expect(page.getByRole("heading", { name: /^New study of/ })).toBeVisible();
 });
 
-test("a damaged address says what could not be read, and opens nothing", async ({ page, server }) => {
+test("a damaged address names what could not be read, and opens nothing", async ({ page, server }) => {
   await page.goto(runAt(server, `${scenario}&tick=1.5&changes=[[1,`));
   await expect(page.getByRole("heading", { name: "This address is damaged" })).toBeVisible();
   await expect(page.getByRole("listitem")).toHaveText(["tick=1.5", "changes=[[1,"]);
