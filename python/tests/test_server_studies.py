@@ -126,6 +126,8 @@ def test_runs_are_listed_with_the_merit_that_the_study_computed(answered: Folder
     assert [run["merit"] for run in sample] == sorted(run["merit"] for run in sample)
     assert sample[0]["merit"] == min(merits)
     assert sample[-1]["merit"] == max(merits)
+    (median,) = answered.get("/api/study/runs", **query, median=1)["runs"]
+    assert median["merit"] == sorted(merits)[(len(merits) - 1) // 2]
 
 
 @pytest.mark.parametrize(

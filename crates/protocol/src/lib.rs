@@ -19,12 +19,12 @@ mod study_form;
 pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
 pub use page::{
     Acknowledge, Change, Empty, Json, Layers, LoggedChange, Open, PageMessage, Play, Seek, Select,
-    Step, StudyMember,
+    SeriesRequest, Step, StudyMember,
 };
 pub use schema::{brain_schema, page_schema};
 pub use server::{
     Ended, Exported, Inspection, MapPart, Opened, OpenedRecording, OpenedScenario, Refused,
-    RobotView, Saved, Saving, ServerMessage, State,
+    RobotView, Saved, Saving, Series, SeriesRow, ServerMessage, State,
 };
 pub use setting::{ItemView, KindView, MapView, RingView, SensorView, Setting, Unit, WorldView};
 pub use study::{RequirementStatus, Standing, StudyProgress, StudyState};

@@ -373,6 +373,7 @@ class Opened(TypedDict):
         seed: The seed as a decimal number.
         run: The number of the run as a decimal number.
         recording: The recording that it was opened from, if any.
+        is_live: Whether it is the live run of the server.
     """
 
     type: Literal["opened"]
@@ -380,6 +381,7 @@ class Opened(TypedDict):
     seed: str
     run: str
     recording: OpenedRecording | None
+    is_live: bool
 
 
 Origin: TypeAlias = Literal["bundled", "folder"]
@@ -531,6 +533,33 @@ class ScenarioEntry(TypedDict):
     engine: Engine
     summary: str
     where: Origin
+
+
+class SeriesRow(TypedDict):
+    """The outcome at a tick, if the run had ended there.
+
+    Attributes:
+        tick: The tick.
+        values: A value per column; null where there is none.
+    """
+
+    tick: int
+    values: Sequence[float | None]
+
+
+class Series(TypedDict):
+    """The outcome over time.
+
+    Attributes:
+        since: The first tick that the rows are about: they replace all rows from here on.
+        columns: The columns with numbers.
+        rows: The rows by tick.
+    """
+
+    type: Literal["series"]
+    since: int
+    columns: Sequence[str]
+    rows: Sequence[SeriesRow]
 
 
 Unit: TypeAlias = Literal["m", "px"]
@@ -948,7 +977,17 @@ class StudyRequest(TypedDict):
 
 
 ServerMessage = (
-    Opened | Setting | State | MapPart | Saving | Saved | Exported | Refused | Ended | StudyProgress
+    Opened
+    | Setting
+    | State
+    | MapPart
+    | Saving
+    | Saved
+    | Exported
+    | Series
+    | Refused
+    | Ended
+    | StudyProgress
 )
 
 
@@ -972,6 +1011,8 @@ class Open(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="open"):
         text: The text of a scenario, TOML.
         study: A configuration of a study; the run is the same as in the study.
         recording: A recording by its id.
+        live: Whether to join the live run of the server, at the present. All pages share it: it
+            can neither be moved nor changed.
         seed: The seed as a decimal number; by default that of the study, or 0. A recording has
             its own.
         run: The number of the run as a decimal number; 0 by default. A recording has its own.
@@ -984,6 +1025,7 @@ class Open(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="open"):
     text: str | None = None
     study: StudyMember | None = None
     recording: str | None = None
+    live: bool = False
     seed: Annotated[str, msgspec.Meta(pattern="^[0-9]{1,20}$")] | None = None
     run: Annotated[str, msgspec.Meta(pattern="^[0-9]{1,20}$")] | None = None
     changes: Sequence[LoggedChange] | None = None
@@ -1077,6 +1119,16 @@ class Layers(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="layer
     footprints: bool
 
 
+class RequestSeries(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="request_series"):
+    """Request the outcome over time.
+
+    Attributes:
+        since: The first tick of that part.
+    """
+
+    since: Annotated[int, msgspec.Meta(ge=0, le=9007199254740992)]
+
+
 class Acknowledge(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="acknowledge"):
     """Acknowledge that a frame has been drawn, and all before it.
 
@@ -1102,5 +1154,6 @@ PageMessage = (
     | Export
     | Select
     | Layers
+    | RequestSeries
     | Acknowledge
 )

@@ -46,6 +46,7 @@ export type {
   Saving,
   ScenarioEntry,
   SensorView,
+  Series as SeriesAnswer,
   ServerMessage,
   Setting,
   State,

@@ -49,6 +49,11 @@ export function sampleOf(id: string, configuration: number, sample: number): Pro
   return get(runsAt(id, configuration, { sample }));
 }
 
+/** The run in the middle, from the worst to the best; of a study with a requirement, from the fastest to the slowest. */
+export function medianOf(id: string, configuration: number): Promise<StudyRuns> {
+  return get(runsAt(id, configuration, { median: 1 }));
+}
+
 export function download(id: string, what: "report" | "answer"): string {
   return `api/study/${what}?${new URLSearchParams({ id })}`;
 }

@@ -6,7 +6,7 @@ POST `/api/studies/stop`: `id`. `/api/studies/resume`: `id`, and a higher `confi
 GET `/api/studies`: all studies, the newest first. `/api/study?id=`: one with its plan and answer.
 `/api/study/report?id=` and `/api/study/answer?id=`: its files.
 `/api/study/runs?id=&configuration=`: its runs, `first` and `count`, or a `sample` of them from the
-worst to the best.
+worst to the best, or the `median`.
 The response to a request with errors is `errors`, with status 422.
 """
 
@@ -113,6 +113,8 @@ class Routes:
         if "sample" in query:
             sample = number("sample", query["sample"])
             return JSONResponse(run_rows.sampled(plan, folder, configuration, sample))
+        if "median" in query:
+            return JSONResponse(run_rows.median(plan, folder, configuration))
         first = number("first", query.get("first", "0"))
         count = number("count", query.get("count", DEFAULT_COUNT))
         return JSONResponse(run_rows.listed(plan, folder, configuration, first, count))

@@ -252,6 +252,8 @@ export interface Open {
   study?: StudyMember | null;
   /** A recording by its id. */
   recording?: string | null;
+  /** Whether to join the live run of the server, at the present. All pages share it: it can neither be moved nor changed. */
+  live?: boolean;
   /** The seed as a decimal number; by default that of the study, or 0. A recording has its own. */
   seed?: string | null;
   /** The number of the run as a decimal number; 0 by default. A recording has its own. */
@@ -272,6 +274,13 @@ export interface Play {
   type: "play";
   /** A multiple of real time; null for as fast as possible. */
   speed?: number | null;
+}
+
+/** Request the outcome over time. */
+export interface RequestSeries {
+  type: "request_series";
+  /** The first tick of that part. */
+  since: number;
 }
 
 /** Save the run up to its latest tick as a recording. */
@@ -305,7 +314,7 @@ export interface Undo {
   type: "undo";
 }
 
-export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Save | CancelSave | Export | Select | Layers | Acknowledge;
+export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Save | CancelSave | Export | Select | Layers | RequestSeries | Acknowledge;
 
 /** A factor of a planned study; it has either values or a range. */
 export interface PlannedFactor {
@@ -424,6 +433,14 @@ export interface SensorView {
   facing_rad: number;
 }
 
+/** The outcome at a tick, if the run had ended there. */
+export interface SeriesRow {
+  /** The tick. */
+  tick: number;
+  /** A value per column; null where there is none. */
+  values: (number | null)[];
+}
+
 /** The server is about to disconnect. */
 export interface Ended {
   type: "ended";
@@ -474,6 +491,8 @@ export interface Opened {
   run: string;
   /** The recording that it was opened from, if any. */
   recording: OpenedRecording | null;
+  /** Whether it is the live run of the server. */
+  is_live: boolean;
 }
 
 /** A message was refused; it changed nothing. */
@@ -501,6 +520,17 @@ export interface Saving {
   done: number;
   /** Total number of steps. */
   steps: number;
+}
+
+/** The outcome over time. */
+export interface Series {
+  type: "series";
+  /** The first tick that the rows are about: they replace all rows from here on. */
+  since: number;
+  /** The columns with numbers. */
+  columns: string[];
+  /** The rows by tick. */
+  rows: SeriesRow[];
 }
 
 /** The setting in which frames are drawn; sent whenever the scenario has changed. */
@@ -594,7 +624,7 @@ export interface StudyProgress {
   labels: string[] | null;
 }
 
-export type ServerMessage = Opened | Setting | State | MapPart | Saving | Saved | Exported | Refused | Ended | StudyProgress;
+export type ServerMessage = Opened | Setting | State | MapPart | Saving | Saved | Exported | Series | Refused | Ended | StudyProgress;
 
 /** A configuration: index, runs, merit, the bounds of its confidence interval, null before they are computed, and its status, null without a requirement. With one, the merit is the share of runs that meet it. */
 export type Standing = [number, number, number | null, number | null, number | null, RequirementStatus | null];
