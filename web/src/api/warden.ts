@@ -4,6 +4,7 @@
  * through the server of the page.
  */
 export interface WardenState {
+  /** Since the start of the drive. */
   time_s: number;
   fleet: string;
   recording: string;
@@ -25,7 +26,7 @@ export interface WardenRobot {
   action: "move" | "stop" | "latched_stop";
   /** The setpoint. */
   requested: { speed_m_s: number; turn_rate_rad_s: number; heading_rad: number | null } | null;
-  /** The newest motor line, and whether the robot's kernel has acknowledged it. */
+  /** The newest motor line or lines, and whether the robot's kernel has acknowledged it. */
   written: { line: string; age_s: number; is_acknowledged: boolean } | null;
   /** Whether the inputs confirm a standstill. */
   is_standing: boolean;
@@ -35,9 +36,10 @@ export interface WardenRobot {
   warnings: Reason[];
   links: WardenLink[];
   position: Position | null;
-  heading: { magnetic_deg: number; age_s: number } | null;
-  /** A null value is a range without an echo. */
-  ranges: { values_m: (number | null)[]; age_s: number } | null;
+  /** `world_deg` is counterclockwise from the x axis of the world. */
+  heading: { magnetic_deg: number; world_deg: number; age_s: number } | null;
+  /** A null value is a range without an echo, or without any value if it is not known. */
+  ranges: { values_m: (number | null)[]; is_known: boolean[]; age_s: number } | null;
   battery: { share: number; is_estimated: boolean } | null;
   waypoints: Waypoint[];
   navigates: boolean;

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
-import { Deadman, type Tracks } from "./deadman";
+import { Deadman, neutral, type Tracks } from "./deadman";
 
 const ahead = { left: 175, right: 175 };
 const turn = { left: 125, right: 175 };
@@ -26,11 +26,24 @@ describe("the deadman", () => {
     expect(sent).toHaveLength(11);
   });
 
-  test("sends nothing after the release, and aborts what is in flight", async () => {
+  test("sends neutral values at the release, at once, and aborts what is in flight", async () => {
     deadman.hold("forward", ahead);
     await vi.advanceTimersByTimeAsync(250);
+    const [, , motion] = signals;
     deadman.release();
+    expect(motion?.aborted).toBe(true);
+    expect(sent).toEqual([ahead, ahead, ahead, neutral]);
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(sent.slice(3)).toEqual(Array(11).fill(neutral));
+  });
+
+  test("sends nothing once it is closed", async () => {
+    deadman.open();
+    deadman.hold("forward", ahead);
+    await vi.advanceTimersByTimeAsync(250);
+    deadman.close();
     expect(signals.every((signal) => signal.aborted)).toBe(true);
+    deadman.release();
     const { length } = sent;
     await vi.advanceTimersByTimeAsync(5000);
     expect(sent).toHaveLength(length);

@@ -4,14 +4,17 @@ export interface Tracks {
   right: number;
 }
 
+export const neutral: Tracks = { left: 150, right: 150 };
 export const repeat_ms = 100;
 
 /**
- * Sends motor values while a control is held: at once, then every 0.1 s. Nothing is sent after the release, not
- * even a stop: the values expire at the warden, as they would if this page had crashed.
+ * Sends motor values every 0.1 s while manual control is open: those of the control that is held, at once when it
+ * is pressed, and neutral ones while none is held. After `close`, nothing is sent: the values expire at the
+ * warden, as they would if this page had crashed.
  */
 export class Deadman {
-  private held: { source: string; tracks: Tracks; controller: AbortController } | null = null;
+  private held: { source: string; tracks: Tracks } | null = null;
+  private inFlight = new AbortController();
   private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly send: (tracks: Tracks, signal: AbortSignal) => Promise<void>) {}
@@ -21,21 +24,21 @@ export class Deadman {
     return this.held?.source ?? null;
   }
 
-  /** Begins to send. A control that was held before is released. */
+  open(): void {
+    if (this.timer === undefined) this.restart();
+  }
+
+  close(): void {
+    clearInterval(this.timer);
+    this.timer = undefined;
+    this.held = null;
+    this.inFlight.abort();
+  }
+
+  /** Sends the values of a control from now on. A control that was held before is released. */
   hold(source: string, tracks: Tracks): void {
-    this.release();
-    const hold = { source, tracks, controller: new AbortController() };
-    this.held = hold;
-    let isSending = false;
-    const beat = async () => {
-      // One request at a time: with more, an old one could arrive after a release.
-      if (isSending) return;
-      isSending = true;
-      await this.send(hold.tracks, hold.controller.signal);
-      isSending = false;
-    };
-    this.timer = setInterval(() => void beat(), repeat_ms);
-    void beat();
+    this.held = { source, tracks };
+    this.restart();
   }
 
   /** Changes what is sent from the next time on, if the control is held. */
@@ -43,12 +46,27 @@ export class Deadman {
     if (this.held?.source === source) this.held.tracks = tracks;
   }
 
-  /** Ends the sending; also of a request in flight. With `source`, only if that control is held. */
+  /** Sends neutral values from now on. With `source`, only if that control is held. */
   release(source?: string): void {
     if (!this.held || (source !== undefined && source !== this.held.source)) return;
-    clearInterval(this.timer);
-    this.held.controller.abort();
     this.held = null;
+    this.restart();
+  }
+
+  private restart(): void {
+    clearInterval(this.timer);
+    this.inFlight.abort();
+    const { signal } = (this.inFlight = new AbortController());
+    let isSending = false;
+    const beat = async () => {
+      // One request at a time: with more, an old one could arrive after a newer one.
+      if (isSending) return;
+      isSending = true;
+      await this.send(this.held?.tracks ?? neutral, signal);
+      isSending = false;
+    };
+    this.timer = setInterval(() => void beat(), repeat_ms);
+    void beat();
   }
 }
 

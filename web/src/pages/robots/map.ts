@@ -1,4 +1,4 @@
-import type { Drive, Origin, WardenRobot } from "../../api/warden";
+import type { Drive, WardenRobot } from "../../api/warden";
 import { type Camera, clampScale, toScreen } from "../../canvas/camera";
 import type { Colours } from "../../canvas/colours";
 import { spacing } from "../../canvas/layers/grid";
@@ -28,12 +28,6 @@ const robotRadius_px = 11;
 const margin_px = 40;
 const fanHalfWidth_rad = Math.PI / 18;
 
-/** The direction of a magnetic heading in the world: counterclockwise from its x axis. */
-export function worldHeading_rad(magnetic_deg: number, origin: Origin): number {
-  const fromY_deg = magnetic_deg + (origin.declination_deg ?? 0) - (origin.rotation_deg ?? 0);
-  return ((90 - fromY_deg) * Math.PI) / 180;
-}
-
 /** Appends where each robot is, if it has moved. */
 export function extendTrails(trails: Map<string, Point[]>, robots: WardenRobot[]): void {
   for (const { name, position } of robots) {
@@ -61,6 +55,8 @@ export function fitMap({ drive, robots }: MapScene, width: number, height: numbe
   const scale = clampScale(Math.min((width - 2 * margin_px) / wide, (height - 2 * margin_px) / high));
   return { x: (left + right) / 2, y: (bottom + top) / 2, scale, width, height };
 }
+
+const radians = (angle_deg: number) => (angle_deg * Math.PI) / 180;
 
 const placeOf = ({ x_m, y_m }: { x_m: number; y_m: number }): Point => [x_m, y_m];
 
@@ -151,7 +147,7 @@ function drawRobot(pen: Pen, scene: MapScene, robot: WardenRobot): void {
   const { context, camera, colours } = pen;
   if (!robot.position) return;
   const [x, y] = toScreen(camera, robot.position.x_m, robot.position.y_m);
-  const heading = robot.heading && worldHeading_rad(robot.heading.magnetic_deg, scene.drive.origin);
+  const heading = robot.heading && radians(robot.heading.world_deg);
   if (heading !== null) drawFans(pen, scene, robot, [x, y], heading);
   context.strokeStyle = colours.accent;
   context.lineWidth = 1;
@@ -181,8 +177,8 @@ function drawFans(
   const sonars = scene.drive.robots?.[robot.name]?.sonars ?? [];
   sonars.forEach(({ facing_deg, max_m }, i) => {
     const value_m = robot.ranges?.values_m[i];
-    if (value_m === undefined) return;
-    const centre = -(heading + (facing_deg * Math.PI) / 180);
+    if (value_m === undefined || !robot.ranges?.is_known[i]) return;
+    const centre = -(heading + radians(facing_deg));
     context.beginPath();
     context.moveTo(...at);
     context.arc(

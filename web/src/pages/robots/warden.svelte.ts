@@ -46,7 +46,7 @@ export class WardenSession {
   }
 
   close(): void {
-    this.deadman.release();
+    this.deadman.close();
     for (const end of this.cleanups.splice(0)) end();
     this.poller.stop();
     if (!this.isOperator) return;
@@ -76,9 +76,14 @@ export class WardenSession {
     return this.isFresh && this.isOperator;
   }
 
+  /** Whether the selected robot takes motor values. It has to receive them before it can be armed. */
+  get canSend(): boolean {
+    return this.hasControl && this.robot?.mode === "manual";
+  }
+
   /** Whether the selected robot can be driven by hand. */
   get canDrive(): boolean {
-    return this.hasControl && this.robot?.mode === "manual" && this.robot.is_armed;
+    return this.canSend && this.robot?.is_armed === true;
   }
 
   /** Sends a request of the operator; true if the warden has accepted it. */
@@ -107,7 +112,7 @@ export class WardenSession {
     this.refusal = answer.kind === "failed" ? this.refusal : refusalOf(answer);
     if (answer.kind === "answered") this.handle(eventOf(answer, sent_ms, limit.aborted));
     // What is refused must not begin to move the robot when the reason ends.
-    else if (answer.kind !== "failed") this.deadman.release();
+    else if (answer.kind !== "failed") this.deadman.close();
   }
 
   private handle(event: ConnectionEvent): void {
@@ -115,7 +120,8 @@ export class WardenSession {
     if (connection === this.connection) return;
     this.connection = connection;
     if (event.type === "answered") this.keep(event.state);
-    if (!this.canDrive) this.deadman.release();
+    if (!this.canSend) this.deadman.close();
+    else if (!this.canDrive) this.deadman.release();
   }
 
   private keep({ events, robots }: WardenState): void {
