@@ -44,12 +44,24 @@ async function press(page: Page, control: Locator, hold_ms: number): Promise<voi
   await page.waitForTimeout(hold_ms);
 }
 
-/**
- * Waits until motion is sent, lets the caller end it, and returns what is sent from then on: neutral values, or
- * nothing.
- */
+/** Presses a control until motion is sent. A press ends by itself if a busy machine delays the warden's state. */
+async function drive(page: Page, warden: FakeWarden, control: Locator): Promise<void> {
+  await expect(async () => {
+    await page.mouse.up();
+    await press(page, control, 300);
+    expect(warden.requests().length).toBeGreaterThan(1);
+  }).toPass();
+}
+
+/** Holds a button for as long as it takes until a request arrives. */
+async function holdUntil(page: Page, warden: FakeWarden, name: string, path: string): Promise<void> {
+  await press(page, page.getByRole("button", { name }), 0);
+  await expect.poll(() => warden.count(path)).toBe(1);
+  await page.mouse.up();
+}
+
+/** Lets the caller end the motion, and returns what is sent from then on: neutral values, or nothing. */
 async function afterEnd(page: Page, warden: FakeWarden, end: () => Promise<unknown>): Promise<Received[]> {
-  await expect.poll(() => warden.requests().length).toBeGreaterThan(1);
   await end();
   await page.waitForTimeout(150);
   const { length } = warden.received;
@@ -64,7 +76,7 @@ async function expectNeutralAfter(
   end: () => Promise<unknown>,
 ): Promise<void> {
   const sent = await afterEnd(page, warden, end);
-  expect(sent.length).toBeGreaterThan(1);
+  expect(sent.length).toBeGreaterThan(0);
   expect(sent.every(({ body }) => isNeutral(body))).toBe(true);
 }
 
@@ -164,8 +176,7 @@ test.describe("the emergency stop", () => {
     await page.mouse.up();
     await page.waitForTimeout(800);
     expect(warden.count("/release")).toBe(0);
-    await press(page, page.getByRole("button", { name: "Release" }), 1200);
-    await page.mouse.up();
+    await holdUntil(page, warden, "Release", "/release");
     expect(warden.requests()).toEqual([["/operator"], ["/release"]]);
     await expect(bar(page)).toContainText("Stops all robots at once.");
   });
@@ -185,7 +196,7 @@ test.describe("manual control", () => {
       warden,
     }) => {
       await openManual(page, server, warden);
-      await press(page, button(page, name), 0);
+      await drive(page, warden, button(page, name));
       await expectNeutralAfter(page, warden, () => page.mouse.up());
       await page.locator("h1").click({ position: { x: 0, y: 0 }, force: true });
       await page.keyboard.down(key);
@@ -247,7 +258,7 @@ test.describe("manual control", () => {
   for (const [name, end] of releases) {
     test(`only neutral values are sent once ${name}`, async ({ page, server, warden }) => {
       await openManual(page, server, warden);
-      await press(page, button(page, "Forward"), 0);
+      await drive(page, warden, button(page, "Forward"));
       await expectNeutralAfter(page, warden, () => end(page));
       await page.mouse.up();
     });
@@ -275,7 +286,7 @@ test.describe("manual control", () => {
   for (const [name, end] of ends) {
     test(`nothing is sent any more once ${name}`, async ({ page, server, warden }) => {
       await openManual(page, server, warden);
-      await press(page, button(page, "Forward"), 0);
+      await drive(page, warden, button(page, "Forward"));
       expect(await afterEnd(page, warden, () => end(page, warden))).toEqual([]);
       await page.mouse.up();
     });
@@ -293,8 +304,7 @@ test.describe("autonomous control", () => {
     await page.getByRole("button", { name: "Take control" }).click();
     await page.getByRole("button", { name: "Hold all robots" }).click();
     await expect(page.getByText("On hold.")).toBeVisible();
-    await press(page, page.getByRole("button", { name: "Run bender/0" }), 1200);
-    await page.mouse.up();
+    await holdUntil(page, warden, "Run bender/0", "/arm");
     await page.getByRole("checkbox", { name: "Navigate to waypoints" }).click();
     await expect(page.getByRole("checkbox", { name: "Navigate to waypoints" })).not.toBeChecked();
     await page.getByRole("button", { name: "Give up control" }).click();
@@ -305,8 +315,8 @@ test.describe("autonomous control", () => {
       .toEqual([
         ["/operator", true, undefined, undefined, undefined],
         ["/hold", undefined, undefined, undefined, undefined],
-        ["/arm", undefined, ["bender/0"], undefined, undefined],
         ["/resume", undefined, undefined, undefined, undefined],
+        ["/arm", undefined, ["bender/0"], undefined, undefined],
         ["/navigate", undefined, undefined, "bender/0", false],
         ["/operator", false, undefined, undefined, undefined],
         ["/stop", undefined, undefined, undefined, undefined],
@@ -358,7 +368,10 @@ test.describe("autonomous control", () => {
     expect(warden.count("/waypoint")).toBe(1);
     await button(page, "Add this waypoint").click();
     await expect.poll(() => warden.count("/waypoint")).toBe(2);
-    const [x, y] = warden.received.at(-1)?.body.point_m as [number, number];
+    const [x, y] = warden.received.findLast(({ path }) => path === "/waypoint")?.body.point_m as [
+      number,
+      number,
+    ];
     expect(Math.abs(x - 20) + Math.abs(y - 15)).toBeLessThan(0.5);
   });
 
@@ -423,8 +436,7 @@ test.describe("the connection", () => {
     await open(page, server);
     await expect(page.getByText("Controlled by another page.")).toBeVisible();
     await expect(page.getByRole("button", { name: "Run bender/0" })).toBeDisabled();
-    await press(page, page.getByRole("button", { name: "Take over" }), 1200);
-    await page.mouse.up();
+    await holdUntil(page, warden, "Take over", "/operator");
     await expect(page.getByText("This page is the operator.")).toBeVisible();
     expect(warden.requests("take", "take_over")).toEqual([["/operator", true, true]]);
   });
