@@ -55,6 +55,7 @@ const views = {
       const { module } = await runnerImport(fileURLToPath(new URL("../tests/warden.ts", import.meta.url)));
       const warden = new module.FakeWarden();
       Object.assign(warden.robot, { is_armed: true, action: "move", latched: [] });
+      Object.assign(warden.robot.written, { line: "x,2,170," });
       await warden.start();
       await warden.attach(page);
       page.once("close", () => warden.kill());

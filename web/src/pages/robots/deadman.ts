@@ -72,12 +72,19 @@ export class Deadman {
 
 /** Calls `release` whenever the user's hold may have ended without an event on the control itself. */
 export function onHoldEnd(release: () => void): () => void {
-  const ends = ["pointerup", "pointercancel", "lostpointercapture", "blur", "pagehide", "contextmenu"];
+  const ends = ["pointerup", "pointercancel", "lostpointercapture", "blur", "pagehide"];
   const hidden = () => document.hidden && release();
+  const menu = (event: Event) => {
+    // A long press on a touch screen opens no menu on a control; another menu may hide the release.
+    if (event.target instanceof Element && event.target.closest("[data-hold]")) event.preventDefault();
+    else release();
+  };
+  addEventListener("contextmenu", menu, { capture: true });
   for (const name of ends) addEventListener(name, release, { capture: name !== "blur" });
   document.addEventListener("visibilitychange", hidden);
   return () => {
     for (const name of ends) removeEventListener(name, release, { capture: name !== "blur" });
+    removeEventListener("contextmenu", menu, { capture: true });
     document.removeEventListener("visibilitychange", hidden);
   };
 }
