@@ -5,6 +5,7 @@ GET `/api/schema?engine=`: the JSON Schema of a scenario. POST `/api/check`: a s
 errors are the response, with status 422.
 GET `/api/recordings`: the recordings below the server's folder, the newest first.
 `/api/recordings/file?id=`: the file of one.
+`/drive`: the drive that the server belongs to (see `drive`).
 `/ws`: a run (see `agent_economy.types.page`), or the progress of a study with `?study=ID`.
 The addresses of studies are in `studies.routes`.
 """
@@ -27,6 +28,7 @@ from starlette.websockets import WebSocket
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.server.drive import Drive, drive_response
 from agent_economy.server.guard import Guard
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
@@ -54,7 +56,11 @@ NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
 
 
 def app(
-    workspace: Workspace, host: str, token: str | None = None, live: LiveRun | None = None
+    workspace: Workspace,
+    host: str,
+    token: str | None = None,
+    live: LiveRun | None = None,
+    drive: Drive | None = None,
 ) -> ASGIApp:
     """Return the application.
 
@@ -63,10 +69,11 @@ def app(
         host: The host name or address that the server is bound to.
         token: The token that pages on other machines need; None if only this machine can connect.
         live: The run of real robots that pages can join; it is simulated while the server runs.
+        drive: The drive that it belongs to; None if there is none.
     """
     web = Path(str(files("agent_economy") / "web"))
-    server = Server(workspace, web, StudyManager(workspace), live)
-    return Guard(server.application(), host, token)
+    server = Server(workspace, web, StudyManager(workspace), live, drive)
+    return Guard(server.application(), host, token, None if drive is None else drive.address)
 
 
 @dataclass
@@ -77,6 +84,7 @@ class Server:
     web: Path
     studies: StudyManager
     live: LiveRun | None = None
+    drive: Drive | None = None
     live_host: RunHost | None = None
     sessions: int = 0
     watchers: int = 0
@@ -85,6 +93,7 @@ class Server:
         """Return the application without its guard."""
         routes = [
             Route("/", self.page),
+            Route("/drive", self.current_drive),
             Route("/api/scenarios", self.scenarios),
             Route("/api/pictures", self.picture),
             Route("/api/recordings", self.recordings),
@@ -136,6 +145,10 @@ class Server:
         if not index.is_file():
             return HTMLResponse(NOT_BUILT, 503)
         return FileResponse(index, headers={"cache-control": "no-cache"})
+
+    async def current_drive(self, _: Request) -> Response:
+        """Return the drive."""
+        return drive_response(self.drive)
 
     async def scenarios(self, _: Request) -> Response:
         """Return the gallery."""

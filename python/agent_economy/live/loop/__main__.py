@@ -63,6 +63,7 @@ def described(loaded: fleet.Fleet, seed: int) -> dict[str, Any]:
         "seed": seed,
         "external": [robot.name for robot in loaded.plan.robots],
         "origin": loaded.plan.to_dict()["origin"],
+        "fences_m": {robot.name: robot.fence_m for robot in loaded.plan.robots},
     }
 
 
