@@ -378,6 +378,19 @@ def test_a_single_configuration_has_the_same_runs_as_in_the_study(tmp_path: Path
         plan.alone(2)
 
 
+def test_designs_with_other_columns_have_other_identities() -> None:
+    search = (
+        Scenario.load("search").replace("clock.time_limit_s", 5).replace("study.design", "lhs:1")
+    )
+    some, more = (
+        study.make_plan(search.replace("study.vary", {"items.mine.count": counts}), runs=2, seed=4)
+        for counts in ("3,4", "3,9")
+    )
+    assert some.configurations == more.configurations
+    assert some.engine.columns != more.engine.columns
+    assert some.identity != more.identity
+
+
 @pytest.mark.parametrize(
     ("confidence", "end"),
     [

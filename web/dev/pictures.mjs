@@ -35,6 +35,15 @@ const views = {
     at: "#/study/new?scenario=search",
     ready: (page) => page.getByText("20 configurations").first().waitFor(),
   },
+  requirement: {
+    at: "#/study/new?scenario=warehouse",
+    size: { width: 1280, height: 1150 },
+    ready: async (page) => {
+      await page.getByRole("button", { name: "Start" }).and(page.locator(":enabled")).waitFor();
+      await page.getByText("Add a factor").click();
+      await page.getByRole("searchbox", { name: "Search factors" }).fill("time_limit");
+    },
+  },
   race: {
     at: "#/study?id=studies/search",
     before: (server) => startStudy(server, { scenario: "search", delta: 0.002 }),

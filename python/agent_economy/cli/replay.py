@@ -1,13 +1,14 @@
 """The command `replay`."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from agent_economy.build import Build, own_build
-from agent_economy.cli.errors import FAILED, error_exits
+from agent_economy.cli.errors import BAD_INPUT, FAILED, error_exits
 
 if TYPE_CHECKING:
     from agent_economy.recording import Replay
@@ -24,6 +25,21 @@ def replay(
             "build of this program recorded it.",
         ),
     ] = True,
+    as_2002: Annotated[
+        bool,
+        typer.Option(
+            "--as-2002",
+            help="Of a drive: print what the program of 2002 sends for the recorded lines, beside "
+            "what was sent, instead of verifying it.",
+        ),
+    ] = False,
+    steering: Annotated[
+        bool,
+        typer.Option(
+            "--steering",
+            help="With --as-2002: let it turn to its waypoint. As printed, it never does.",
+        ),
+    ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the result as JSON instead of a sentence.")
     ] = False,
@@ -38,6 +54,12 @@ def replay(
 
     Example: agent-economy replay run.mcap
     """
+    if steering and not as_2002:
+        typer.echo("--steering needs --as-2002", err=True)
+        raise typer.Exit(BAD_INPUT)
+    if as_2002:
+        print_2002(file, steers=steering, as_json=as_json)
+        return
     # Importing the reader doubles the start-up time.
     from agent_economy.live.replay import replay as live_replay  # noqa: PLC0415
 
@@ -46,6 +68,20 @@ def replay(
     typer.echo(json.dumps(as_dict(result), indent=2) if as_json else as_sentence(result))
     if verify and not result.agrees:
         raise typer.Exit(FAILED)
+
+
+def print_2002(file: Path, *, steers: bool, as_json: bool) -> None:
+    """Print a recorded drive beside the program of 2002."""
+    from agent_economy.cli.table_2002 import print_comparison  # noqa: PLC0415
+    from agent_economy.live.as_2002 import compare_2002  # noqa: PLC0415
+
+    with error_exits():
+        comparisons = compare_2002(file, steers=steers)
+    if as_json:
+        typer.echo(json.dumps([asdict(each) for each in comparisons], indent=2))
+        return
+    for comparison in comparisons:
+        print_comparison(comparison)
 
 
 def as_sentence(result: "Replay") -> str:

@@ -15,7 +15,7 @@ from agent_economy.live.plan import plan_of
 from agent_economy.recording import Replay
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.file import strict
-from agent_economy.recording.live_topics import EVENTS, LIVE, SETPOINTS, TICKS, WIRE
+from agent_economy.recording.live_topics import EVENTS, LIVE, ORDERS, SETPOINTS, TICKS, WIRE
 from agent_economy.recording.reading import each_record, named
 from agent_economy.runs.simulation import Simulation
 
@@ -45,13 +45,18 @@ class Drive:
                 self._topics[record.id] = record.topic
             case Message():
                 topic = self._topics.get(record.channel_id, "")
-                if topic.startswith(WIRE) or topic in (EVENTS, TICKS, SETPOINTS, INPUT):
+                if topic.startswith(WIRE) or topic in (EVENTS, ORDERS, TICKS, SETPOINTS, INPUT):
                     self.messages.append((topic, json.loads(record.data)))
 
     @property
     def lines(self) -> int:
         """The number of lines that robots sent."""
         return sum(message.get("type") == "line" for _, message in self.messages)
+
+    def lines_of(self, robot: str) -> list[dict[str, Any]]:
+        """Return the lines of a robot, read and written, in order."""
+        lines = (message for topic, message in self.messages if topic.startswith(WIRE))
+        return [each for each in lines if each["robot"] == robot]
 
     def mismatch(self, replayed: Replay) -> int | None:
         """Return the first tick whose percepts or setpoints its lines do not give.

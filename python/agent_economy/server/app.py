@@ -33,8 +33,10 @@ from agent_economy.server.guard import Guard
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, errors_response, text
+from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.engines import ENGINES
-from agent_economy.server.runs.session import Session
+from agent_economy.server.runs.host import RunHost
+from agent_economy.server.runs.live_run import LiveRun
 from agent_economy.server.runs.thumbnail import thumbnail
 from agent_economy.server.studies.factors import schema
 from agent_economy.server.studies.manager import StudyManager
@@ -54,7 +56,11 @@ NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
 
 
 def app(
-    workspace: Workspace, host: str, token: str | None = None, drive: Drive | None = None
+    workspace: Workspace,
+    host: str,
+    token: str | None = None,
+    live: LiveRun | None = None,
+    drive: Drive | None = None,
 ) -> ASGIApp:
     """Return the application.
 
@@ -62,10 +68,11 @@ def app(
         workspace: The folder of scenarios, studies and recordings.
         host: The host name or address that the server is bound to.
         token: The token that pages on other machines need; None if only this machine can connect.
+        live: The run of real robots that pages can join; it is simulated while the server runs.
         drive: The drive that it belongs to; None if there is none.
     """
     web = Path(str(files("agent_economy") / "web"))
-    server = Server(workspace, web, StudyManager(workspace), drive)
+    server = Server(workspace, web, StudyManager(workspace), live, drive)
     return Guard(server.application(), host, token, None if drive is None else drive.address)
 
 
@@ -76,7 +83,9 @@ class Server:
     workspace: Workspace
     web: Path
     studies: StudyManager
+    live: LiveRun | None = None
     drive: Drive | None = None
+    live_host: RunHost | None = None
     sessions: int = 0
     watchers: int = 0
 
@@ -103,9 +112,32 @@ class Server:
         """Provide threads, two for each run: one saves it; stop all studies at the end."""
         with ThreadPoolExecutor(2 * MAX_SESSIONS, "run") as self.threads:
             try:
-                yield
+                async with self.live_run_driven():
+                    yield
             finally:
                 await asyncio.to_thread(self.studies.close)
+
+    @contextlib.asynccontextmanager
+    async def live_run_driven(self) -> AsyncIterator[None]:
+        """Simulate the live run as its inputs arrive, if there is one."""
+        if self.live is None:
+            yield
+            return
+        loop, host = asyncio.get_running_loop(), RunHost(self.threads)
+        host.follow(self.live)
+
+        def wake() -> None:
+            loop.call_soon_threadsafe(host.wake)
+
+        self.live.notify(wake)
+        task = asyncio.create_task(host.drive())
+        self.live_host = host
+        try:
+            yield
+        finally:
+            self.live.notify(None)
+            task.cancel()
+            await asyncio.wait({task})
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
@@ -178,7 +210,7 @@ class Server:
             return
         self.sessions += 1
         try:
-            await Session(page, self.workspace, self.threads).run()
+            await PageConnection(page, self.workspace, self.threads, self.live_host).run()
         finally:
             self.sessions -= 1
         await page.close()
