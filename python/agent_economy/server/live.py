@@ -1,7 +1,7 @@
 """The server of a drive's page. The warden starts it, as `python -m agent_economy.server.live`.
 
-The messages on its standard input and output are described in
-`agent_economy.live.warden.page_process`. It has no part in the drive: the warden runs on if it ends.
+`agent_economy.live.warden.page_process` describes the messages on its standard input and output. It
+has no part in the drive: the warden runs on if it ends.
 """
 
 import json
@@ -62,9 +62,7 @@ def messages() -> Iterator[dict[str, Any]]:
         yield from decoder.feed(data)
 
 
-def receive(
-    received: Iterable[Mapping[str, Any]], live: LiveRun, server: uvicorn.Server
-) -> None:
+def receive(received: Iterable[Mapping[str, Any]], live: LiveRun, server: uvicorn.Server) -> None:
     """Pass on the inputs of all steps, and end the server after the last one."""
     try:
         for message in received:
