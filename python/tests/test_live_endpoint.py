@@ -328,3 +328,17 @@ def test_before_anything_is_known_of_a_robot_its_state_claims_nothing(served: Se
     assert {"lost_link", "missing_input", "no_setpoint"} <= {
         each["name"] for each in robot["blockers"]
     }
+
+
+def test_the_end_of_a_drive_with_an_open_connection_is_no_error(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async def drive() -> None:
+        endpoint = Endpoint({})
+        await endpoint.start()
+        await asyncio.open_connection(*endpoint.address)
+        await asyncio.sleep(0.1)
+        endpoint.close()
+
+    asyncio.run(drive())
+    assert caplog.records == []

@@ -1,3 +1,4 @@
+export const program: string;
 export const hang_ms: number;
 
 /** The part of the real server that tests use. */

@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 
-const program = process.env.AGENT_ECONOMY ?? "agent-economy";
+export const program = process.env.AGENT_ECONOMY ?? "agent-economy";
 /**
  * The longest wait for anything that a test, the benchmark or a picture waits for: it is only reached when
  * something hangs, also on a machine that is many times slower than ours.

@@ -29,7 +29,7 @@ export const test = base.extend<TestFixtures, { server: RealServer }>({
       page.on("console", (message) => {
         if (
           message.type() === "error" &&
-          !/422|ERR_(CONNECTION|EMPTY_RESPONSE|INTERNET)/.test(message.text())
+          !/409|422|ERR_(CONNECTION|EMPTY_RESPONSE|INTERNET)/.test(message.text())
         )
           consoleErrors.push(message.text());
       });

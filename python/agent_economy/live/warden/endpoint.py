@@ -103,7 +103,8 @@ class Endpoint:
         try:
             while await self._serve_one(reader, writer):
                 pass
-        except OSError:
+        except (OSError, asyncio.CancelledError):
+            # The end of the drive cancels it. asyncio of Python 3.11 would report that as an error.
             pass
         finally:
             self._open.pop(writer, None)

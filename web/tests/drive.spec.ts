@@ -1,0 +1,177 @@
+import { monitorEventLoopDelay } from "node:perf_hooks";
+import type { Locator, Page } from "@playwright/test";
+import { expect, test } from "./page";
+import { RealDrive } from "./real_drive";
+
+// One drive at a time: several would delay each other.
+test.describe.configure({ mode: "default" });
+
+/** Of a machine that is busy with something else: the safety rules then stop the robot, as they have to. */
+const maxLate_ns = 1e8;
+const attempts = 3;
+const forward = "x,2,175,";
+
+/** A test with a drive of its own, which is repeated if it fails while the machine is late. */
+function driveTest(name: string, trial: (page: Page, drive: RealDrive) => Promise<void>): void {
+  test(name, async ({ page: first, context }) => {
+    for (let attempt = 1; ; attempt++) {
+      const page = attempt === 1 ? first : await context.newPage();
+      const [drive, delay] = [new RealDrive(), monitorEventLoopDelay({ resolution: 10 })];
+      delay.enable();
+      try {
+        await drive.start();
+        await page.goto(drive.url);
+        await drive.whileItRuns(trial(page, drive));
+        return;
+      } catch (error) {
+        if (attempt === attempts || delay.max < maxLate_ns) throw error;
+        await page.close();
+        await context.setOffline(false);
+      } finally {
+        delay.disable();
+        await drive.end();
+      }
+    }
+  });
+}
+
+const button = (page: Page, name: string) => page.getByRole("button", { name });
+const card = (page: Page) => page.getByRole("region", { name: "bender/0" });
+const isArmed = (page: Page) => card(page).getByText("armed", { exact: true });
+
+async function press(page: Page, control: Locator): Promise<void> {
+  await expect(control).toBeEnabled();
+  await control.hover();
+  await page.mouse.down();
+}
+
+/** A hold ends by itself if a busy machine delays the warden's state or an input. */
+async function arm(page: Page, name: string): Promise<void> {
+  await expect(async () => {
+    await page.mouse.up();
+    await press(page, button(page, name));
+    await expect(isArmed(page)).toBeVisible({ timeout: 2000 });
+  }).toPass();
+  await page.mouse.up();
+}
+
+/** Arms the robot, and waits until it drives to its first waypoint. */
+async function run(page: Page, drive: RealDrive): Promise<void> {
+  await arm(page, "Run bender/0");
+  await expect.poll(async () => (await drive.look()).x_m).toBeGreaterThan(5.2);
+  await expect(card(page)).toContainText("moves");
+}
+
+/** Takes control, and arms the robot in manual mode. */
+async function armByHand(page: Page): Promise<void> {
+  await button(page, "Take control").click();
+  await page.getByRole("tab", { name: "Manual" }).click();
+  await button(page, "Switch to manual mode").click();
+  await arm(page, "Arm bender/0");
+}
+
+/** Holds *Forward* until the robot obeys; returns the time before. */
+async function holdForward(page: Page, drive: RealDrive): Promise<number> {
+  const { t_s } = await drive.look();
+  await expect(async () => {
+    await page.mouse.up();
+    await press(page, button(page, "Forward"));
+    await page.waitForTimeout(600);
+    expect((await drive.movesAfter((await drive.look()).t_s - 0.3)).length).toBeGreaterThan(0);
+  }).toPass();
+  return t_s;
+}
+
+/** Expects stop on the wire within a time, and no motion in the second after it. */
+async function expectStop(drive: RealDrive, after_s: number, within_s: number): Promise<void> {
+  await expect.poll(() => drive.stopAfter(after_s)).not.toBeNull();
+  const stopped_s = (await drive.stopAfter(after_s)) ?? Infinity;
+  expect(stopped_s - after_s).toBeLessThan(within_s);
+  await new Promise((done) => setTimeout(done, 1000));
+  expect(await drive.movesAfter(stopped_s)).toEqual([]);
+}
+
+driveTest("a robot is armed by a hold, drives, and is stopped by Escape", async (page, drive) => {
+  await button(page, "Take control").click();
+  await press(page, button(page, "Run bender/0"));
+  await page.waitForTimeout(400);
+  await page.mouse.up();
+  await page.waitForTimeout(800);
+  await expect(isArmed(page)).toBeHidden();
+  expect(await drive.movesAfter(0)).toEqual([]);
+  await run(page, drive);
+  const { t_s } = await drive.look();
+  await page.keyboard.press("Escape");
+  await expectStop(drive, t_s, 0.3);
+  await expect(isArmed(page)).toBeHidden();
+  await expect(page.getByRole("region", { name: "Emergency stop" })).toContainText(
+    "Stop is latched. bender/0: standstill confirmed",
+  );
+});
+
+driveTest("a hand that is released, or cut off, stops the robot", async (page, drive) => {
+  await armByHand(page);
+  const begun_s = await holdForward(page, drive);
+  const released_s = (await drive.look()).t_s;
+  await page.mouse.up();
+  await expectStop(drive, released_s, 0.5);
+  expect(new Set(await drive.movesAfter(begun_s))).toEqual(new Set([forward]));
+  await holdForward(page, drive);
+  await page.context().setOffline(true);
+  await expectStop(drive, (await drive.look()).t_s, 0.5);
+  await expect(page.locator("#connection")).toContainText("Lost");
+  const back_s = (await drive.look()).t_s;
+  await page.context().setOffline(false);
+  await expect(page.locator("#connection")).toBeHidden();
+  await page.waitForTimeout(1500);
+  await page.mouse.up();
+  expect(await drive.movesAfter(back_s)).toEqual([]);
+});
+
+driveTest("a robot whose connections were lost remains stopped when it is back", async (page, drive) => {
+  await button(page, "Take control").click();
+  await run(page, drive);
+  await drive.killEmulator();
+  await expect(card(page)).toContainText("stopped, latched");
+  await expect(card(page)).toContainText(/motors\s*(lost|connecting)/);
+  await expect(card(page)).toContainText("lost link");
+  await drive.startEmulator();
+  await expect(card(page)).toContainText(/motors\s*connected/);
+  await expect(button(page, "Run bender/0")).toBeEnabled();
+  expect(await drive.movesAfter(0)).toEqual([]);
+  expect(await drive.stopAfter(0)).not.toBeNull();
+  await expect(isArmed(page)).toBeHidden();
+});
+
+driveTest("a loop that is suspended stops the robot, and the page shows it", async (page, drive) => {
+  await button(page, "Take control").click();
+  await run(page, drive);
+  const { t_s } = await drive.look();
+  await drive.signal("live.loop", "SIGSTOP");
+  await expectStop(drive, t_s, 0.6);
+  await expect(card(page)).toContainText("loop silent");
+  await expect(card(page)).toContainText("stopped, latched");
+  await expect(button(page, "Run bender/0")).toBeDisabled();
+  await drive.signal("live.loop", "SIGCONT");
+  await expect(button(page, "Run bender/0")).toBeEnabled();
+  expect(await drive.movesAfter(t_s + 0.6)).toEqual([]);
+});
+
+driveTest(
+  "a killed server of the page takes no control from an open page, and is replaced",
+  async (page, drive) => {
+    await armByHand(page);
+    await holdForward(page, drive);
+    await drive.signal("server.live", "SIGKILL");
+    const killed_s = (await drive.look()).t_s;
+    await page.waitForTimeout(1000);
+    expect((await drive.movesAfter(killed_s + 0.5)).length).toBeGreaterThan(1);
+    expect(await drive.stopAfter(killed_s)).toBeNull();
+    const left_s = (await drive.look()).t_s;
+    await expect(async () => void (await page.reload())).toPass();
+    await expectStop(drive, left_s, 0.6);
+    await expect(page.getByText("No operator.")).toBeVisible();
+    await expect(card(page)).toContainText("no setpoint");
+    await page.mouse.up();
+  },
+);
