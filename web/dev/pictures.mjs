@@ -59,19 +59,21 @@ const views = {
     },
   },
   robots: {
-    at: "#/robots",
-    prepare: async (page) => {
-      const { module } = await runnerImport(fileURLToPath(new URL("../tests/warden.ts", import.meta.url)));
-      const warden = new module.FakeWarden();
-      Object.assign(warden.robot, { is_armed: true, action: "move", latched: [] });
-      Object.assign(warden.robot.written, { line: "x,2,170," });
-      await warden.start();
-      await warden.attach(page);
-      page.once("close", () => warden.kill());
-    },
+    drives: true,
     ready: async (page) => {
-      await page.getByRole("button", { name: "Take control" }).click();
-      await page.getByText("This page is the operator.").waitFor();
+      await holdUntilArmed(page, "Run bender/0");
+      await page.waitForTimeout(9000);
+    },
+  },
+  "robots-manual": {
+    drives: true,
+    ready: async (page) => {
+      await page.getByRole("tab", { name: "Manual" }).click();
+      await page.getByRole("button", { name: "Switch to manual mode" }).click();
+      await holdUntilArmed(page, "Arm bender/0");
+      await page.keyboard.down("ArrowUp");
+      await page.getByText("Sending every 0.1 s.").waitFor();
+      await page.waitForTimeout(2000);
     },
   },
   phone: { at: run, size: phone, ready: (page) => paused(page, "22.0 s") },
@@ -106,23 +108,43 @@ async function paused(page, time) {
   await page.waitForTimeout(300);
 }
 
+/** Holds a button as operator until the robot is armed. */
+async function holdUntilArmed(page, name) {
+  const button = page.getByRole("button", { name }).and(page.locator(":enabled"));
+  await button.waitFor();
+  await button.hover();
+  await page.mouse.down();
+  await page.getByRole("region", { name: "bender/0" }).getByText("armed", { exact: true }).waitFor();
+  await page.mouse.up();
+}
+
+/** Starts a drive of the emulated robot, and opens its page as operator. */
+async function openDrive(page) {
+  const { module } = await runnerImport(fileURLToPath(new URL("../tests/real_drive.ts", import.meta.url)));
+  const drive = new module.RealDrive();
+  await drive.start();
+  await page.goto(drive.url);
+  await page.getByRole("button", { name: "Take control" }).click();
+  return drive;
+}
+
 const wanted = process.argv.slice(2);
 const server = new RealServer();
 await server.start();
 const browser = await chromium.launch(launchOptions);
 await mkdir(folder, { recursive: true });
 try {
-  for (const [name, { at, before, prepare, ready, size = wide }] of Object.entries(views)) {
+  for (const [name, { at, before, drives, ready, size = wide }] of Object.entries(views)) {
     if (wanted.length > 0 && !wanted.includes(name)) continue;
     await before?.(server);
     for (const colorScheme of ["light", "dark"]) {
-      // The server's policy does not name the port of the fake warden.
-      const page = await browser.newPage({ viewport: size, colorScheme, bypassCSP: prepare !== undefined });
-      await prepare?.(page);
-      await page.goto(`${server.url}/${at}`);
+      const page = await browser.newPage({ viewport: size, colorScheme });
+      const drive = drives ? await openDrive(page) : null;
+      if (!drive) await page.goto(`${server.url}/${at}`);
       await ready(page);
       await page.screenshot({ path: `${folder}/${name}-${colorScheme}.png` });
       await page.close();
+      await drive?.end();
     }
   }
 } finally {
