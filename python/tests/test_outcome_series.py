@@ -109,3 +109,12 @@ def test_rows_are_bounded_and_finds_are_kept(monkeypatch: pytest.MonkeyPatch) ->
     assert len(rows) <= 12
     exact = exact_finds("search-beliefs", 7)
     assert set(exact) <= {(row["tick"], row["values"][found]) for row in rows}
+
+
+def test_a_request_for_the_series_is_answered_without_another_state(page: Page) -> None:
+    page.open(tick=20)
+    page.refusal("undo")
+    received = len(page.received)
+    table(page)
+    page.refusal("undo")
+    assert [each["type"] for each in page.received[received:]] == ["series", "refused"]

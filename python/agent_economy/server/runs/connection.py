@@ -129,7 +129,9 @@ class PageConnection:
             path = message.path if isinstance(message, page.Change) else None
             self.post(messages.refused(messages.type_of(message), error, path))
         else:
-            self._display.refresh()
+            # The page requests the series after each state: another state would follow without end.
+            if not isinstance(message, page.RequestSeries):
+                self._display.refresh()
 
     def post(self, message: ServerMessage) -> None:
         """Send a message when the page has room for it."""
