@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,10 @@ import pytest
 
 from agent_economy import Scenario, study
 from agent_economy._core import InputError
+from agent_economy.runs import quarantine
 from agent_economy.scenario import Condition, Override, Requirement
 from agent_economy.study import RequirementAnswer, report
+from agent_economy.study.answer.verdict import repeated
 from agent_economy.study.plan import Plan
 from agent_economy.study.run_block import Columns, RunBlock
 
@@ -251,3 +254,79 @@ def test_only_vary_leaves_out_the_factors_of_the_scenario(classic_toml: Path) ->
     assert len(study.make_plan(scenario).configurations) == 12
     only = study.run(scenario, vary={TEAM: "3..4"}, only_vary=True, runs=2)
     assert len(only.results) == 2
+
+
+def test_the_errors_of_questions_with_different_confidences_add_up(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    scenario = required(classic_toml)
+    for confidence in (0.6, 0.99):
+        plan = study.make_plan(scenario, confidence=confidence)
+        answer = answered(plan, RISING, tmp_path)
+    assert [each.confidence for each in answer.questions] == [0.6, 0.99]
+    assert "together hold with a probability of at least 59% only" in repeated(answer.questions)
+    assert "at least 59% only" in (tmp_path / "report.html").read_text("utf-8")
+    raised = study.resume(tmp_path, confidence=0.995, compute=simulated(plan, RISING))
+    assert "at least 58.5% only" in repeated(raised.questions)
+
+
+@pytest.mark.parametrize("vary", ["4..6", "4"])
+def test_the_promise_covers_compared_teams_only(
+    classic_toml: Path, tmp_path: Path, vary: str
+) -> None:
+    answer = answered(study.make_plan(required(classic_toml, vary=vary)), RISING, tmp_path)
+    assert "no compared team with fewer robots meets it" in answer.guarantee
+    assert answer.verdict[2] == "No compared team is cheaper."
+    assert answer.sentence.endswith(
+        "No team with fewer robots was compared; one may meet it as well."
+    )
+    one = answered(
+        study.make_plan(required(classic_toml)), dict.fromkeys(RISING, 1.0), tmp_path / "all"
+    )
+    assert "was compared" not in one.sentence
+
+
+@pytest.mark.parametrize(
+    ("cost", "words"),
+    [
+        ("robots ", "no compared team with fewer robots"),
+        ("2 * wanderer", "no compared team of a lower cost (2 * wanderer)"),
+    ],
+)
+def test_the_promise_names_what_is_minimised(
+    classic_toml: Path, tmp_path: Path, cost: str, words: str
+) -> None:
+    scenario = required(classic_toml).replace("study.minimize", cost)
+    answer = answered(study.make_plan(scenario), RISING, tmp_path)
+    assert f"and {words} meets it in 95% or more." in answer.guarantee
+
+
+def test_teams_that_cannot_be_run_are_named_and_not_covered(
+    classic_toml: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(quarantine, "reason", lambda *_: "no room")
+    plan = study.make_plan(required(classic_toml))
+    compute = quarantined(simulated(plan, RISING), lambda size, _: size < 3)
+    answer = study.run_plan(plan, tmp_path, compute=compute)
+    assert isinstance(answer, RequirementAnswer)
+    assert [each.status for each in answer.results[:4]] == [
+        *["impossible"] * 2,
+        "refuted",
+        "selected",
+    ]
+    assert "2 wanderers; 1 wanderer: cannot be run (no room)." in answer.verdict[2]
+    assert "no compared team with fewer robots that can be run meets it" in answer.guarantee
+
+
+def quarantined(compute: Any, is_bad: Callable[[int, int], bool]) -> Any:
+    """Return a simulator whose runs of a team size and run number may be quarantined."""
+
+    def changed(block: RunBlock) -> Columns:
+        columns: Columns = compute(block)
+        for row, configuration in enumerate(block.configurations):
+            bad = [is_bad(configuration + 1, block.first_run + run) for run in range(block.runs)]
+            for values in columns.values():
+                values[row, bad] = np.nan
+        return columns
+
+    return changed

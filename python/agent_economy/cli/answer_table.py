@@ -53,8 +53,8 @@ def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
         markup=False,
         emoji=False,
     )
-    if (count := len(answer.questions)) > 1:
-        typer.echo(f"{repeated(count, answer.confidence)}\n")
+    if len(answer.questions) > 1:
+        typer.echo(f"{repeated(answer.questions)}\n")
     typer.echo(f"Report: {folder / REPORT}")
 
 

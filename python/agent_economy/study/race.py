@@ -41,6 +41,7 @@ from agent_economy.study.selection import (
     within,
 )
 from agent_economy.study.store import Store, StoredRuns
+from agent_economy.study.store.ledger import Answered
 
 LEADERS = 10
 """Leaders in a progress report."""
@@ -135,7 +136,8 @@ class Race:
             answer = conclude_requirement(plan, evidence, self._requirement_ending())
         else:
             answer = conclude(plan, evidence, self._ending())
-        questions = self._store.answered(question_in_words(plan))
+        question = Answered(question_in_words(plan), plan.confidence)
+        questions = self._store.answered(question)
         return replace(answer, questions=questions), evidence
 
     def _rounds_until_over(self) -> None:

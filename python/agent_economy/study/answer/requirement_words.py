@@ -12,15 +12,18 @@ from agent_economy.study.selection import percentage
 
 MINUTE_S = 60
 
-CHEAPER = {"price": "no cheaper team", "robots": "no team with fewer robots"}
-"""Teams of a lower cost in words."""
+CHEAPER = {"price": "no cheaper compared team", "robots": "no compared team with fewer robots"}
+"""Teams of a lower cost in words: the promise covers those that were compared."""
 
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
 
 
 def requirement_verdict(
-    question: Cheapest, results: Sequence[RequirementResult], confidence: float
+    question: Cheapest,
+    results: Sequence[RequirementResult],
+    confidence: float,
+    obstacle: str,
 ) -> Verdict:
     """Return the answer in four lines."""
     requirement = question.requirement
@@ -37,7 +40,8 @@ def requirement_verdict(
         second = f"{upper(holds)} in at least {low} of missions{seen}."
     cheaper = [each for each in results if chosen is None or each.cost < chosen.cost]
     parts = refuted(cheaper, f"fewer than {high}") + named(cheaper, "open", "not decided")
-    third = " ".join(f"{part}." for part in parts) or "No team is cheaper."
+    parts += named(cheaper, "impossible", f"cannot be run ({obstacle})")
+    third = " ".join(f"{part}." for part in parts) or "No compared team is cheaper."
     between = f"shares from {low} to {high} are not distinguished"
     return first, second, third, f"{percentage(confidence)} confidence; {between}."
 
@@ -70,7 +74,21 @@ def sentence(
     parts += refuted(cheaper, f"fewer than {spare}")
     parts += named(cheaper, "open", "not decided")
     parts += named(results, "impossible", f"cannot be run ({obstacle})")
+    if chosen is not None:
+        parts += edge(question, chosen, results)
     return " ".join(f"{part}." for part in parts)
+
+
+def edge(
+    question: Cheapest, chosen: RequirementResult, results: Sequence[RequirementResult]
+) -> list[str]:
+    """Return a warning if the selected team is the cheapest compared; none for a single robot."""
+    lowest = min(each.cost for each in results if each.is_possible)
+    is_robots = question.cost.strip() == "robots"
+    if chosen.cost > lowest or (is_robots and chosen.cost <= 1):
+        return []
+    fewer = "with fewer robots" if is_robots else "of a lower cost"
+    return [f"No team {fewer} was compared; one may meet it as well"]
 
 
 def why(question: Cheapest, results: Sequence[RequirementResult]) -> list[str]:
@@ -153,13 +171,20 @@ def guarantee(
     confidently = f"With {percentage(confidence)} confidence"
     is_certified = any(each.status == "selected" for each in results)
     meets = f"the selected team meets the requirement in at least {share} of missions"
+    possible = "" if all(each.is_possible for each in results) else " that can be run"
     if is_over and is_certified:
-        cheaper = CHEAPER.get(question.cost, f"no team with less {question.cost}")
+        cheaper = cheaper_teams(question.cost.strip()) + possible
         return f"{confidently}, {meets}, and {cheaper} meets it in {spare} or more."
     if is_over:
         return (
-            f"{confidently}, no compared team meets the requirement in {spare} or more of missions."
+            f"{confidently}, no compared team{possible} meets the requirement in {spare} or more "
+            "of missions."
         )
     if is_certified:
         return f"{confidently}, {meets}. Cheaper teams that are not decided may meet it as well."
     return "No guarantee: the run budget was reached before a team was certified."
+
+
+def cheaper_teams(cost: str) -> str:
+    """Return words for the compared teams of a lower cost."""
+    return CHEAPER.get(cost, f"no compared team of a lower cost ({cost})")

@@ -8,6 +8,7 @@ from agent_economy.scenario import Scenario
 from agent_economy.study.answer.labels import alternatives, listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.selection import percentage
+from agent_economy.study.store.ledger import Answered
 
 MAX_NAMED = 4
 """Configurations that a line names individually."""
@@ -111,13 +112,17 @@ def precision(scenario: Scenario, delta: float, confidence: float) -> str:
     )
 
 
-def repeated(questions: int, confidence: float) -> str:
-    """Return what several questions about the same runs do to the error rate."""
-    error = min(1.0, questions * (1 - confidence))
+def repeated(questions: Sequence[Answered]) -> str:
+    """Return what several questions about the same runs do to the error rate.
+
+    Each promise is wrong with its own probability; together these add up at most.
+    """
+    error = min(1.0, sum(1 - each.confidence for each in questions))
     together = percentage(round(1 - error, 12))
     return (
-        f"{questions} questions were answered from these runs. Each promise holds by itself; all "
-        f"hold together with a probability of at least {together} only."
+        f"{len(questions)} questions were answered from these runs. Where an answer makes a "
+        "promise, it holds with its own confidence; all promises together hold with a probability "
+        f"of at least {together} only."
     )
 
 
