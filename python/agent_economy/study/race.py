@@ -26,7 +26,7 @@ from agent_economy.study.answer.requirement_results import RequirementEnding
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
-from agent_economy.study.errors import NoConfigurationError
+from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
 from agent_economy.study.leaders import leaders
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
@@ -78,7 +78,13 @@ def run_race(
     with Store.open(
         folder, plan.text(), columns, content=content, may_replace=partial(may_replace, folder)
     ) as store:
-        answer, evidence = Race(plan, store, compute, on_progress).run()
+        try:
+            answer, evidence = Race(plan, store, compute, on_progress).run()
+        except KeyboardInterrupt:
+            if isinstance(plan.question, Cheapest):
+                # What its runs prove already can be read: a promise, too.
+                store.answered(answered(plan))
+            raise
         if finish:
             finish(answer, evidence)
     return answer, evidence
@@ -130,15 +136,15 @@ class Race:
         except NoConfigurationError as error:
             message = f"no configuration can be run: {error} ({self._obstacle(0)})"
             raise InputError(message) from None
+        except NoMoreRunsError:
+            pass  # It is concluded as it is, as if its run budget were reached.
         plan, evidence = self._plan, self.evidence()
         answer: AnyAnswer
         if isinstance(plan.question, Cheapest):
             answer = conclude_requirement(plan, evidence, self._requirement_ending())
         else:
             answer = conclude(plan, evidence, self._ending())
-        question = Answered(question_in_words(plan), plan.confidence)
-        questions = self._store.answered(question)
-        return replace(answer, questions=questions), evidence
+        return replace(answer, questions=self._store.answered(answered(plan))), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure
@@ -285,12 +291,13 @@ class Race:
         return max(0.0, low - pending), max(0.0, high - pending)
 
 
-def question_in_words(plan: Plan) -> str:
-    """Return the question of a plan, which other questions about the same runs differ from."""
+def answered(plan: Plan) -> Answered:
+    """Return the question of a plan; other questions about the same runs have other words."""
     question = plan.question.as_dict(plan.confidence)
     if isinstance(plan.question, Best):
         question["merit"] = plan.scenario.merit.name
-    return ", ".join(f"{key} {value}" for key, value in question.items())
+    words = ", ".join(f"{key} {value}" for key, value in question.items())
+    return Answered(words, plan.confidence)
 
 
 def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:

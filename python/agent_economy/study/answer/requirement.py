@@ -83,8 +83,12 @@ def conclude_requirement(
     return RequirementAnswer(
         scenario=plan.scenario,
         seed=plan.seed,
-        verdict=requirement_verdict(question, found, plan.confidence, ending.obstacle),
-        sentence=sentence(question, found, plan.confidence, ending.obstacle),
+        verdict=requirement_verdict(
+            question, found, plan.confidence, ending.obstacle, is_over=ending.is_over
+        ),
+        sentence=sentence(
+            question, found, plan.confidence, ending.obstacle, is_over=ending.is_over
+        ),
         guarantee=guarantee(question, found, plan.confidence, is_over=ending.is_over),
         is_guaranteed=ending.is_over,
         confidence=plan.confidence,

@@ -16,6 +16,9 @@ MAX_NAMED = 4
 OFTEN = 0.1
 """Of a configuration whose runs fail more often than this, the failures are stated first."""
 
+MAX_IN_RUNS = 10**9
+"""Failures are counted in at most this many runs."""
+
 Verdict = tuple[str, str, str, str]
 """What to send, how it does, what does as well, and what was not looked for."""
 
@@ -57,18 +60,34 @@ def upper(words: str) -> str:
 def failures(result: Result) -> str:
     """Return how often runs fail: "about 2 in 100 runs fail (1 to 4)", "none of 37 runs failed"."""
     failed = result.failed
-    value, low, high = (100 * each for each in (failed.value, failed.low, failed.high))
-    if value == 0:
-        return f"none of {result.runs:,} runs failed (up to {two_figures(high)} in 100 may)"
+    if failed.value == 0:
+        return f"none of {result.runs:,} runs failed (up to {in_runs(failed.high)} may)"
     if failed.value == 1:
         return f"all of {result.runs:,} runs failed"
-    between = f"{two_figures(low)} to {two_figures(high)}"
-    return f"about {two_figures(value)} in 100 runs fail ({between})"
+    runs = runs_with_one(failed.value)
+    between = f"{two_figures(runs * failed.low)} to {two_figures(runs * failed.high)}"
+    return f"about {two_figures(runs * failed.value)} in {runs:,} runs fail ({between})"
+
+
+def in_runs(share: float) -> str:
+    """Return a share of runs: "2.6 in 1,000"."""
+    runs = runs_with_one(share)
+    return f"{two_figures(runs * share)} in {runs:,}"
+
+
+def runs_with_one(share: float) -> int:
+    """Return 100 runs, or as many times ten more as have at least one of a share, up to 10^9."""
+    runs = 100
+    while runs * share < 1 and runs < MAX_IN_RUNS:
+        runs *= 10
+    return runs
 
 
 def two_figures(number: float) -> str:
-    """Return a number as people round it: whole from 10 on, else with two figures."""
-    return f"{number:.0f}" if number >= 10 else f"{number:.2g}"  # noqa: PLR2004
+    """Return a number as people round it: whole from 10 on, else with two figures, or zero."""
+    if number >= 10:  # noqa: PLR2004
+        return f"{number:,.0f}"
+    return f"{number:.2g}" if number >= 0.01 else "0"  # noqa: PLR2004
 
 
 def others(chosen: Result, results: Sequence[Result]) -> str:
