@@ -1,5 +1,7 @@
 """What answers about a requirement state, and what they do not."""
 
+import json
+import math
 import signal
 import subprocess
 import time
@@ -11,19 +13,20 @@ import pytest
 from command_line import COMMAND
 from requirement_study import RISING, answered, quarantined, required, simulated
 
-from agent_economy import study
-from agent_economy._core import InputError
+from agent_economy import InputError, study
 from agent_economy.runs import quarantine
-from agent_economy.scenario import Condition
+from agent_economy.scenario import Condition, Scenario
 from agent_economy.study import RequirementAnswer
 from agent_economy.study.answer.condition_words import in_words
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.quantiles import Quantile
 from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.answer.requirement_words import seen
 from agent_economy.study.answer.verdict import repeated
 from agent_economy.study.api import answer_so_far
 from agent_economy.study.plan import Plan
-from agent_economy.study.run_block import RunBlock
+from agent_economy.study.report.tables import bounds_of
+from agent_economy.study.run_block import Columns, RunBlock
 
 ROVERS = "robots.rover.count"
 
@@ -228,3 +231,63 @@ def test_a_share_below_one_is_never_printed_as_all(classic_toml: Path) -> None:
     assert words(154, 154, 0.95) == "all of 154 did"
     assert words(4999, 5000, 0.95) == "4,999 of 5,000 did"
     assert words(4999, 5000, 0.999) == "99.98% of 5,000 did"
+
+
+def test_quarantined_runs_fail_every_condition_and_are_not_values(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    require = '[require]\nall = ["found >= 0.5", "time_s >= 5"]\nprobability = 0.5\n'
+    plan = study.make_plan(required(classic_toml, require, vary="4"))
+
+    def found_once(block: RunBlock) -> Columns:
+        columns: Columns = simulated(plan, dict.fromkeys(RISING, 1.0))(block)
+        return {**columns, "found": columns["time_s"] / 10}
+
+    compute = quarantined(found_once, lambda _, run: run % 3 == 0)
+    answer = study.run_plan(plan, tmp_path, compute=compute)
+    assert isinstance(answer, RequirementAnswer)
+    (result,) = answer.results
+    share = result.quarantined / result.runs
+    assert 0.3 < share < 0.4
+    assert result.failing == pytest.approx((share, share))
+    found, time_s = result.quantiles
+    assert [each.value for each in found.quantiles] == [1, 1, 1]
+    assert found.never == 0
+    assert time_s.never == pytest.approx(share)
+    assert [each.value for each in time_s.quantiles] == [10, math.inf, math.inf]
+
+
+def test_quantiles_that_are_never_reached_differ_from_unknown_ones(tmp_path: Path) -> None:
+    require: dict[str, Any] = {"require": "time_s <= 20", "probability": 0.5}
+    answer = study.run("search", **require, vary={ROVERS: "1"}, only_vary=True, out=tmp_path)
+    stored = json.loads((tmp_path / "answer.json").read_text("utf-8"))
+    assert isinstance(answer, RequirementAnswer)
+    quantile = stored["results"][0]["quantiles"][0]["quantiles"][2]
+    assert (quantile["value"], quantile["high"]) == ("inf", "inf")
+    cases = [(None, 60.0), (None, math.inf), (40.0, math.inf), (math.inf, math.inf), (1.0, 2.0)]
+    assert [bounds_of(Quantile(0.5, 50, *case), 0) for case in cases] == [
+        "up to 60",
+        "unknown",
+        "40 to never",
+        "never",
+        "1 to 2",
+    ]
+
+
+def test_another_end_in_the_same_folder_is_refused_by_its_name(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    end = '[end]\nwhen = "found_mine >= 3"\n'
+    search = (classic_toml.parent / "search.toml").read_text("utf-8")
+    one = Scenario.loads(search + end).replace("robots.rover.count", 2)
+    other = one.replace("end.when", "found_mine >= 2").replace("require.all", ["time_s <= 90"])
+    options: dict[str, Any] = {"vary": {ROVERS: "1"}, "only_vary": True, "out": tmp_path}
+    study.run(one, **options, runs=2)
+    with pytest.raises(InputError) as caught:
+        study.run(other, **options)
+    assert str(caught.value).splitlines()[1:] == [
+        "  existing: runs = 2",
+        "  requested: no runs",
+        "  existing: end.when = 'found_mine >= 3'",
+        "  requested: end.when = 'found_mine >= 2'",
+    ]

@@ -221,6 +221,9 @@ class Race:
                 if name == self._plan.question.quantity:
                     parts.append(values[row])
                     continue
+                if name == "quarantined":
+                    parts.append(np.isnan(found[row]).astype(np.float64))
+                    continue
                 # A quarantined run counts as the worst possible: late, failed, and with its cost.
                 given = columns[name][row]
                 parts.append(np.where(np.isnan(given), limits[name][1], given))
@@ -301,9 +304,11 @@ def answered(plan: Plan) -> Answered:
 
 
 def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
-    """Yield the columns that an answer uses, of those that the simulator has."""
+    """Yield the columns that an answer uses, of those that the simulator has, and its own."""
     question = plan.question
     yield question.quantity
+    if isinstance(question, Cheapest):
+        yield "quarantined"
     yield from (name for name in question.columns if name in limits)
 
 

@@ -28,7 +28,7 @@ AMOUNTS: dict[str, Callable[[str], str]] = {
     "energy_j": lambda amount: f"{amount} J of energy",
     "price": lambda amount: f"a price of {amount}",
 }
-"""Columns of amounts, with what is said of a bounded amount."""
+"""Columns of amounts, with the words for a bounded amount."""
 
 BOUNDS = {"<=": "at most", ">=": "at least"}
 

@@ -43,7 +43,8 @@ class Sample(EqualByValue):
     Attributes:
         values: Values of the varied factors, by path.
         columns: By name, shape (runs,): the quantities of the question, such as those of
-            `QUANTITIES`, "robots", and "price" if the simulator has prices.
+            `QUANTITIES`, "robots", and "price" if the simulator has prices. About a requirement,
+            "quarantined" is 1 in a quarantined run; in other columns, it has the greatest value.
         limits: By name, the range of a column.
         quarantined: Number of runs without a finite merit, which count as the worst.
     """

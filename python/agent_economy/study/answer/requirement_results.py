@@ -49,8 +49,8 @@ class RequirementResult:
             "impossible": it cannot be run.
         met: The share of runs that meet the requirement; the intervals of all configurations hold
             simultaneously. None without runs.
-        failing: The share of runs in which each condition does not hold, in their order; empty
-            without runs.
+        failing: The share of runs in which each condition does not hold, in their order;
+            quarantined runs included. Empty without runs.
         quantiles: Quantiles of the columns of the conditions.
     """
 
@@ -116,7 +116,8 @@ def failing(sample: Sample, requirement: Requirement) -> tuple[float, ...]:
     """Return the share of runs in which each condition does not hold; empty without runs."""
     if not sample.runs:
         return ()
-    holds = (condition.holds(sample.columns) for condition in requirement.conditions)
+    is_outcome = sample.columns["quarantined"] == 0
+    holds = (condition.holds(sample.columns) & is_outcome for condition in requirement.conditions)
     return tuple(float(1 - each.mean()) for each in holds)
 
 

@@ -80,7 +80,7 @@ def of_cheaper(
 
 
 def seen(result: RequirementResult, requirement: Requirement) -> str:
-    """Return in which share of its runs a team met a requirement."""
+    """Return the share of runs in which a team met a requirement."""
     if result.met is None:
         return ""
     value, runs = result.met.value, result.runs
