@@ -13,6 +13,7 @@ from functools import cached_property
 from agent_economy import _core
 from agent_economy.study.arguments import Floats
 from agent_economy.study.equality import EqualByValue
+from agent_economy.study.teams import rounded
 
 Limits = tuple[float, float]
 
@@ -69,8 +70,8 @@ class Sample(EqualByValue):
         """Price of its robots; 0 if the simulator has no prices."""
         if "price" not in self.columns:
             return 0.0
-        # Every run has the same one, which is a sum: equal prices must not differ by rounding.
-        return float(f"{self.columns['price'][0]:.12g}")
+        # Every run has the same one.
+        return rounded(float(self.columns["price"][0]))
 
     def mean(self, name: str) -> float:
         """Return the mean of a column."""

@@ -1,6 +1,7 @@
 """The results of each configuration of a study of a requirement."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from agent_economy.scenario import Requirement, Value
@@ -9,6 +10,7 @@ from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
 from agent_economy.study.plan import Plan
 from agent_economy.study.selection import Elimination
+from agent_economy.study.teams import rounded
 
 Status = Literal["selected", "certified", "refuted", "open", "not needed", "impossible"]
 
@@ -30,6 +32,11 @@ class RequirementEnding:
     eliminations: tuple[Elimination, ...]
     is_over: bool
     obstacle: str = ""
+
+    @cached_property
+    def refuted(self) -> frozenset[int]:
+        """The refuted configurations."""
+        return frozenset(each.configuration for each in self.eliminations)
 
 
 @dataclass(frozen=True)
@@ -99,7 +106,7 @@ def status(plan: Plan, evidence: Evidence, ending: RequirementEnding, index: int
         return "selected"
     if index in ending.certified:
         return "certified"
-    if any(index == each.configuration for each in ending.eliminations):
+    if index in ending.refuted:
         return "refuted"
     if sample.runs and not sample.is_possible:
         return "impossible"
@@ -125,6 +132,5 @@ def price(sample: Sample) -> float:
     """Return the price of a configuration's team; without prices, its number of robots."""
     low, high = sample.limits.get("price", (0.0, 0.0))
     if low == high != 0:
-        # A sum: equal prices must not differ by rounding.
-        return float(f"{low:.12g}")
+        return rounded(low)
     return float(sample.limits["robots"][1])

@@ -150,7 +150,7 @@ def why(question: Cheapest, results: Sequence[RequirementResult], *, is_over: bo
         return []
     met, nearest = max(known, key=lambda pair: pair[0].value)
     low, high = (share(bound, requirement) for bound in (met.low, met.high))
-    best = f"{nearest.label}, in {share(met.value, requirement)} of missions ({low} to {high})"
+    best = f"{nearest.label}, met in {share(met.value, requirement)} of missions ({low} to {high})"
     worst = max(range(len(nearest.failing)), key=nearest.failing.__getitem__)
     condition = requirement.conditions[worst].text
     failing = f"{condition}, in {nearest.failing[worst]:.1%} of missions"
