@@ -222,7 +222,7 @@ def typed_dict(name: str, schema: Schema) -> str:
         return alias("Json", "Any", description)
     if choices(schema):
         return alias(class_name(name), python(schema), description)
-    if alternatives(schema):
+    if all(map(only_key, alternatives(schema) or [{}])):
         return union_of_keys(class_name(name), schema)
     if schema.get("type") != "object":
         return alias(class_name(name), python(schema), description)

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from http.client import HTTPConnection
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +27,11 @@ SETTINGS = {"range_unit_m": 1.0, "no_echo": 99.0}
 BENDER = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
 
 
-def changed_scenario(path: Path, changes: Mapping[str, str]) -> Path:
-    """Write the scenario bender with other lines, by what the lines begin with."""
+def changed_scenario(path: Path, changes: Mapping[str, str], bundled: Path = BENDER) -> Path:
+    """Write a scenario, by default bender, with other lines, by what the lines begin with."""
     lines = [
         next((text for key, text in changes.items() if line.strip().startswith(key)), line)
-        for line in BENDER.read_text(encoding="utf-8").splitlines()
+        for line in bundled.read_text(encoding="utf-8").splitlines()
     ]
     path.write_text("\n".join(lines), encoding="utf-8")
     return path
@@ -208,9 +209,23 @@ class Drive:
 
     def post(self, path: str) -> None:
         """Send a request to the endpoint of the drive."""
-        file = next(Path(self.environment["XDG_RUNTIME_DIR"]).rglob(f"{self.process.pid}.json"))
-        accepted, answer = RunningDrive(**json.loads(file.read_text())).request(path)
+        accepted, answer = self.running().request(path)
         assert accepted, answer
+
+    def running(self) -> RunningDrive:
+        """Return its entry in the list of drives."""
+        file = next(Path(self.environment["XDG_RUNTIME_DIR"]).rglob(f"{self.process.pid}.json"))
+        return RunningDrive(**json.loads(file.read_text()))
+
+    def ask(self, path: str, **body: Any) -> tuple[int, dict[str, Any]]:
+        """Send a request with a body to its endpoint; return the status and the answer."""
+        entry = self.running()
+        link = HTTPConnection(entry.host, entry.port, timeout=5)
+        link.request("POST", path, json.dumps({"token": entry.token, **body}))
+        response = link.getresponse()
+        answer = json.loads(response.read())
+        link.close()
+        return response.status, answer
 
     def stop(self) -> float:
         """Stop all robots by the command; return the time just before."""

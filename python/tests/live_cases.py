@@ -229,7 +229,7 @@ CASES = (
 ALL_CASES = pytest.mark.parametrize(
     "case", CASES, ids=lambda each: f"{each.fault.name}: {each.name}"
 )
-STOPPED_ELSEWHERE = {faults.MISSING_INPUT, faults.MODE_CHANGED, faults.NOT_ARMED}
+STOPPED_ELSEWHERE = {faults.MISSING_INPUT, faults.MODE_CHANGED, faults.NOT_ARMED, faults.HELD}
 
 
 def stops(fault: Fault, mode: Mode) -> bool:

@@ -127,7 +127,8 @@ class Story:
             self.given if self.mode is Mode.MANUAL else None,
         )
         loop = replace(LoopInputs(is_alive=True, last_message_s=self.received_s), **self.loop)
-        inputs = Inputs({ROBOT: robot}, loop, self.gap_s)
+        self.known, inputs = robot, Inputs({ROBOT: robot}, loop, self.gap_s)
+        self.inputs = inputs
         self.memory, outputs = update(
             self.memory, self.plan, self.time_s, inputs, requests or Requests()
         )

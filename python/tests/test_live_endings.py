@@ -15,7 +15,6 @@ from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.loop import last_resort
 from agent_economy.live.plan import FleetPlan
 from agent_economy.live.readings import STOP, Motion
-from agent_economy.live.warden import shell
 from agent_economy.live.warden.connection import MAX_LINES, Connection
 from agent_economy.live.warden.reporter import MAX_EVENTS, Reporter
 from agent_economy.live.warden.robot import Robot
@@ -129,12 +128,6 @@ def test_arming_is_refused_in_the_turn_in_which_a_stop_is_requested() -> None:
     stopped.operator.stop = True
     with pytest.raises(ValueError, match="emergency stop has been requested"):
         stopped.arm([])
-
-
-def test_a_request_to_arm_something_that_is_no_name_is_refused(plan: FleetPlan) -> None:
-    arm = shell.actions(warden(), plan)["/arm"]
-    with pytest.raises(ValueError, match="robots must be a list of bender/0"):
-        arm({"robots": [["bender/0"]]})
 
 
 def test_of_a_flood_of_lines_only_the_newest_are_taken(plan: FleetPlan) -> None:

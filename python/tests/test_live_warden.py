@@ -19,11 +19,12 @@ from agent_economy.live.plan import Origin
 from agent_economy.live.readings import STOP, Motion
 from agent_economy.live.rules import Action, Decision
 from agent_economy.live.rules.faults import EMERGENCY_STOP, NOT_ARMED, STALE_INPUT
+from agent_economy.live.warden.control import Control, Drive
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.endpoint import Endpoint
+from agent_economy.live.warden.event_log import EventLog
 from agent_economy.live.warden.mission import READY_S, Mission
 from agent_economy.live.warden.motor_line import MotorLines
-from agent_economy.live.warden.shell import actions
 from agent_economy.live.warden.warden import Warden
 
 BENDER = DRIVERS["bender"]
@@ -162,12 +163,12 @@ def request(address: tuple[str, int], method: str, path: str, body: bytes) -> tu
 def test_the_endpoint_takes_requests_with_its_token_only() -> None:
     taken: list[Any] = []
 
-    def act(body: dict[str, Any]) -> str:
+    def act(body: dict[str, Any]) -> dict[str, str]:
         if body.get("robots") == ["x"]:
             message = "x cannot be armed: stale"
             raise ValueError(message)
         taken.append(body)
-        return "done"
+        return {"message": "done"}
 
     async def serve() -> list[tuple[int, str]]:
         endpoint = Endpoint({"/stop": act})
@@ -199,7 +200,8 @@ def test_the_endpoint_takes_requests_with_its_token_only() -> None:
 @pytest.mark.parametrize("robots", [["other/0"], [["bender/0"]], "bender/0", [{}], None])
 def test_what_is_no_list_of_robots_is_refused(robots: Any) -> None:
     warden = Warden(lambda _: None, is_headless=False)
-    arm = actions(warden, fleet.load("bender").plan)["/arm"]
+    drive = Drive(fleet.load("bender").plan, "bender", "bender.mcap")
+    arm = Control(warden, drive, EventLog()).actions()["/arm"]
     with pytest.raises(ValueError, match="robots must be a list of bender/0"):
         arm({"robots": robots})
 

@@ -13,8 +13,8 @@ import pytest
 
 import agent_economy as ae
 from agent_economy.server import Workspace
+from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.display import MAX_IN_FLIGHT
-from agent_economy.server.runs.session import Session
 from agent_economy.server.transport import ConnectionClosedError
 
 Message = dict[str, Any]
@@ -100,7 +100,7 @@ def serve_page(page: Page, folder: Path) -> None:
 
     async def serve() -> None:
         with ThreadPoolExecutor(2) as threads:
-            await asyncio.wait_for(Session(page, Workspace(folder), threads).run(), 30)
+            await asyncio.wait_for(PageConnection(page, Workspace(folder), threads).run(), 30)
 
     asyncio.run(serve())
 

@@ -20,6 +20,7 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Condition, Override, Requirement
 from agent_economy.study import RequirementAnswer, report
 from agent_economy.study.plan import Plan
+from agent_economy.study.report.contenders import contenders
 
 
 def test_the_smallest_team_that_meets_the_requirement_is_selected(
@@ -148,6 +149,21 @@ def test_the_report_shows_shares_conditions_and_the_distribution(
     rows = parts.charts["share"]["data"]["values"]
     assert [row["status"] for row in rows[:4]] == ["refuted"] * 3 + ["selected"]
     assert json.loads((tmp_path / "answer.json").read_text("utf-8"))["selected"] == 3
+
+
+def test_a_hopeless_team_does_not_squeeze_the_shares_of_the_contenders(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    shares = {**RISING, 1: 0.02, 3: 0.88}
+    answer = answered(study.make_plan(required(classic_toml)), shares, tmp_path)
+    assert sorted(contenders(answer))[:2] == [2, 3]
+    _, evidence = study.load_answer(tmp_path)
+    chart = report.parts(answer, evidence).charts["share"]
+    lowest = chart["layer"][0]["encoding"]["x"]["scale"]["domainMin"]["expr"]
+    everything, near = map(float, lowest.removeprefix("all_teams ? ").split(" : "))
+    hopeless = answer.results[0].met
+    assert hopeless is not None
+    assert everything <= hopeless.low <= hopeless.value < near
 
 
 @pytest.mark.parametrize(

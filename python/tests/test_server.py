@@ -20,8 +20,8 @@ import agent_economy as ae
 from agent_economy.server import Workspace, app
 from agent_economy.server.app import MAX_SESSIONS
 from agent_economy.server.request_body import MAX_BYTES
+from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.display import MAX_IN_FLIGHT
-from agent_economy.server.runs.session import Session
 from agent_economy.server.runs.thumbnail import ITEM, ROBOT, WALL
 from agent_economy.server.transport import ConnectionClosedError
 
@@ -350,7 +350,7 @@ def test_a_robot_without_beliefs_has_a_percept_and_a_command_and_no_map(page: Pa
         ('{"type": "play", "speed": "fast"}', "play.speed"),
         ('{"type": "play", "speed": NaN}', "play.speed"),
         ('{"type": "seek", "tick": 1}', "after an open"),
-        ('{"type": "open"}', "exactly one of `scenario` and `text`"),
+        ('{"type": "open"}', "exactly one of `scenario`, `text`, `study`"),
         ('{"type": "open", "scenario": "search", "seed": 7}', "as a string"),
         ('{"type": "open", "scenario": "search", "seed": "99999999999999999999"}', "seed"),
         ('{"type": "open", "scenario": "nothing"}', "one of the gallery"),
@@ -405,7 +405,7 @@ def test_a_page_that_disconnects_while_it_sends_leaves_nothing_behind(tmp_path: 
 
     async def served() -> None:
         with ThreadPoolExecutor(2) as threads:
-            session = Session(Hasty(), Workspace(tmp_path), threads)
+            session = PageConnection(Hasty(), Workspace(tmp_path), threads)
             await asyncio.wait_for(session.run(), 10)
 
     asyncio.run(served())

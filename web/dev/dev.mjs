@@ -5,7 +5,9 @@ import { RealServer } from "./real-server.mjs";
 const own = process.env.SERVER ? null : new RealServer();
 await own?.start();
 const target = own?.url ?? process.env.SERVER;
-const page = await createServer({ server: { proxy: { "/api": { target }, "/ws": { target, ws: true } } } });
+const page = await createServer({
+  server: { proxy: { "/api": { target }, "/drive": { target }, "/ws": { target, ws: true } } },
+});
 await page.listen();
 page.printUrls();
 for (const signal of ["SIGINT", "SIGTERM"])

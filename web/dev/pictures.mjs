@@ -5,6 +5,7 @@
 import { mkdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { chromium } from "@playwright/test";
+import { runnerImport } from "vite";
 import { launchOptions } from "./chromium.mjs";
 import { RealServer } from "./real-server.mjs";
 
@@ -34,6 +35,15 @@ const views = {
     at: "#/study/new?scenario=search",
     ready: (page) => page.getByText("20 configurations").first().waitFor(),
   },
+  requirement: {
+    at: "#/study/new?scenario=warehouse",
+    size: { width: 1280, height: 1150 },
+    ready: async (page) => {
+      await page.getByRole("button", { name: "Start" }).and(page.locator(":enabled")).waitFor();
+      await page.getByText("Add a factor").click();
+      await page.getByRole("searchbox", { name: "Search factors" }).fill("time_limit");
+    },
+  },
   race: {
     at: "#/study?id=studies/search",
     before: (server) => startStudy(server, { scenario: "search", delta: 0.002 }),
@@ -46,6 +56,22 @@ const views = {
       await page.getByText("Send 4 wanderers").first().waitFor();
       await page.waitForLoadState("networkidle");
       await page.waitForTimeout(1500);
+    },
+  },
+  robots: {
+    at: "#/robots",
+    prepare: async (page) => {
+      const { module } = await runnerImport(fileURLToPath(new URL("../tests/warden.ts", import.meta.url)));
+      const warden = new module.FakeWarden();
+      Object.assign(warden.robot, { is_armed: true, action: "move", latched: [] });
+      Object.assign(warden.robot.written, { line: "x,2,170," });
+      await warden.start();
+      await warden.attach(page);
+      page.once("close", () => warden.kill());
+    },
+    ready: async (page) => {
+      await page.getByRole("button", { name: "Take control" }).click();
+      await page.getByText("This page is the operator.").waitFor();
     },
   },
   phone: { at: run, size: phone, ready: (page) => paused(page, "22.0 s") },
@@ -86,11 +112,13 @@ await server.start();
 const browser = await chromium.launch(launchOptions);
 await mkdir(folder, { recursive: true });
 try {
-  for (const [name, { at, before, ready, size = wide }] of Object.entries(views)) {
+  for (const [name, { at, before, prepare, ready, size = wide }] of Object.entries(views)) {
     if (wanted.length > 0 && !wanted.includes(name)) continue;
     await before?.(server);
     for (const colorScheme of ["light", "dark"]) {
-      const page = await browser.newPage({ viewport: size, colorScheme });
+      // The server's policy does not name the port of the fake warden.
+      const page = await browser.newPage({ viewport: size, colorScheme, bypassCSP: prepare !== undefined });
+      await prepare?.(page);
       await page.goto(`${server.url}/${at}`);
       await ready(page);
       await page.screenshot({ path: `${folder}/${name}-${colorScheme}.png` });

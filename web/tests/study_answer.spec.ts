@@ -23,6 +23,18 @@ test("an answer has its verdict, guarantee, charts with tables, and files", asyn
   expect(saved.suggestedFilename()).toMatch(/^search.*-report\.html$/);
 });
 
+test("a run that is watched from an answer is the median run of the selected team", async ({
+  page,
+  server,
+  answered,
+}) => {
+  await openAnswer(page, server, answered);
+  const link = page.getByRole("link", { name: "Watch a run" });
+  await expect(link).toHaveAttribute("title", "The median run of the selected team");
+  await link.click();
+  await expect(page.getByRole("heading", { name: /^Run \d+ of search, \d rovers?$/ })).toBeVisible();
+});
+
 test("charts follow the theme and the width of the window", async ({ page, server, answered }) => {
   await openAnswer(page, server, answered);
   const chart = meritChart(page);

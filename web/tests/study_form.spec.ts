@@ -87,7 +87,7 @@ test("further factors are found by name, added and removed", async ({ page, serv
   await page.goto(formAt(server));
   await page.getByText("Add a factor").click();
   await page.getByRole("searchbox").fill("max speed");
-  await expect(page.getByText("2 parameters", { exact: true })).toBeVisible();
+  await expect(page.getByText("3 parameters", { exact: true })).toBeVisible();
   await page.getByRole("button", { name: "Vary robots.rover.drive.max_speed_m_s" }).click();
   const speed = page.getByRole("textbox", { name: "robots.rover.drive.max_speed_m_s" });
   await expect(speed).toBeFocused();

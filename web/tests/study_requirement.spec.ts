@@ -55,6 +55,36 @@ test("a race with a requirement has the status of each configuration as text", a
   await expectToFit(page);
 });
 
+test("a race is scaled to its contenders, until all teams are selected", async ({
+  page,
+  server,
+  required,
+}) => {
+  const stopped = { state: "stopped", message: null } as const;
+  await altered(page, (sent) => (sent.type === "study_progress" ? { ...sent, ...stopped } : sent));
+  await alterStudy(page, { ...stopped, answer: null, is_recommended: null });
+  await page.goto(studyAt(server, required));
+  const hopeless = page.getByRole("listitem").filter({ hasText: /^1 wanderer / });
+  await expect(hopeless.getByText("←")).toBeVisible();
+  await page.getByRole("button", { name: "All teams" }).click();
+  await expect(hopeless.locator("circle")).toBeVisible();
+  await expect(hopeless.getByText("←")).toBeHidden();
+  await expectAccessible(page);
+});
+
+test("a chart of the answer is scaled to the contenders, until all teams are selected", async ({
+  page,
+  server,
+  required,
+}) => {
+  await page.goto(studyAt(server, required));
+  const shares = page.getByRole("region", { name: "Missions that meet the requirement" });
+  await expect(shares.getByText("←").first()).toBeVisible();
+  await shares.getByRole("button", { name: "All teams" }).click();
+  await expect(shares.getByText("←")).toHaveCount(0);
+  await expectAccessible(page);
+});
+
 test("the answer to a requirement is its verdict", async ({ page, server, required }) => {
   await page.goto(studyAt(server, required));
   await expect(page.getByText(/^Send \d wanderers\.$/)).toBeVisible();

@@ -94,6 +94,13 @@ impl Search {
         self.found_at
     }
 
+    /// Items found, and collisions.
+    #[must_use]
+    pub fn counts(&self) -> (u64, u64) {
+        let found = self.found_at.iter().flatten().count();
+        (found as u64, self.collisions)
+    }
+
     /// Whether the run is over: all items are found, the time limit is reached, or a state has recurred,
     /// so that the other items will never be found.
     #[must_use]

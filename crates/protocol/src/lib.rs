@@ -1,8 +1,9 @@
 //! The messages between the server and the page, as types only.
 //!
-//! Messages are JSON on a WebSocket, each with its `type`; frames and overlays are binary. The
-//! JSON Schema of these types ([`page_schema`]) and that of brains ([`brain_schema`]) are the
-//! source of the Python types of the server and of the TypeScript types of the page.
+//! Messages are JSON on a WebSocket, each with its `type`; frames and overlays are binary. Requests
+//! and answers about studies are JSON over HTTP. The JSON Schema of these types ([`page_schema`]) and
+//! that of brains ([`brain_schema`]) are the source of the Python types of the server and of the
+//! TypeScript types of the page.
 //!
 //! Seeds and run numbers can have 64 bits, which JavaScript numbers cannot hold: they are strings.
 
@@ -12,16 +13,26 @@ mod schema;
 mod server;
 mod setting;
 mod study;
+mod study_answer;
+mod study_form;
 
 pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
 pub use page::{
     Acknowledge, Change, Empty, Json, Layers, LoggedChange, Open, PageMessage, Play, Seek, Select,
-    Step, StudyMember,
+    SeriesRequest, Step, StudyMember,
 };
 pub use schema::{brain_schema, page_schema};
 pub use server::{
     Ended, Exported, Inspection, MapPart, Opened, OpenedRecording, OpenedScenario, Refused,
-    RobotView, Saved, Saving, ServerMessage, State,
+    RobotView, Saved, Saving, Series, SeriesRow, ServerMessage, State,
 };
 pub use setting::{ItemView, KindView, MapView, RingView, SensorView, Setting, Unit, WorldView};
-pub use study::{Standing, StudyProgress, StudyState};
+pub use study::{RequirementStatus, Standing, StudyProgress, StudyState};
+pub use study_answer::{
+    Study, StudyAnswer, StudyList, StudyResult, StudySection, StudySource, StudySummary,
+    StudyTable, StudyVerdict,
+};
+pub use study_form::{
+    Factor, FactorKind, FactorValue, Factors, Guarantee, PlannedFactor, PlannedRequirement,
+    Requirement, StudyPlan, StudyQuestion, StudyRequest,
+};

@@ -35,6 +35,8 @@ pub enum PageMessage {
     Select(Select),
     /// Select the overlays of frames.
     Layers(Layers),
+    /// Request the outcome over time.
+    RequestSeries(SeriesRequest),
     /// Acknowledge that a frame has been drawn, and all before it. At most three frames are not
     /// acknowledged.
     Acknowledge(Acknowledge),
@@ -45,7 +47,7 @@ pub enum PageMessage {
 #[serde(default, deny_unknown_fields)]
 pub struct Empty {}
 
-/// Which run to open; exactly one of `scenario`, `text`, `study` and `recording` is given.
+/// Which run to open; exactly one of `scenario`, `text`, `study`, `recording` and `live` is given.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Open {
@@ -57,6 +59,9 @@ pub struct Open {
     pub study: Option<StudyMember>,
     /// A recording by its id.
     pub recording: Option<String>,
+    /// Whether to join the live run of the server, at the present. All pages share it: it can neither be
+    /// moved nor changed.
+    pub live: bool,
     /// The seed as a decimal number; by default that of the study, or 0. A recording has its own.
     #[schemars(regex(pattern = r"^[0-9]{1,20}$"))]
     pub seed: Option<String>,
@@ -152,6 +157,15 @@ pub struct Layers {
     pub links: bool,
     /// Areas that sensors cover.
     pub footprints: bool,
+}
+
+/// The part of the outcome over time that the page does not have.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SeriesRequest {
+    /// The first tick of that part.
+    #[schemars(range(min = 0, max = 9_007_199_254_740_992_u64))]
+    pub since: u64,
 }
 
 /// A frame that has been drawn.

@@ -3,6 +3,8 @@
 use crate::lists::{Checked, ScenarioEntry};
 use crate::page::PageMessage;
 use crate::server::ServerMessage;
+use crate::study_answer::{Study, StudyList};
+use crate::study_form::{Factors, StudyRequest};
 use brain::{AssignedGoal, BeliefState, Body, Command, Percept};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value as Json, json};
@@ -33,6 +35,10 @@ pub fn page_schema() -> Json {
     from_server.subschema_for::<ServerMessage>();
     from_server.subschema_for::<ScenarioEntry>();
     from_server.subschema_for::<Checked>();
+    from_server.subschema_for::<Factors>();
+    from_server.subschema_for::<StudyRequest>();
+    from_server.subschema_for::<StudyList>();
+    from_server.subschema_for::<Study>();
     definitions(
         "Messages between the server and the page",
         [from_server, from_page],

@@ -28,6 +28,8 @@ pub enum ServerMessage {
     Saved(Saved),
     /// The scenario as it is now.
     Exported(Exported),
+    /// The outcome over time.
+    Series(Series),
     /// A message was refused; it changed nothing.
     Refused(Refused),
     /// The server is about to disconnect.
@@ -47,6 +49,8 @@ pub struct Opened {
     pub run: String,
     /// The recording that it was opened from, if any.
     pub recording: Option<OpenedRecording>,
+    /// Whether it is the live run of the server.
+    pub is_live: bool,
 }
 
 /// The scenario of an opened run.
@@ -183,6 +187,28 @@ pub struct Saved {
 pub struct Exported {
     /// Its text, TOML.
     pub text: String,
+}
+
+/// The outcome over time: a row wherever a count changed, and evenly spaced ones.
+///
+/// Of very many changes, only some are kept; items found are kept longest.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Series {
+    /// The first tick that the rows are about: they replace all rows from here on.
+    pub since: u64,
+    /// The columns with numbers.
+    pub columns: Vec<String>,
+    /// The rows by tick.
+    pub rows: Vec<SeriesRow>,
+}
+
+/// The outcome at a tick, if the run had ended there.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SeriesRow {
+    /// The tick.
+    pub tick: u64,
+    /// A value per column; null where there is none.
+    pub values: Vec<Option<f64>>,
 }
 
 /// A message that was refused.

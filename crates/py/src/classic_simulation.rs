@@ -127,6 +127,12 @@ impl ClassicSimulation {
         Ok(dict)
     }
 
+    /// Items found, and a number that differs when anything else was counted since.
+    #[getter]
+    fn counts(&self, py: Python) -> (u64, u64) {
+        self.locked(py).search().counts()
+    }
+
     /// The outcome columns: see `Configuration.columns`.
     #[getter]
     fn columns(&self, py: Python) -> Vec<ColumnTuple> {

@@ -204,6 +204,12 @@ impl Simulation {
         Ok(Some(dict))
     }
 
+    /// Items found, and a number that differs when anything else was counted since.
+    #[getter]
+    fn counts(&self, py: Python) -> PyResult<(u64, u64)> {
+        Ok(self.locked(py)?.state().counts())
+    }
+
     /// The outcome columns: see `Configuration.columns`.
     #[getter]
     fn columns(&self, py: Python) -> PyResult<Vec<ColumnTuple>> {

@@ -82,8 +82,11 @@ impl EndCondition {
         kinds: impl Iterator<Item = &'k str>,
     ) -> Result<Self, ConditionError> {
         let (names, counts): (Vec<String>, Vec<Count>) = Count::all(kinds).into_iter().unzip();
-        let times = Vec::new();
-        let comparison = parse(text, &ConditionColumns { names, times })?;
+        let columns = ConditionColumns {
+            names,
+            ..ConditionColumns::default()
+        };
+        let comparison = parse(text, &columns)?;
         Ok(Self {
             count: counts[comparison.place],
             comparison,

@@ -58,9 +58,7 @@ impl Engine for Metric {
     }
 
     fn condition_columns(&self, document: &Document) -> ConditionColumns {
-        let items = ScenarioSpec::max_counts(document);
-        let items = items.iter().map(|(name, count)| (name.as_str(), *count));
-        columns::condition_columns(&items.collect::<Vec<_>>())
+        columns::condition_columns(document)
     }
 
     fn merits(&self) -> &'static [NamedMerit] {

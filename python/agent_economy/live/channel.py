@@ -1,11 +1,14 @@
 """Messages between the warden and the loop: JSON, one per line, over pipes.
 
 The warden sends: `line` (a stamped line of a robot), `written` (a line that it wrote), `event` (a
-change of a robot's state, with its reasons), `beat` (it is running), `end` (close the recording).
+change of a robot's state, with its reasons), `order` (a waypoint that an operator ordered), `beat`
+(it is running), `end` (close the recording).
 
 The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, then it ends),
 `setpoint` (the motion of one robot), `beat` (one per tick, with its lateness), `goal` (a verdict),
-`recording_error`. `ended` stands for the end of its pipe.
+`radio` (a robot has become silent for its team, or is so no more),
+`recording_error`. If there is a page, also `run` (what it needs to step the same run, before
+`plan`) and `input` (the percepts of one step). `ended` stands for the end of its pipe.
 """
 
 import json

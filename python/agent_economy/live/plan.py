@@ -57,6 +57,7 @@ class RobotPlan:
         deadman_s: Time after which the robot stops by itself without a motor line; None if it
             has no such timer.
         repeat_s: Time between two motor lines of the same motion.
+        takes_orders: Whether its brain visits waypoints that an operator orders.
     """
 
     name: str
@@ -72,6 +73,7 @@ class RobotPlan:
     fence_m: tuple[Point, ...] | None = None
     deadman_s: float | None = None
     repeat_s: float = 0.2
+    takes_orders: bool = True
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,7 @@ class FleetPlan:
         period_s: Time between two steps of the loop.
         setpoint_lifetime_s: Time for which a setpoint is valid.
         max_lateness_s: Lateness of the loop at which all robots stop.
+        size_m: Width and height of the world; None if they are unknown.
     """
 
     origin: Origin
@@ -92,6 +95,7 @@ class FleetPlan:
     setpoint_lifetime_s: float = 0.3
     max_lateness_s: float = 0.5
     warnings: tuple[str, ...] = field(default=())
+    size_m: Point | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return the plan as plain values, for JSON."""
@@ -103,6 +107,7 @@ def plan_of(values: Mapping[str, Any]) -> FleetPlan:
     robots = tuple(_robot(each) for each in values["robots"])
     rest = {key: value for key, value in values.items() if key not in ("origin", "robots")}
     rest["warnings"] = tuple(rest.get("warnings", ()))
+    rest["size_m"] = rest.get("size_m") and tuple(rest["size_m"])
     return FleetPlan(origin=Origin(**values["origin"]), robots=robots, **rest)
 
 

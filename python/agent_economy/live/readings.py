@@ -40,11 +40,14 @@ class Motion:
         turn_rate_rad_s: Anticlockwise.
         heading_rad: The heading to turn to, for robots that turn by themselves; None to turn at
             the rate.
+        tracks: The motor values of the left and the right track that an operator requested, of
+            which speed and turn rate are the effect; None if the driver selects them.
     """
 
     speed_m_s: float = 0.0
     turn_rate_rad_s: float = 0.0
     heading_rad: float | None = None
+    tracks: tuple[int, int] | None = None
 
     @property
     def is_stop(self) -> bool:

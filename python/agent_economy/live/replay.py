@@ -15,7 +15,7 @@ from agent_economy.live.plan import plan_of
 from agent_economy.recording import Replay
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.file import strict
-from agent_economy.recording.live_topics import EVENTS, LIVE, SETPOINTS, TICKS, WIRE
+from agent_economy.recording.live_topics import EVENTS, LIVE, ORDERS, SETPOINTS, TICKS, WIRE
 from agent_economy.recording.reading import each_record, named
 from agent_economy.runs.simulation import Simulation
 
@@ -45,7 +45,7 @@ class Drive:
                 self._topics[record.id] = record.topic
             case Message():
                 topic = self._topics.get(record.channel_id, "")
-                if topic.startswith(WIRE) or topic in (EVENTS, TICKS, SETPOINTS, INPUT):
+                if topic.startswith(WIRE) or topic in (EVENTS, ORDERS, TICKS, SETPOINTS, INPUT):
                     self.messages.append((topic, json.loads(record.data)))
 
     @property

@@ -9,6 +9,7 @@ WIRE = "/wire/"
 """Prefix of the topics of lines: followed by the robot and the port."""
 
 EVENTS, TICKS, SETPOINTS = "/live/events", "/live/ticks", "/live/setpoints"
+ORDERS = "/live/orders"
 
 _TIME = NUMBER | {"description": "Time since the machine was started."}
 _ROBOT = STRING | {"description": "Name of the robot."}
@@ -35,6 +36,7 @@ _SCHEMAS = {
             "t": _TIME,
             "robot": _ROBOT,
             "action": {"enum": ["move", "stop", "latched_stop"]},
+            "mode": {"enum": ["auto", "manual"]},
             "is_armed": {"type": "boolean"},
             "is_confirmed": {"type": "boolean", "description": "Whether it is known to stand."},
             "faults": _FAULTS | {"description": "What stops it now, with reasons."},
@@ -42,6 +44,16 @@ _SCHEMAS = {
             "blockers": _FAULTS | {"description": "Why it cannot be armed."},
             "reasons": {"type": "object", "description": "Each of them with its values."},
             "warnings": _FAULTS | {"description": "What does not stop it."},
+        },
+    ),
+    ORDERS: of_object(
+        "agent_economy.Order",
+        "A waypoint that an operator ordered; the brain receives it in its next percept.",
+        {
+            "type": {"const": "order"},
+            "t": _TIME,
+            "robot": _ROBOT,
+            "at_m": {"type": "array", "items": NUMBER, "description": "Its place in the world."},
         },
     ),
     TICKS: of_object(

@@ -5,6 +5,7 @@ GET `/api/schema?engine=`: the JSON Schema of a scenario. POST `/api/check`: a s
 errors are the response, with status 422.
 GET `/api/recordings`: the recordings below the server's folder, the newest first.
 `/api/recordings/file?id=`: the file of one.
+`/drive`: the drive that the server belongs to (see `drive`).
 `/ws`: a run (see `agent_economy.types.page`), or the progress of a study with `?study=ID`.
 The addresses of studies are in `studies.routes`.
 """
@@ -27,12 +28,15 @@ from starlette.websockets import WebSocket
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.server.drive import Drive, drive_response
 from agent_economy.server.guard import Guard
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, errors_response, text
+from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.engines import ENGINES
-from agent_economy.server.runs.session import Session
+from agent_economy.server.runs.host import RunHost
+from agent_economy.server.runs.live_run import LiveRun
 from agent_economy.server.runs.thumbnail import thumbnail
 from agent_economy.server.studies.factors import schema
 from agent_economy.server.studies.manager import StudyManager
@@ -51,17 +55,25 @@ NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
 <p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
 
 
-def app(workspace: Workspace, host: str, token: str | None = None) -> ASGIApp:
+def app(
+    workspace: Workspace,
+    host: str,
+    token: str | None = None,
+    live: LiveRun | None = None,
+    drive: Drive | None = None,
+) -> ASGIApp:
     """Return the application.
 
     Args:
         workspace: The folder of scenarios, studies and recordings.
         host: The host name or address that the server is bound to.
         token: The token that pages on other machines need; None if only this machine can connect.
+        live: The run of real robots that pages can join; it is simulated while the server runs.
+        drive: The drive that it belongs to; None if there is none.
     """
     web = Path(str(files("agent_economy") / "web"))
-    server = Server(workspace, web, StudyManager(workspace))
-    return Guard(server.application(), host, token)
+    server = Server(workspace, web, StudyManager(workspace), live, drive)
+    return Guard(server.application(), host, token, None if drive is None else drive.address)
 
 
 @dataclass
@@ -71,6 +83,9 @@ class Server:
     workspace: Workspace
     web: Path
     studies: StudyManager
+    live: LiveRun | None = None
+    drive: Drive | None = None
+    live_host: RunHost | None = None
     sessions: int = 0
     watchers: int = 0
 
@@ -78,6 +93,7 @@ class Server:
         """Return the application without its guard."""
         routes = [
             Route("/", self.page),
+            Route("/drive", self.current_drive),
             Route("/api/scenarios", self.scenarios),
             Route("/api/pictures", self.picture),
             Route("/api/recordings", self.recordings),
@@ -96,9 +112,32 @@ class Server:
         """Provide threads, two for each run: one saves it; stop all studies at the end."""
         with ThreadPoolExecutor(2 * MAX_SESSIONS, "run") as self.threads:
             try:
-                yield
+                async with self.live_run_driven():
+                    yield
             finally:
                 await asyncio.to_thread(self.studies.close)
+
+    @contextlib.asynccontextmanager
+    async def live_run_driven(self) -> AsyncIterator[None]:
+        """Simulate the live run as its inputs arrive, if there is one."""
+        if self.live is None:
+            yield
+            return
+        loop, host = asyncio.get_running_loop(), RunHost(self.threads)
+        host.follow(self.live)
+
+        def wake() -> None:
+            loop.call_soon_threadsafe(host.wake)
+
+        self.live.notify(wake)
+        task = asyncio.create_task(host.drive())
+        self.live_host = host
+        try:
+            yield
+        finally:
+            self.live.notify(None)
+            task.cancel()
+            await asyncio.wait({task})
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
@@ -106,6 +145,10 @@ class Server:
         if not index.is_file():
             return HTMLResponse(NOT_BUILT, 503)
         return FileResponse(index, headers={"cache-control": "no-cache"})
+
+    async def current_drive(self, _: Request) -> Response:
+        """Return the drive."""
+        return drive_response(self.drive)
 
     async def scenarios(self, _: Request) -> Response:
         """Return the gallery."""
@@ -167,7 +210,7 @@ class Server:
             return
         self.sessions += 1
         try:
-            await Session(page, self.workspace, self.threads).run()
+            await PageConnection(page, self.workspace, self.threads, self.live_host).run()
         finally:
             self.sessions -= 1
         await page.close()

@@ -17,9 +17,12 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 COOKIE = "agent-economy-token"
 
+POLICY = (
+    "default-src 'self'; img-src 'self' data: blob:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+
 HEADERS = {
-    "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
     "referrer-policy": "no-referrer",
@@ -35,11 +38,13 @@ class Guard:
         app: The guarded application.
         host: The host name or address that the server is bound to.
         token: The token that other machines need; None if only this machine can connect.
+        connects: An address besides its own that its pages may send requests to.
     """
 
     app: ASGIApp
     host: str
     token: str | None
+    connects: str | None = None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Forward a request to the application, or reject it."""
@@ -88,6 +93,11 @@ class Guard:
         wanted = (self.token or "").encode()
         return any(hmac.compare_digest(each.encode(), wanted) for each in tokens)
 
+    def _policy(self) -> str:
+        if self.connects is None:
+            return POLICY
+        return f"{POLICY}; connect-src 'self' {self.connects}"
+
     def _with_headers(self, scope: Scope, send: Send) -> Send:
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
 
@@ -95,6 +105,7 @@ class Guard:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
                 headers.update(HEADERS)
+                headers["content-security-policy"] = self._policy()
                 if self.token is not None and "token" in query:
                     kept = f"{COOKIE}={self.token}; HttpOnly; SameSite=Strict; Path=/"
                     headers.append("set-cookie", kept)

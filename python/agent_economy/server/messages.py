@@ -23,6 +23,9 @@ MESSAGES: dict[str, type[PageMessage]] = {
 ONE_SOURCE = "exactly one of `scenario` and `text`"
 """What a request for a scenario contains."""
 
+ONE_RUN = "exactly one of `scenario`, `text`, `study`, `recording` and `live`"
+"""What an `open` contains."""
+
 SHOWN = 80
 """Characters of a message that is not JSON that its error shows."""
 
@@ -87,10 +90,9 @@ def check_open(message: page.Open) -> None:
     Raises:
         InputError: If not.
     """
-    if message.study is None and message.recording is None:
-        sources = [message.scenario, message.text]
-        is_one = (message.scenario is None) != (message.text is None)
-        validation.check(is_one, "open", sources, ONE_SOURCE)
+    sources = [message.scenario, message.text, message.study, message.recording]
+    given = [each for each in sources if each is not None] + [True] * message.live
+    validation.check(len(given) == 1, "open", given, ONE_RUN)
     for _, _, value in message.changes or ():
         check_value("open.changes", value)
 

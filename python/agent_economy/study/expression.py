@@ -5,6 +5,7 @@ are numbers, + - * /, comparisons, `and`, `or`, `not` and parentheses, as in Pyt
 """
 
 import ast
+import math
 import operator
 from collections.abc import Callable, Mapping
 from difflib import get_close_matches
@@ -31,7 +32,14 @@ MAX_LENGTH = 1000
 
 ALLOWED = "numbers, kinds of robots, robots, price, + - * / and comparisons, and, or, not"
 MUST_BE = f"must be an expression of {ALLOWED}"
+SHOWN = 80
+"""Characters of an expression that its error shows."""
+
+MAX_DEPTH = 50
+"""Maximum depth of nested operations; a sum of n terms has a depth of n - 1."""
+
 TOO_LONG = f"must have at most {MAX_LENGTH} characters"
+TOO_DEEP = f"must have operations that are nested at most {MAX_DEPTH} deep"
 NOT_FINITE = "must not divide by zero or overflow for any team"
 
 
@@ -39,18 +47,20 @@ class Expression:
     """An expression that has been checked."""
 
     def __init__(self, path: str, text: str, names: tuple[str, ...]) -> None:
-        """Read an expression; `path` is its key in error messages.
+        """Read an expression; `path` is its key in error messages, after its file and line.
 
         Raises:
             InputError: If it is not an expression of these names.
         """
         self._path, self._text, self._names = path, text, names
+        if len(text) > MAX_LENGTH:
+            raise self.error(TOO_LONG)
         try:
             self._tree = ast.parse(text.strip(), mode="eval").body
         except (SyntaxError, ValueError, RecursionError, MemoryError):
             raise self.error(MUST_BE) from None
-        if len(text) > MAX_LENGTH:
-            raise self.error(TOO_LONG)
+        if depth(self._tree) > MAX_DEPTH:
+            raise self.error(TOO_DEEP)
         self._check(self._tree)
 
     @property
@@ -71,7 +81,7 @@ class Expression:
 
     def _check(self, node: ast.expr) -> None:
         match node:
-            case ast.Constant(value=int() | float()):
+            case ast.Constant(value=int() | float() as number) if is_finite_number(number):
                 return
             case ast.Name(id=name):
                 self._check_name(name)
@@ -104,7 +114,28 @@ class Expression:
 
     def error(self, why: str) -> InputError:
         """Return the error that the expression is wrong, with the reason."""
-        return InputError(f"{self._path} = {self._text!r}: {why}")
+        return InputError(f"{self._path} = {shown(self._text)}: {why}")
+
+
+def shown(text: str) -> str:
+    """Return an expression for an error message, shortened if it is long."""
+    return repr(text if len(text) <= SHOWN else f"{text[:SHOWN]}...")
+
+
+def depth(tree: ast.expr) -> int:
+    """Return how deep the operations of an expression are nested, without recursion."""
+    deepest, waiting = 0, [(tree, 0)]
+    while waiting:
+        node, at = waiting.pop()
+        deepest = max(deepest, at)
+        inner = (each for each in ast.iter_child_nodes(node) if isinstance(each, ast.expr))
+        waiting += [(each, at + 1) for each in inner]
+    return deepest
+
+
+def is_finite_number(value: float) -> bool:
+    """Return whether a constant is a finite number: neither True nor 1e999."""
+    return not isinstance(value, bool) and math.isfinite(value)
 
 
 def evaluate(node: ast.expr, values: Mapping[str, float]) -> float:

@@ -19,6 +19,7 @@ import tomli_w
 from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
 from agent_economy.scenario import Override, Scenario, ScenarioWarning, Source, warnings
+from agent_economy.scenario.origin import with_origin
 from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
 from agent_economy.study import design, teams
 from agent_economy.study.arguments import (
@@ -211,15 +212,62 @@ def check_requirement(plan: Plan) -> None:
     """
     if not isinstance(plan.question, Cheapest):
         return
-    limits = [plan.engine.limits(each) for each in range(len(plan.configurations))]
-    fix = "must be a condition that can hold and can fail"
-    found = error_of(lambda: plan.costs) + [
-        f"require.all[{number}] = {condition.text!r}: {fault}: {fix}"
-        for number, condition in enumerate(plan.question.requirement.conditions)
-        if (fault := condition.triviality([each[condition.column] for each in limits]))
-    ]
+    found = error_of(lambda: plan.costs) + trivial(plan.scenario, plan.engine)
     if found:
         raise InputError("\n".join(found))
+
+
+def trivial(scenario: Scenario, engine: Engine) -> list[str]:
+    """Return the errors of conditions that decide nothing: alone, or together with another one."""
+    requirement = scenario.requirement
+    if requirement is None:
+        return []
+    kinds = {column.name: column.kind for column in engine.columns}
+    limits = [engine.limits(each) for each in range(len(engine.configurations))]
+    found = []
+    for number, condition in enumerate(requirement.conditions):
+        of_column = [each[condition.column] for each in limits]
+        if fault := condition.triviality(of_column, kinds[condition.column]):
+            found.append((number, f"{fault}: must be a condition that can hold and can fail"))
+    for first, second in requirement.contradictions:
+        other = requirement.conditions[first].text
+        found.append((second, f"never holds together with {other!r}: change one of them"))
+    texts = [condition.text for condition in requirement.conditions]
+    return [
+        f"{with_origin(scenario.source, 'require', 'all', number)} = {texts[number]!r}: {fault}"
+        for number, fault in found
+    ]
+
+
+def check_expressions(scenario: Scenario, question: list[str], seed: int) -> None:
+    """Check a question and the expressions of a scenario, before its configurations.
+
+    Args:
+        scenario: The scenario.
+        question: The errors of the question.
+        seed: Seed of the design.
+
+    Raises:
+        InputError: If there are errors; it lists all, also those of the conditions.
+    """
+    where, requirement = scenario.where, scenario.requirement
+    found = [*question]
+    found += error_of(lambda: where is None or teams.allowed_by(scenario, where))
+    if requirement is not None:
+        found += error_of(lambda: teams.cost_of(scenario, scenario.cost))
+    if found and requirement is not None and is_whole(seed, 0, MAX_SEED):
+        configurations = design.points(scenario.factors, scenario.design, seed)
+        found += error_or(lambda: trivial(scenario, Engine(scenario, configurations, seed)))
+    if found:
+        raise InputError("\n".join(found))
+
+
+def error_or(check: Callable[[], list[str]]) -> list[str]:
+    """Return the errors that a check finds, or the message of the one that it raises."""
+    try:
+        return check()
+    except InputError as error:
+        return [str(error)]
 
 
 def error_of(check: Callable[[], object]) -> list[str]:
@@ -253,7 +301,11 @@ def draft(  # noqa: PLR0913  (as in make)
     """
     confidence = confidence if confidence is not None else scenario.confidence
     wanted = guarantee or "indifference"
-    check_question(seed=seed, delta=delta, confidence=confidence, guarantee=wanted, runs=runs)
+
+    def question_check() -> None:
+        check_question(seed=seed, delta=delta, confidence=confidence, guarantee=wanted, runs=runs)
+
+    check_expressions(scenario, error_of(question_check), seed)
     configurations = compared(scenario, design.points(scenario.factors, scenario.design, seed))
     question: Question
     if guarantee is None and scenario.requirement is not None:

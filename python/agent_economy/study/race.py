@@ -138,6 +138,9 @@ class Race:
             raise InputError(message) from None
         except NoMoreRunsError:
             pass  # It is concluded as it is, as if its run budget were reached.
+        if len(self._impossible()) == len(self._runs):
+            message = f"no configuration can be run: all runs are quarantined ({self._obstacle(0)})"
+            raise InputError(message)
         plan, evidence = self._plan, self.evidence()
         answer: AnyAnswer
         if isinstance(plan.question, Cheapest):
@@ -228,6 +231,9 @@ class Race:
                 given = columns[name][row]
                 parts.append(np.where(np.isnan(given), limits[name][1], given))
             self._sums[configuration] += values[row].sum()
+        if isinstance(self._plan.question, Cheapest):
+            # They count as not met, and exclude no configuration: its share of missions decides.
+            return values, np.zeros_like(quarantined)
         return values, quarantined
 
     def _sample(self, index: int) -> Sample:

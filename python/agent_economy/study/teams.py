@@ -6,6 +6,7 @@ import numpy as np
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario
+from agent_economy.scenario.origin import with_origin
 from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
@@ -21,7 +22,7 @@ def compared(scenario: Scenario, configurations: Sequence[Values]) -> tuple[Valu
     """
     if scenario.where is None:
         return tuple(configurations)
-    expression = Expression("study.where", scenario.where, names(scenario))
+    expression = allowed_by(scenario, scenario.where)
     values = evaluated(expression, Engine(scenario, configurations, 0))
     allowed = tuple(
         each for each, value in zip(configurations, values.tolist(), strict=True) if value
@@ -38,11 +39,29 @@ def costs(engine: Engine, cost: str) -> Floats:
     Raises:
         InputError: If the expression is invalid.
     """
-    expression = Expression("study.minimize", cost, names(engine.scenario))
+    expression = cost_of(engine.scenario, cost)
     found = evaluated(expression, engine)
     if not np.isfinite(found).all():
         raise expression.error(NOT_FINITE)
     return found
+
+
+def allowed_by(scenario: Scenario, where: str) -> Expression:
+    """Return which configurations of a scenario are compared.
+
+    Raises:
+        InputError: If the expression is invalid.
+    """
+    return Expression(with_origin(scenario.source, "study", "where"), where, names(scenario))
+
+
+def cost_of(scenario: Scenario, cost: str) -> Expression:
+    """Return what a team of a scenario costs.
+
+    Raises:
+        InputError: If the expression is invalid.
+    """
+    return Expression(with_origin(scenario.source, "study", "minimize"), cost, names(scenario))
 
 
 def names(scenario: Scenario) -> tuple[str, ...]:

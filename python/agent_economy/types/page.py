@@ -61,6 +61,94 @@ class Exported(TypedDict):
     text: str
 
 
+FactorValue: TypeAlias = float | str | bool
+"""A value of a factor."""
+
+
+FactorKind: TypeAlias = Literal["whole", "real", "choice"]
+"""The kind of a factor's values."""
+
+
+class Factor(TypedDict):
+    """A number or choice of a scenario that a study can vary.
+
+    Attributes:
+        path: Its keys from the root, separated by dots.
+        value: Its value; null if the scenario does not set it.
+        low: The lower bound, if any.
+        high: The upper bound, if any.
+        kind: The kind of its values.
+        values: The choices; null if it is a number.
+        unit: The unit, if any.
+        help: The description.
+        varied: The scenario's own range, such as `1..8`.
+    """
+
+    path: str
+    value: FactorValue | None
+    low: float | None
+    high: float | None
+    kind: FactorKind
+    values: Sequence[FactorValue] | None
+    unit: str | None
+    help: str
+    varied: str | None
+
+
+class Requirement(TypedDict):
+    """What a mission must meet, and in which share of missions.
+
+    Attributes:
+        words: All of this in one sentence.
+        conditions: A mission meets the requirement if all hold.
+        probability: The required share of missions.
+        tolerance: Shares from the probability to this much above it are not distinguished.
+    """
+
+    words: str
+    conditions: Sequence[str]
+    probability: float
+    tolerance: float
+
+
+class Factors(TypedDict):
+    """What a study of a scenario can be about.
+
+    Attributes:
+        name: The name of the scenario.
+        engine: The simulator that runs it.
+        summary: Its summary.
+        factors: What can be varied, team sizes first.
+        design: The design.
+        merits: The names of the built-in figures of merit.
+        merit: The name of the scenario's own.
+        delta: The indifference zone; null if it is derived from the merit.
+        confidence: The confidence.
+        requirement: The requirement of the scenario, if any.
+        columns: Columns that conditions can be about.
+        minimize: The quantity to be minimal in a study with a requirement.
+        where: Limits the combinations; null if all are compared.
+    """
+
+    name: str
+    engine: Engine
+    summary: str
+    factors: Sequence[Factor]
+    design: str
+    merits: Sequence[str]
+    merit: str
+    delta: float | None
+    confidence: float
+    requirement: Requirement | None
+    columns: Sequence[str]
+    minimize: str
+    where: str | None
+
+
+Guarantee: TypeAlias = Literal["indifference", "pgs"]
+"""The guarantee of a study of the best by merit."""
+
+
 class InputError(TypedDict):
     """An error of input.
 
@@ -285,6 +373,7 @@ class Opened(TypedDict):
         seed: The seed as a decimal number.
         run: The number of the run as a decimal number.
         recording: The recording that it was opened from, if any.
+        is_live: Whether it is the live run of the server.
     """
 
     type: Literal["opened"]
@@ -292,10 +381,43 @@ class Opened(TypedDict):
     seed: str
     run: str
     recording: OpenedRecording | None
+    is_live: bool
 
 
 Origin: TypeAlias = Literal["bundled", "folder"]
 """Where a scenario is."""
+
+
+class PlannedFactor(TypedDict):
+    """A factor of a planned study; it has either values or a range.
+
+    Attributes:
+        path: Its keys from the root, separated by dots.
+        values: Its values; empty if it has a range.
+        range: The ends of its range.
+    """
+
+    path: str
+    values: Sequence[FactorValue]
+    range: tuple[float, float] | None
+
+
+class PlannedRequirement(TypedDict):
+    """The requirement of a planned study.
+
+    Attributes:
+        words: All of this in one sentence.
+        conditions: A mission meets the requirement if all hold.
+        probability: The required share of missions.
+        tolerance: Shares from the probability to this much above it are not distinguished.
+        minimize: The quantity to be minimal.
+    """
+
+    words: str
+    conditions: Sequence[str]
+    probability: float
+    tolerance: float
+    minimize: str
 
 
 class RecordedRun(TypedDict):
@@ -413,6 +535,33 @@ class ScenarioEntry(TypedDict):
     where: Origin
 
 
+class SeriesRow(TypedDict):
+    """The outcome at a tick, if the run had ended there.
+
+    Attributes:
+        tick: The tick.
+        values: A value per column; null where there is none.
+    """
+
+    tick: int
+    values: Sequence[float | None]
+
+
+class Series(TypedDict):
+    """The outcome over time.
+
+    Attributes:
+        since: The first tick that the rows are about: they replace all rows from here on.
+        columns: The columns with numbers.
+        rows: The rows by tick.
+    """
+
+    type: Literal["series"]
+    since: int
+    columns: Sequence[str]
+    rows: Sequence[SeriesRow]
+
+
 Unit: TypeAlias = Literal["m", "px"]
 """The unit of a world."""
 
@@ -515,6 +664,235 @@ StudyState: TypeAlias = Literal["running", "answered", "stopped", "damaged"]
 """The state of a study."""
 
 
+class StudyPlan(TypedDict):
+    """What a study compares.
+
+    Attributes:
+        id: The id of the study: its folder.
+        name: The name of the scenario.
+        configurations: The number of configurations.
+        labels: The labels of the first configurations.
+        words: All of this in one sentence.
+        delta: The indifference zone; null with a requirement.
+        confidence: The confidence.
+        guarantee: The guarantee; null with a requirement.
+        requirement: The requirement, if there is one.
+        merit: The name of the figure of merit.
+        factors: The varied factors.
+        state: The state of the study that exists in this folder; null if there is none.
+    """
+
+    id: str
+    name: str
+    configurations: int
+    labels: Sequence[str]
+    words: str
+    delta: float | None
+    confidence: float
+    guarantee: Guarantee | None
+    requirement: PlannedRequirement | None
+    merit: str
+    factors: Sequence[PlannedFactor]
+    state: StudyState | None
+
+
+class StudySource(TypedDict):
+    """The scenario of a study.
+
+    Attributes:
+        scenario: Its id in the gallery; null if it has changed or is gone.
+    """
+
+    scenario: str | None
+
+
+class StudyTable(TypedDict):
+    """A table of the report.
+
+    Attributes:
+        caption: Its caption.
+        head: The titles of its columns.
+        rows: The cells of each row.
+        configurations: The configuration of each row; null if it has none.
+    """
+
+    caption: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    configurations: Sequence[int | None]
+
+
+class StudySection(TypedDict):
+    """A section of the report.
+
+    Attributes:
+        id: Its id in the page.
+        title: Its title.
+        words: Explanations, a paragraph each.
+        charts: The names of its charts.
+        captions: The caption of each chart.
+        tables: Its tables.
+        folded: Whether its tables are initially closed.
+    """
+
+    id: str
+    title: str
+    words: Sequence[str]
+    charts: Sequence[str]
+    captions: Mapping[str, str]
+    tables: Sequence[StudyTable]
+    folded: bool
+
+
+StudyVerdict: TypeAlias = Literal[
+    "best",
+    "tied",
+    "not better",
+    "undecided",
+    "worse",
+    "impossible",
+    "certified",
+    "refuted",
+    "open",
+    "not needed",
+]
+"""What is known of a configuration: by merit from `best` to `worse`, with a requirement `best`
+for the selected one and the status of the others.
+"""
+
+
+class StudyResult(TypedDict):
+    """The result of a configuration.
+
+    Attributes:
+        configuration: The configuration.
+        label: Its label.
+        runs: The number of its runs.
+        verdict: What is known of it.
+        eliminated: Whether it was eliminated; with a requirement, refuted.
+        met: The share of runs that meet the requirement, with its interval; null without one,
+            and without runs.
+    """
+
+    configuration: int
+    label: str
+    runs: int
+    verdict: StudyVerdict
+    eliminated: bool
+    met: tuple[float, float, float] | None
+
+
+class StudyAnswer(TypedDict):
+    """The answer of a study, with the sections of its report.
+
+    Attributes:
+        verdict: What to send, how it does, what is known of the others, and what is not
+            distinguished.
+        sentence: The answer in one sentence.
+        guarantee: The guarantee.
+        facts: Key numbers, each with its label.
+        quarantined: A warning about quarantined runs; empty if there are none.
+        sections: The sections of the report.
+        charts: The Vega-Lite specifications of the charts, by name.
+        results: The results, by configuration.
+    """
+
+    verdict: tuple[str, str, str, str]
+    sentence: str
+    guarantee: str
+    facts: Sequence[tuple[str, str]]
+    quarantined: str
+    sections: Sequence[StudySection]
+    charts: Mapping[str, Mapping[str, Any]]
+    results: Sequence[StudyResult]
+
+
+class Study(TypedDict):
+    """A study with its plan and its answer.
+
+    Attributes:
+        id: Its id: its folder.
+        name: The name of its scenario.
+        engine: The simulator that runs it; null if the study is damaged.
+        state: Its state.
+        words: What it compares, in one sentence.
+        configurations: The number of configurations.
+        runs: The number of runs so far.
+        confidence: The confidence.
+        delta: The indifference zone; null with a requirement.
+        sentence: The answer in one sentence, if there is one.
+        is_recommended: Whether the answer recommends a configuration without reservation; null
+            without an answer.
+        message: What is wrong, if anything is.
+        changed_s: The time of the last change, in seconds since 1970.
+        planned: What it compares.
+        source: Its scenario.
+        answer: Its answer, if it has one.
+    """
+
+    id: str
+    name: str
+    engine: Engine | None
+    state: StudyState
+    words: str
+    configurations: int
+    runs: int
+    confidence: float
+    delta: float | None
+    sentence: str | None
+    is_recommended: bool | None
+    message: str | None
+    changed_s: float
+    planned: StudyPlan
+    source: StudySource
+    answer: StudyAnswer | None
+
+
+class StudySummary(TypedDict):
+    """A study in the list.
+
+    Attributes:
+        id: Its id: its folder.
+        name: The name of its scenario.
+        engine: The simulator that runs it; null if the study is damaged.
+        state: Its state.
+        words: What it compares, in one sentence.
+        configurations: The number of configurations.
+        runs: The number of runs so far.
+        confidence: The confidence.
+        delta: The indifference zone; null with a requirement.
+        sentence: The answer in one sentence, if there is one.
+        is_recommended: Whether the answer recommends a configuration without reservation; null
+            without an answer.
+        message: What is wrong, if anything is.
+        changed_s: The time of the last change, in seconds since 1970.
+    """
+
+    id: str
+    name: str
+    engine: Engine | None
+    state: StudyState
+    words: str
+    configurations: int
+    runs: int
+    confidence: float
+    delta: float | None
+    sentence: str | None
+    is_recommended: bool | None
+    message: str | None
+    changed_s: float
+
+
+class StudyList(TypedDict):
+    """All studies.
+
+    Attributes:
+        studies: The newest first.
+    """
+
+    studies: Sequence[StudySummary]
+
+
 class StudyProgress(TypedDict):
     """The progress of a study.
 
@@ -552,8 +930,64 @@ class StudyProgress(TypedDict):
     labels: Sequence[str] | None
 
 
+StudyQuestion: TypeAlias = Literal["merit", "requirement"]
+"""What a study is about."""
+
+
+class StudyRequest(TypedDict):
+    """A study that the page requests; parts that belong to the other question are null.
+
+    Attributes:
+        scenario: A scenario by its id in the gallery; this or `text` is null.
+        text: The text of a scenario, TOML.
+        question: What the study is about.
+        require: The conditions; null for those of the scenario.
+        probability: The required share of missions; null for that of the scenario.
+        tolerance: The tolerance; null for that of the scenario.
+        minimize: The quantity to be minimal; null for that of the scenario.
+        where: Limits the combinations; null for the limit of the scenario.
+        vary: Values by path; empty for those of the scenario.
+        design: The design; null for that of the scenario.
+        delta: The indifference zone; null for that of the scenario.
+        confidence: The confidence; null for that of the scenario.
+        guarantee: The guarantee; null for indifference.
+        merit: The name of a figure of merit; null for that of the scenario.
+        runs: The same number of runs for all configurations; null for as few as needed.
+        max_runs: The maximum number of runs.
+        seed: The seed as a decimal number.
+    """
+
+    scenario: str | None
+    text: str | None
+    question: StudyQuestion
+    require: Sequence[str] | None
+    probability: float | None
+    tolerance: float | None
+    minimize: str | None
+    where: str | None
+    vary: Mapping[str, str]
+    design: str | None
+    delta: float | None
+    confidence: float | None
+    guarantee: Guarantee | None
+    merit: str | None
+    runs: int | None
+    max_runs: int | None
+    seed: str
+
+
 ServerMessage = (
-    Opened | Setting | State | MapPart | Saving | Saved | Exported | Refused | Ended | StudyProgress
+    Opened
+    | Setting
+    | State
+    | MapPart
+    | Saving
+    | Saved
+    | Exported
+    | Series
+    | Refused
+    | Ended
+    | StudyProgress
 )
 
 
@@ -577,6 +1011,8 @@ class Open(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="open"):
         text: The text of a scenario, TOML.
         study: A configuration of a study; the run is the same as in the study.
         recording: A recording by its id.
+        live: Whether to join the live run of the server, at the present. All pages share it: it
+            can neither be moved nor changed.
         seed: The seed as a decimal number; by default that of the study, or 0. A recording has
             its own.
         run: The number of the run as a decimal number; 0 by default. A recording has its own.
@@ -589,6 +1025,7 @@ class Open(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="open"):
     text: str | None = None
     study: StudyMember | None = None
     recording: str | None = None
+    live: bool = False
     seed: Annotated[str, msgspec.Meta(pattern="^[0-9]{1,20}$")] | None = None
     run: Annotated[str, msgspec.Meta(pattern="^[0-9]{1,20}$")] | None = None
     changes: Sequence[LoggedChange] | None = None
@@ -682,6 +1119,16 @@ class Layers(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="layer
     footprints: bool
 
 
+class RequestSeries(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="request_series"):
+    """Request the outcome over time.
+
+    Attributes:
+        since: The first tick of that part.
+    """
+
+    since: Annotated[int, msgspec.Meta(ge=0, le=9007199254740992)]
+
+
 class Acknowledge(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="acknowledge"):
     """Acknowledge that a frame has been drawn, and all before it.
 
@@ -707,5 +1154,6 @@ PageMessage = (
     | Export
     | Select
     | Layers
+    | RequestSeries
     | Acknowledge
 )

@@ -1,8 +1,29 @@
-import type { Ended, Exported, MapPart, Opened, Refused, Saved, Saving, Setting, State } from "./protocol";
+import type {
+  Ended,
+  Exported,
+  MapPart,
+  Opened,
+  Refused,
+  Saved,
+  Saving,
+  SeriesAnswer,
+  Setting,
+  State,
+} from "./protocol";
 import type { StudyProgress } from "./study";
 
 export type Message =
-  Opened | Setting | State | MapPart | Refused | Saving | Saved | Exported | Ended | StudyProgress;
+  | Opened
+  | Setting
+  | State
+  | MapPart
+  | Refused
+  | Saving
+  | Saved
+  | Exported
+  | SeriesAnswer
+  | Ended
+  | StudyProgress;
 
 const types = [
   "opened",
@@ -13,6 +34,7 @@ const types = [
   "saving",
   "saved",
   "exported",
+  "series",
   "ended",
   "study_progress",
 ];

@@ -3,6 +3,7 @@ import type {
   Factors,
   ScenarioSource,
   Study,
+  StudyList,
   StudyPlan,
   StudyRequest,
   StudyRuns,
@@ -18,7 +19,7 @@ export function plan(study: StudyRequest, signal?: AbortSignal): Promise<StudyPl
 }
 
 export async function studies(): Promise<StudySummary[]> {
-  const { studies } = await get<{ studies: StudySummary[] }>("api/studies");
+  const { studies } = await get<StudyList>("api/studies");
   return studies;
 }
 
@@ -46,6 +47,11 @@ export function runsOf(id: string, configuration: number, first: number, count: 
 /** Runs at evenly spaced quantiles of their merit, from worst to best. */
 export function sampleOf(id: string, configuration: number, sample: number): Promise<StudyRuns> {
   return get(runsAt(id, configuration, { sample }));
+}
+
+/** The run in the middle, from the worst to the best; of a study with a requirement, from the fastest to the slowest. */
+export function medianOf(id: string, configuration: number): Promise<StudyRuns> {
+  return get(runsAt(id, configuration, { median: 1 }));
 }
 
 export function download(id: string, what: "report" | "answer"): string {

@@ -1,6 +1,15 @@
 import { expect, test } from "vitest";
 import type { Change } from "../api/protocol";
-import { emptyLink, type Link, newStudyLink, readLink, shortened, studyLink, writeLink } from "./link";
+import {
+  damagesOf,
+  emptyLink,
+  type Link,
+  newStudyLink,
+  readLink,
+  shortened,
+  studyLink,
+  writeLink,
+} from "./link";
 
 const read = (hash: string) => readLink(new URLSearchParams(hash.slice(hash.indexOf("?") + 1)));
 
@@ -31,16 +40,36 @@ test.each([
   ["of a recording with other changes", { ...emptyLink, recording: "a.mcap", changes: [] }],
 ])("a link that is %s survives a round trip", (_, link) => expect(read(writeLink(link))).toEqual(link));
 
-test("invalid parts of an address are ignored", () => {
-  const hash =
-    "#/run?scenario=a&seed=-1&run=x&tick=1.5&view=1,2&changes=[[1],[2,3,4],[-1,%22p%22,0],[5,%22p%22,0]]";
-  expect(read(hash)).toEqual({ ...emptyLink, scenario: "a", changes: [[5, "p", 0]] });
-  expect(read("#/run?changes={not json").changes).toEqual([]);
+const damages = (query: string) => damagesOf(new URLSearchParams(query));
+
+test.each([
+  ["seed=-1"],
+  ["run=x"],
+  ["tick=1.5"],
+  ["tick=99999999999999999999"],
+  ["view=1,2"],
+  ["changes={not json"],
+  ["changes=[[1]]"],
+  ['changes=[[5,"p",0],[-1,"p",0]]'],
+])("an address with a damaged part names it: %s", (part) =>
+  expect(damages(`scenario=a&${part}`)).toEqual([part]),
+);
+
+test("an address has exactly one source, and a study its configuration", () => {
+  expect(damages("seed=1")).toHaveLength(1);
+  expect(damages("scenario=a&recording=b")).toEqual(["scenario, recording: only one of them can be opened"]);
+  expect(damages("study=studies/a")).toEqual(["configuration: it is missing"]);
+  expect(damages("study=studies/a&configuration=-1")).toEqual(["configuration=-1"]);
 });
 
-test("a study without a configuration number does not define a run", () => {
-  expect(read("#/run?study=studies/a").study).toBeNull();
-  expect(read("#/run?study=studies/a&configuration=-1").study).toBeNull();
+test("a long damaged part is shortened", () => {
+  const [line] = damages(`scenario=a&changes=[${"1,".repeat(500)}`);
+  expect(line?.length).toBeLessThan(80);
+});
+
+test("addresses that the page writes are not damaged", () => {
+  for (const link of [full, { ...emptyLink, recording: "a.mcap", changes: null }])
+    expect(damages(writeLink(link).slice("#/run?".length))).toEqual([]);
 });
 
 test("the address of a study shows its folder unescaped", () => {

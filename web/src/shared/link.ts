@@ -23,6 +23,9 @@ export interface Link {
 /** Some programs truncate longer addresses. */
 export const maxLinkLength = 8000;
 
+/** Characters of a damaged part that are displayed. */
+const longestShown = 60;
+
 export const emptyLink: Link = {
   scenario: null,
   text: null,
@@ -59,7 +62,27 @@ export function writeLink(link: Link): string {
   return `#/run?${unescapeReadable(query.toString())}`;
 }
 
-/** The link in the query of an address. Invalid parts are ignored. */
+/** What is wrong with the query of an address: a line for each part that cannot be read. Other parts may be missing. */
+export function damagesOf(query: URLSearchParams): string[] {
+  const readers: Record<string, (text: string) => boolean> = {
+    configuration: (text) => readConfiguration(text) !== null,
+    seed: isWhole,
+    run: isWhole,
+    tick: (text) => isWhole(text) && Number.isSafeInteger(Number(text)),
+    changes: (text) => readChanges(text) !== null,
+    view: (text) => readView(text) !== null,
+  };
+  const parts = Object.entries(readers).map(([name, reads]) => ({ name, text: query.get(name), reads }));
+  const damaged = parts.filter(({ text, reads }) => text !== null && !reads(text));
+  const lines = damaged.map(({ name, text }) => `${name}=${shown(text ?? "")}`);
+  const sources = ["scenario", "text", "study", "recording"].filter((name) => query.has(name));
+  if (sources.length === 0) lines.unshift("scenario, text, study or recording: there is none");
+  if (sources.length > 1) lines.unshift(`${sources.join(", ")}: only one of them can be opened`);
+  if (query.has("study") && !query.has("configuration")) lines.push("configuration: it is missing");
+  return lines;
+}
+
+/** The link in the query of an address without damages. */
 export function readLink(query: URLSearchParams): Link {
   const study = readStudy(query.get("study"), query.get("configuration"));
   const recording = query.get("recording");
@@ -71,9 +94,9 @@ export function readLink(query: URLSearchParams): Link {
     recording,
     seed: study && !query.has("seed") ? null : whole(query.get("seed")),
     run: whole(query.get("run")),
-    changes: isRecorded ? null : readChanges(query.get("changes")),
+    changes: isRecorded ? null : (readChanges(query.get("changes") ?? "[]") ?? []),
     tick: Number(whole(query.get("tick"))),
-    view: readView(query.get("view")),
+    view: readView(query.get("view") ?? ""),
     robot: query.get("robot"),
   };
 }
@@ -113,8 +136,16 @@ function unescapeReadable(query: string): string {
     .replaceAll("%5D", "]");
 }
 
+function isWhole(text: string): boolean {
+  return /^\d{1,20}$/.test(text);
+}
+
 function whole(text: string | null): string {
-  return text !== null && /^\d{1,20}$/.test(text) ? text : "0";
+  return text !== null && isWhole(text) ? text : "0";
+}
+
+function shown(text: string): string {
+  return text.length > longestShown ? `${text.slice(0, longestShown)}…` : text;
 }
 
 /** The number of a configuration; null if the text is not a number. */
@@ -127,18 +158,19 @@ function readStudy(id: string | null, given: string | null): StudyConfiguration 
   return id === null || configuration === null ? null : { id, configuration };
 }
 
-function readView(text: string | null): Link["view"] {
-  const [x, y, scale, ...rest] = (text ?? "").split(",").map(Number);
+function readView(text: string): Link["view"] {
+  const [x, y, scale, ...rest] = text.split(",").map(Number);
   if (x === undefined || y === undefined || scale === undefined || rest.length > 0) return null;
   return [x, y, scale].every(Number.isFinite) && scale > 0 ? [x, y, scale] : null;
 }
 
-function readChanges(text: string | null): Change[] {
+/** The changes; null if one of them cannot be read. */
+function readChanges(text: string): Change[] | null {
   try {
-    const read: Json = JSON.parse(text ?? "[]");
-    return Array.isArray(read) ? read.filter(isChange) : [];
+    const read: Json = JSON.parse(text);
+    return Array.isArray(read) && read.every(isChange) ? read : null;
   } catch {
-    return [];
+    return null;
   }
 }
 

@@ -98,5 +98,15 @@ fn condition(item: &Node, columns: &ConditionColumns) -> Result<(String, Conditi
         suggestion: error.suggestion,
         ..refused(error.allowed)
     })?;
-    Ok((text.trim().to_owned(), parsed))
+    let unseen = columns
+        .unseen
+        .iter()
+        .find(|unseen| unseen.place == parsed.place);
+    match unseen.filter(|unseen| parsed.needs_beyond(unseen.seen)) {
+        Some(unseen) => Err(refused(format!(
+            "a condition on what happens until [end] ends a run, when {}",
+            unseen.end
+        ))),
+        None => Ok((text.trim().to_owned(), parsed)),
+    }
 }

@@ -86,6 +86,7 @@ impl Engine for Shop {
         ConditionColumns {
             names: ["time_s", "failed", "robots"].map(str::to_owned).into(),
             times: Vec::new(),
+            unseen: Vec::new(),
         }
     }
 

@@ -76,6 +76,7 @@ impl Engine for Classic {
         ConditionColumns {
             names: columns().names(),
             times: Vec::new(),
+            unseen: Vec::new(),
         }
     }
 

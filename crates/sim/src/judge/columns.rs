@@ -1,7 +1,9 @@
 //! The outcome columns, each defined in one place.
 
 use super::outcome::Outcome;
-use crate::scenario::Scenario;
+use super::unseen::unseen;
+use crate::scenario::{Scenario, ScenarioSpec};
+use base::document::Document;
 use base::engine::ColumnKind::{Flag, Real, Whole};
 use base::engine::{Bounds, OutcomeColumn, OutcomeColumns};
 use base::scenario::condition::{ConditionColumns, TimesUntil};
@@ -21,8 +23,14 @@ pub(crate) fn columns(items: &[(&str, u32)]) -> OutcomeColumns<Scenario, Outcome
     OutcomeColumns(columns.chain(counts).chain(times).collect())
 }
 
-/// What conditions can refer to of these columns.
-pub(crate) fn condition_columns(items: &[(&str, u32)]) -> ConditionColumns {
+/// What conditions can refer to of the columns of a document.
+pub(crate) fn condition_columns(document: &Document) -> ConditionColumns {
+    let items = ScenarioSpec::max_counts(document);
+    let items: Vec<(&str, u32)> = items
+        .iter()
+        .map(|(name, count)| (name.as_str(), *count))
+        .collect();
+    let items = items.as_slice();
     let names = columns(items).names();
     let lengths = items.iter().map(|(_, count)| find_times(*count) as usize);
     let mut start = names.len() - lengths.clone().sum::<usize>();
@@ -34,7 +42,11 @@ pub(crate) fn condition_columns(items: &[(&str, u32)]) -> ConditionColumns {
         });
         start += length;
     }
-    ConditionColumns { names, times }
+    ConditionColumns {
+        unseen: unseen(document, &names),
+        names,
+        times,
+    }
 }
 
 fn time_and_team() -> Vec<Column> {
@@ -146,7 +158,7 @@ fn find_times_of(
     (number, (kind, max_count)): (usize, (&str, u32)),
 ) -> impl Iterator<Item = Column> {
     (0..find_times(max_count)).map(move |find| {
-        let name = format!("found_{kind}_{}_s", find + 1);
+        let name = find_time(kind, find + 1);
         let time_s = move |_: &Scenario, of: &Outcome| {
             let found_s = of.found_s[number].get(find as usize);
             found_s.copied().unwrap_or(f64::INFINITY)
@@ -155,8 +167,13 @@ fn find_times_of(
     })
 }
 
+/// The name of the column of the time of a find of a kind; the first is 1.
+pub(super) fn find_time(kind: &str, find: u32) -> String {
+    format!("found_{kind}_{find}_s")
+}
+
 /// Number of columns of times for a kind with this largest number of items.
-fn find_times(max_count: u32) -> u32 {
+pub(super) fn find_times(max_count: u32) -> u32 {
     max_count.min(MAX_FIND_TIMES)
 }
 

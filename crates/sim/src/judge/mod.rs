@@ -12,5 +12,6 @@ mod end;
 pub(crate) mod moment;
 mod outcome;
 pub(crate) mod tally;
+mod unseen;
 
 pub use outcome::Outcome;

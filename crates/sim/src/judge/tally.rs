@@ -54,6 +54,13 @@ impl Tally {
         collisions > 0
     }
 
+    /// Items found, and everything else that is counted besides the robots that stopped.
+    pub(crate) fn counts(&self) -> (u64, u64) {
+        let found = self.found.iter().copied().map(u64::from).sum();
+        let others = self.false_alarms + self.collisions + u64::from(self.removed.stopped);
+        (found, others + u64::from(self.complete_at.is_some()))
+    }
+
     /// The step in which each item was found, by its number.
     pub(crate) fn found_at(&self) -> impl Iterator<Item = Option<u64>> {
         self.found_at.iter().copied()

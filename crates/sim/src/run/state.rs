@@ -2,7 +2,7 @@
 
 use super::agent::Agent;
 use crate::bodies::Layer;
-use crate::bodies::body_state::BodyState;
+use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
 use crate::judge::Outcome;
 use crate::judge::moment::Moment;
@@ -124,6 +124,16 @@ impl State {
     #[must_use]
     pub fn outcome(&self, scenario: &Scenario) -> Outcome {
         Outcome::of(&self.moment(scenario))
+    }
+
+    /// Items found, and a number that differs when anything else was counted since: it is cheaper than an
+    /// outcome.
+    #[must_use]
+    pub fn counts(&self) -> (u64, u64) {
+        let (found, others) = self.tally.counts();
+        let is_stopped = |body_state: &&BodyState| body_state.status != Status::Active;
+        let stopped = self.body_states.iter().filter(is_stopped).count();
+        (found, others + stopped as u64)
     }
 
     /// Notes if the run is complete with this step, in which the judge counted something, or nothing.

@@ -20,6 +20,10 @@ NEUTRAL = 150
 FORWARD, REVERSE = 175, 75
 """The motor values that the 2002 program used for full speed forward and in reverse."""
 
+SLIDER_VALUES = (100, 200)
+"""The motor values that the sliders of the 2002 program had, and that an operator may request."""
+
+SECONDS_PER_HOUR = 3600.0
 SONARS = 6
 POSITION_FIELDS = 5
 FULL_TURN_DEG = 360.0
@@ -97,6 +101,17 @@ class Bender(Driver):
         "min_reverse_value": Setting(
             75, "The smallest motor value that is sent.", _whole(0, 149), is_guess=True
         ),
+        "battery_standing_h": Setting(
+            8.0,
+            "Hours for which a full battery is assumed to last while the robot stands. It reports "
+            "no charge: this is for the estimate that is displayed.",
+            _number(0.01, 1000),
+        ),
+        "battery_driving_h": Setting(
+            2.0,
+            "Hours for which a full battery is assumed to last while the robot drives.",
+            _number(0.01, 1000),
+        ),
         "turn": Setting(
             "motors",
             "What turns the robot to a heading: its motors, commanded by the brain, or the "
@@ -136,7 +151,8 @@ class Bender(Driver):
 
     def move(self, motion: Motion, settings: Settings) -> tuple[PortLine, ...]:
         """Return the lines of a motion: one if both tracks move alike, otherwise two."""
-        left, right = self._values(motion, settings)
+        left, right = motion.tracks or self._values(motion, settings)
+        left, right = (self._allowed(value, settings) for value in (left, right))
         if left == right == NEUTRAL:
             return self.stop(settings)
         if left == right:
@@ -156,6 +172,30 @@ class Bender(Driver):
         line = f"{round(sent_deg, 2) % FULL_TURN_DEG:.2f}\n"
         return (*self.stop(settings), PortLine("compass", line.encode()))
 
+    def tracks(self, left: int, right: int, settings: Settings) -> Motion:
+        """Return the motion that two values of the sliders of 2002 request.
+
+        Raises:
+            ValueError: If one is not a whole number from 100 to 200.
+        """
+        low, high = SLIDER_VALUES
+        for value in (left, right):
+            if not low <= value <= high:
+                message = f"left and right must be whole numbers from {low} to {high}"
+                raise ValueError(message)
+        allowed = (self._allowed(value, settings) for value in (left, right))
+        left_m_s, right_m_s = (self._speed(value, settings) for value in allowed)
+        turn_rate = (right_m_s - left_m_s) / settings["track_width_m"]
+        return Motion((left_m_s + right_m_s) / 2, turn_rate, tracks=(left, right))
+
+    def used_charge(self, standing_s: float, driving_s: float, settings: Settings) -> float | None:
+        """Return an estimate: the robot reports no charge."""
+        standing_h, driving_h = standing_s / SECONDS_PER_HOUR, driving_s / SECONDS_PER_HOUR
+        used = (
+            standing_h / settings["battery_standing_h"] + driving_h / settings["battery_driving_h"]
+        )
+        return float(min(1.0, used))
+
     def motion(self, motion: Motion, settings: Settings) -> Motion:
         """Return the motion that the lines of `move` cause, as far as the settings describe it."""
         left, right = (self._speed(value, settings) for value in self._values(motion, settings))
@@ -172,7 +212,9 @@ class Bender(Driver):
         if not math.isfinite(speed_m_s):
             return NEUTRAL
         key = "forward_m_s_per_unit" if speed_m_s >= 0 else "reverse_m_s_per_unit"
-        value = NEUTRAL + round(speed_m_s / settings[key])
+        return self._allowed(NEUTRAL + round(speed_m_s / settings[key]), settings)
+
+    def _allowed(self, value: int, settings: Settings) -> int:
         return int(max(settings["min_reverse_value"], min(settings["max_forward_value"], value)))
 
     def _speed(self, value: int, settings: Settings) -> float:

@@ -88,5 +88,20 @@ class Driver(ABC):
         """Return the lines that let the robot turn to a heading by itself; none if it cannot."""
 
     @abstractmethod
+    def tracks(self, left: int, right: int, settings: Settings) -> Motion:
+        """Return the motion that two motor values request, with those values.
+
+        Raises:
+            ValueError: If the robot takes no such values.
+        """
+
+    @abstractmethod
+    def used_charge(self, standing_s: float, driving_s: float, settings: Settings) -> float | None:
+        """Return an estimate of the share of a full charge that was used, at most 1.
+
+        None if the robot reports its charge, or nothing is known of it.
+        """
+
+    @abstractmethod
     def motion(self, motion: Motion, settings: Settings) -> Motion:
         """Return the motion that the lines of `move` cause, as far as the settings describe it."""

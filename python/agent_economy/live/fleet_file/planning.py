@@ -26,6 +26,7 @@ def fleet_plan(
 ) -> FleetPlan:
     """Return the plan of a fleet."""
     given = fleet.values()
+    width_m, height_m = world.world["size_m"]
     return FleetPlan(
         origin=Origin(**(world.origin or {})),
         robots=tuple(_robot(each, world.kind(each.kind)) for each in entries),
@@ -33,6 +34,7 @@ def fleet_plan(
         setpoint_lifetime_s=lifetime_s(given),
         max_lateness_s=lateness_s(given),
         warnings=tuple(map(str, warnings)),
+        size_m=(float(width_m), float(height_m)),
     )
 
 
@@ -53,5 +55,6 @@ def _robot(entry: Entry, kind: ScenarioKind) -> RobotPlan:
         min_battery=entry.min_battery,
         fence_m=entry.fence_m,
         deadman_s=deadman_s,
+        takes_orders=any(each["kind"] == "correct" for _, each in kind.behaviours()),
         repeat_s=REPEAT_S if deadman_s is None else min(REPEAT_S, deadman_s / LINES_PER_DEADMAN),
     )

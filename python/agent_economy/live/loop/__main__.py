@@ -3,8 +3,10 @@
 import argparse
 import os
 import sys
+from base64 import b64encode
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from agent_economy._core import InputError
 from agent_economy.live import fleet
@@ -23,15 +25,18 @@ def main() -> int:
     parser.add_argument("fleet", type=Path)
     parser.add_argument("--record", type=Path, required=True)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--page", action="store_true", help="Report the run and all its inputs.")
     arguments = parser.parse_args()
     warden = os.getppid()
     pipe = Pipe()
     try:
         loaded = fleet.load(arguments.fleet)
-        loop = Loop(loaded, pipe, arguments.record, arguments.seed)
+        loop = Loop(loaded, pipe, arguments.record, arguments.seed, has_page=arguments.page)
     except InputError as error:
         pipe.send({"type": "invalid", "message": str(error), "errors": error.errors})
         return INVALID
+    if arguments.page:
+        pipe.send({"type": "run", "run": described(loaded, arguments.seed)})
     pipe.send({"type": "plan", "plan": loaded.plan.to_dict(), "record": str(arguments.record)})
     pipe.watch()
     try:
@@ -42,6 +47,24 @@ def main() -> int:
         explain()
         return LOST
     return 0
+
+
+def described(loaded: fleet.Fleet, seed: int) -> dict[str, Any]:
+    """Return what another process needs to step the same run; files are in base 64."""
+    source = loaded.scenario.source
+    files = {
+        name: b64encode(data).decode()
+        for name, data in source.files.items()
+        if isinstance(data, bytes)
+    }
+    return {
+        "fleet": loaded.file,
+        "scenario": {"file": source.file, "text": source.text, "files": files},
+        "seed": seed,
+        "external": [robot.name for robot in loaded.plan.robots],
+        "origin": loaded.plan.to_dict()["origin"],
+        "fences_m": {robot.name: robot.fence_m for robot in loaded.plan.robots},
+    }
 
 
 def explain() -> None:

@@ -8,7 +8,15 @@ from typing import Any
 from agent_economy.live.fleet import Fleet
 from agent_economy.recording import Recording
 from agent_economy.recording.file import strict
-from agent_economy.recording.live_topics import EVENTS, LIVE, SETPOINTS, TICKS, WIRE, live_schema
+from agent_economy.recording.live_topics import (
+    EVENTS,
+    LIVE,
+    ORDERS,
+    SETPOINTS,
+    TICKS,
+    WIRE,
+    live_schema,
+)
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
 
@@ -38,7 +46,7 @@ class Log:
     def add(self, message: Mapping[str, Any]) -> None:
         """Record a message of the warden."""
         at_s = message["t"]
-        topic = EVENTS
+        topic = ORDERS if message["type"] == "order" else EVENTS
         if message["type"] in ("line", "written"):
             topic = f"{WIRE}{message['robot']}/{message['port']}"
         self._recording.write_json(topic, live_schema(topic), message, at_s - self._start_s)

@@ -1,5 +1,6 @@
 """The loop: receive lines, step the brains, send setpoints; at the pace of the clock."""
 
+from collections import deque
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from agent_economy.live.loop.pacer import Pacer
 from agent_economy.live.loop.pipe import Pipe
 from agent_economy.live.loop.team import Team
 from agent_economy.recording import RecordingError
+from agent_economy.recording.file import strict
 from agent_economy.runs.simulation import Simulation
 
 
@@ -23,8 +25,11 @@ class Loop:
 
     _pacer: Pacer
 
-    def __init__(self, fleet: Fleet, pipe: Pipe, record: Path, seed: int) -> None:
-        """Create the run at its first step."""
+    def __init__(
+        self, fleet: Fleet, pipe: Pipe, record: Path, seed: int, *, has_page: bool
+    ) -> None:
+        """Create the run at its first step; a page needs the inputs of all steps."""
+        self._inputs: deque[Mapping[str, Any]] | None = deque() if has_page else None
         self.peers: dict[str, tuple[str, int]] = {}
         self._pipe = pipe
         names = tuple(robot.name for robot in fleet.plan.robots)
@@ -55,7 +60,7 @@ class Loop:
                     return False
                 case "peer":
                     self.peers[message["robot"]] = tuple(message["address"])
-                case "line" | "written" | "event":
+                case "line" | "written" | "event" | "order":
                     self._team.add(message)
                     self._add(message)
         return True
@@ -75,7 +80,8 @@ class Loop:
     def _step(self, log: Log, now: float, lateness_s: float) -> None:
         tick = self._simulation.tick
         log.tick(tick, now, lateness_s)
-        commands = log.step(self._team.percepts(tick, now))
+        percepts = self._team.percepts(tick, now)
+        commands = log.step(percepts)
         motions = self._team.motions(commands)
         log.setpoints(tick, motions, now)
         for robot, motion in motions.items():
@@ -83,6 +89,13 @@ class Loop:
         for goal in self._team.new_verdicts():
             if not self._pipe.send({"type": "goal", **goal}):
                 break  # The others are new in the next step, too.
+        for silence in self._team.new_silence():
+            if not self._pipe.send({"type": "radio", **silence}):
+                break
+        if self._inputs is not None:
+            self._inputs.append({"type": "input", "tick": tick, "inputs": strict(percepts)})
+            while self._inputs and self._pipe.send(self._inputs[0]):
+                self._inputs.popleft()
 
     def _add(self, message: Mapping[str, Any]) -> None:
         if self._log is not None:

@@ -23,7 +23,7 @@ class Percepts:
     """The newest readings of a robot, and its percepts.
 
     Attributes:
-        is_armed: Whether the robot is armed; its brain steps only then.
+        is_driving: Whether the brain steps: the robot is armed, in automatic mode, and not held.
     """
 
     def __init__(
@@ -38,7 +38,7 @@ class Percepts:
             seed: Seed of the random bits of percepts.
             start_s: The time at which the drive started, by the clock of the time stamps.
         """
-        self.is_armed, self._is_moving = False, False
+        self.is_driving, self._is_moving = False, False
         self._plan, self._frame, self._base = plan, frame, base
         self._seed, self._start_s = seed, start_s
         self._driver = DRIVERS[plan.driver]
@@ -61,7 +61,10 @@ class Percepts:
 
     def add_event(self, event: Any) -> None:
         """Take a change of the robot's state that the warden reports."""
-        self.is_armed, self._is_moving = event["is_armed"], event["action"] == "move"
+        is_held = "held" in event.get("faults", ())
+        is_auto = event.get("mode", "auto") == "auto"
+        self.is_driving = event["is_armed"] and is_auto and not is_held
+        self._is_moving = event["action"] == "move"
 
     def percept(self, tick: int, now_s: float, sonars: int) -> Percept:
         """Return the percept of a tick at a time; `sonars` is the number of range sensors."""

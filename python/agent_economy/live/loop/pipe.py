@@ -27,7 +27,7 @@ class Pipe:
         """Take over the standard streams; everything printed goes to standard error from now on."""
         self._input, self._output = os.dup(sys.stdin.fileno()), os.dup(sys.stdout.fileno())
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-        self._decoder = Decoder()
+        self._decoder, self._unsent = Decoder(), b""
         self._heard_s = self._looked_s = now_s()
         self._is_watching = False
 
@@ -47,13 +47,24 @@ class Pipe:
         Raises:
             WardenLostError: If the warden has closed the pipe.
         """
-        try:
-            os.write(self._output, encode(message))
-        except BlockingIOError:
+        self._flush()
+        if self._unsent:
             return False
+        self._unsent = data = encode(message)
+        self._flush()
+        if len(self._unsent) < len(data):
+            return True  # The rest of a long message follows.
+        self._unsent = b""
+        return False
+
+    def _flush(self) -> None:
+        try:
+            while self._unsent:
+                self._unsent = self._unsent[os.write(self._output, self._unsent) :]
+        except BlockingIOError:
+            pass
         except OSError as error:
             raise WardenLostError from error
-        return True
 
     def receive_until(self, until_s: float) -> Iterator[dict[str, Any]]:
         """Yield all messages that arrive until a time, which may be past.
@@ -62,6 +73,7 @@ class Pipe:
             WardenLostError: If the warden has ended, or has been silent for too long.
         """
         for _ in range(MAX_READS):
+            self._flush()
             wait_s = max(0.0, min(until_s - now_s(), SILENCE_S / 3))
             is_readable = bool(select.select([self._input], [], [], wait_s)[0])
             now = now_s()

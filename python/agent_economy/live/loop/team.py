@@ -5,6 +5,7 @@ from typing import Any
 
 from agent_economy import _core
 from agent_economy.live.loop.percepts import Percepts, frame_of
+from agent_economy.live.loop.shared import shared_by
 from agent_economy.live.plan import FleetPlan
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
@@ -52,55 +53,88 @@ class Team:
             self._robots[robot.name] = Percepts(robot, frame, base, seed, start_s)
             self._bodies[robot.name] = bodies[kind]
         self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
+        self._ordered = {name: len(waypoints_m.get(name, ())) for name in self._robots}
         self._motions = dict.fromkeys(self._robots, STOP)
-        self._verdicts: dict[tuple[str, str], str] = {}
+        self._shared = tuple(shared_by(simulation.scenario.to_dict(), self._robots))
+        self._now_s = start_s
+        self._verdicts: dict[tuple[str, str], tuple[str, str | None]] = {}
+        self._silent: set[str] = set()
 
     def add(self, message: Mapping[str, Any]) -> None:
-        """Take a line or an event of the warden."""
-        robot = self._robots[message["robot"]]
+        """Take a line, an event or an order of the warden."""
+        name = message["robot"]
+        robot = self._robots[name]
         if message["type"] == "line":
             robot.add_line(message["port"], message["line"].encode("latin-1"), message["t"])
         elif message["type"] == "event":
             robot.add_event(message)
+        elif message["type"] == "order":
+            self._orders[name].append(order(self._ordered[name], message["at_m"], "assign"))
+            self._ordered[name] += 1
 
     def percepts(self, tick: int, now_s: float) -> dict[str, Percept]:
-        """Return the percepts of the robots whose brains step in a tick: of those that are armed.
+        """Return the percepts of the robots whose brains step in a tick.
 
-        The brain of a robot that may not move does not step: it would find that it gets nowhere.
+        The brain of a robot that may not move, or that an operator drives, does not step: it would
+        find that it gets nowhere.
         """
-        step_s = self._simulation.step_s
+        step_s, self._now_s = self._simulation.step_s, now_s
         percepts = {}
         for name, robot in self._robots.items():
             every = max(1, round(self._bodies[name]["period_s"] / step_s))
-            if robot.is_armed and tick % every == 0:
+            if robot.is_driving and tick % every == 0:
                 sonars = len(self._bodies[name]["rings"])
                 percepts[name] = robot.percept(tick, now_s, sonars)
-                percepts[name]["inbox"] = self._orders.pop(name, [])
+                percepts[name]["inbox"] = self._orders[name]
+                self._orders[name] = []
         return percepts
 
     def motions(self, commands: Mapping[str, Command]) -> dict[str, Setpoint]:
-        """Return the setpoint of each robot: its last command, or stop while it is not armed."""
+        """Return the setpoint of each robot: its last command, or stop while it steps no brain."""
         for name, command in commands.items():
             motion, heading_rad = command["motion"], command["heading_rad"]
             speed, rate = motion["speed_m_s"], motion["turn_rate_rad_s"]
             self._motions[name] = (speed, rate, heading_rad)
+            for waypoints in self._shared:
+                if name in waypoints.robots:
+                    waypoints.add(name, command["outbox"], self._now_s)
         for name, robot in self._robots.items():
-            if not robot.is_armed:
+            if not robot.is_driving:
                 self._motions[name] = STOP
         return dict(self._motions)
 
-    def new_verdicts(self) -> Iterator[dict[str, str]]:
+    def new_verdicts(self) -> Iterator[dict[str, Any]]:
         """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot.
 
         A verdict counts as reported when the next one is taken, so that one that could not be
-        sent is yielded again the next time.
+        sent is yielded again the next time. A waypoint that a team shares is a goal of each of
+        its robots, with the name of the one that goes or went there.
         """
         for name in self._robots:
-            for number, goal in enumerate(self._simulation.assigned_goals(name), 1):
+            goals = [*self._own_goals(name), *self._shared_goals(name)]
+            for number, goal in enumerate(goals, 1):
                 key = (name, str(number))
-                if self._verdicts.get(key) != goal["verdict"]:
-                    yield {"robot": name, "goal": key[1], "verdict": goal["verdict"]}
-                    self._verdicts[key] = goal["verdict"]
+                state = (goal["verdict"], goal["served_by"])
+                if self._verdicts.get(key) != state:
+                    yield {"robot": name, "goal": key[1], **goal}
+                    self._verdicts[key] = state
+
+    def new_silence(self) -> Iterator[dict[str, Any]]:
+        """Yield the robots of teams that have become silent on the radio, or are so no more."""
+        silent = set().union(*(each.silent(self._now_s) for each in self._shared))
+        for name in sorted(silent ^ self._silent):
+            yield {"robot": name, "is_silent": name in silent}
+            self._silent ^= {name}
+
+    def _own_goals(self, name: str) -> Iterator[dict[str, Any]]:
+        for goal in self._simulation.assigned_goals(name):
+            served_by = name if goal["verdict"] == "complete" else None
+            yield {"at_m": goal["at"], "verdict": goal["verdict"], "served_by": served_by}
+
+    def _shared_goals(self, name: str) -> Iterator[dict[str, Any]]:
+        for waypoints in self._shared:
+            if name in waypoints.robots:
+                yield from waypoints.verdicts(self._now_s)
 
 
 def orders(waypoints_m: Any) -> list[Any]:

@@ -37,6 +37,9 @@ FROZEN_LINES = 3
 JITTER_S = 0.3
 """A line may be this much older than its arrival; a longer delay is a lost link."""
 
+MANUAL_LIFETIME_S = 0.4
+"""Time for which a setpoint of the operator is valid."""
+
 NOISE_SIGMAS = 8.0
 """Two readings differ when they are this many standard deviations of the noise apart.
 
@@ -59,6 +62,8 @@ class Clears(StrEnum):
     """An operator who arms the robot, once the fault is no longer active."""
     RELEASE = "release, then arming"
     """An operator who releases the emergency stop, and then arms the robot."""
+    RESUME = "resume"
+    """An operator who ends the hold; the stop ends one second later."""
 
 
 class InManual(StrEnum):
@@ -92,7 +97,7 @@ class Fault:
     @property
     def latches(self) -> bool:
         """Whether the robot has to be armed after it."""
-        return self.clears is not Clears.ITSELF
+        return self.clears in (Clears.ARMING, Clears.RELEASE)
 
     def because(self, reason: str) -> "Fault":
         """Return the fault with a reason."""
@@ -223,9 +228,17 @@ NO_SETPOINT = Fault(
     Clears.ITSELF,
     InManual.STOP,
 )
+HELD = Fault(
+    "held",
+    "An operator holds all robots, or has switched off the navigation of this robot in automatic "
+    "mode.",
+    "none",
+    Clears.RESUME,
+    InManual.STOP,
+)
 LONG_STOP = Fault(
     "long_stop",
-    "Other faults stopped the robot for more than 5 s.",
+    "Other faults than `held` stopped the robot for more than 5 s.",
     "none",
     Clears.ARMING,
     InManual.STOP,
@@ -263,6 +276,7 @@ FAULTS: tuple[Fault, ...] = (
     MISSING_INPUT,
     STALE_INPUT,
     NO_SETPOINT,
+    HELD,
     LONG_STOP,
     MODE_CHANGED,
     NOT_ARMED,

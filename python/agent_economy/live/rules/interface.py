@@ -137,12 +137,18 @@ class Requests:
         release: Release of the emergency stop. The robots stand until they are armed.
         arm: Names of the robots to arm. A robot that cannot be armed now is not armed later.
         mode: The modes to switch to, by name. A switch stops the robot until it is armed.
+        hold: Hold of all robots: they stand, and stay armed. It wins over a resume.
+        resume: End of the hold.
+        navigate: Whether robots follow their plans in automatic mode, by name.
     """
 
     stop: bool = False
     release: bool = False
     arm: frozenset[str] = frozenset()
     mode: Mapping[str, Mode] = field(default_factory=dict)
+    hold: bool = False
+    resume: bool = False
+    navigate: Mapping[str, bool] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +165,7 @@ class Decision:
         warnings: The faults that do not stop it in its mode.
         is_confirmed: Whether its inputs confirm its standstill.
         mode: Its mode.
+        navigates: Whether it follows its plan in automatic mode.
     """
 
     action: Action
@@ -170,10 +177,17 @@ class Decision:
     warnings: tuple[Fault, ...]
     is_confirmed: bool
     mode: Mode = Mode.AUTO
+    navigates: bool = True
 
 
 @dataclass(frozen=True, slots=True)
 class Outputs:
-    """The decisions for all robots, by name."""
+    """What the rules decide.
+
+    Attributes:
+        robots: The decisions for all robots, by name.
+        is_held: Whether an operator holds all robots.
+    """
 
     robots: Mapping[str, Decision]
+    is_held: bool = False

@@ -14,8 +14,10 @@ from agent_economy.live.rules import causes
 from agent_economy.live.rules.faults import (
     CLEAR_S,
     EMERGENCY_STOP,
+    HELD,
     LONG_STOP,
     LONG_STOP_S,
+    MANUAL_LIFETIME_S,
     MAX_GAP_S,
     MODE_CHANGED,
     MOVES_WHILE_STOPPED,
@@ -54,6 +56,7 @@ class RobotMemory:
 
     Attributes:
         mode: Its mode.
+        navigates: Whether it follows its plan in automatic mode.
         latched: Why it has to be armed.
         held: Its active faults, by name.
         inputs: Its inputs, by port.
@@ -61,12 +64,13 @@ class RobotMemory:
         commanded: The motion commanded since the start.
         action: Its last action.
         stopped_since_s: Since when stop has been commanded; None while it moves.
-        blocked_since_s: Since when its faults stop it; None while it may move.
+        blocked_since_s: Since when faults other than a hold stop it; None while none does.
         turning_since_s: Since when it turns to a heading by itself; None if it does not.
         turned_s: When it did so last.
     """
 
     mode: Mode = Mode.AUTO
+    navigates: bool = True
     latched: tuple[Fault, ...] = (NOT_ARMED.because("not armed since the start"),)
     held: Mapping[str, Held] = field(default_factory=dict)
     inputs: Mapping[str, InputMemory] = field(default_factory=dict)
@@ -85,6 +89,7 @@ class Memory:
 
     time_s: float | None
     robots: Mapping[str, RobotMemory]
+    is_held: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +101,7 @@ class _Turn:
     elapsed_s: float
     requests: Requests
     faults: tuple[Fault, ...]
+    is_held: bool
 
 
 def initial(plan: FleetPlan) -> Memory:
@@ -118,8 +124,10 @@ def update(
             before = _rewound(before, turn.time_s)
         known = inputs.robots.get(robot.name, _UNKNOWN)
         decided[robot.name] = _decide(before, robot, known, turn)
-    after = Memory(turn.time_s, {name: each for name, (each, _) in decided.items()})
-    return after, Outputs({name: decision for name, (_, decision) in decided.items()})
+    robots = {name: each for name, (each, _) in decided.items()}
+    after = Memory(turn.time_s, robots, turn.is_held)
+    outputs = {name: decision for name, (_, decision) in decided.items()}
+    return after, Outputs(outputs, turn.is_held)
 
 
 def _turn(
@@ -131,13 +139,14 @@ def _turn(
     if not math.isfinite(time_s):
         time_s = before_s or 0.0
     elapsed_s = min(max(elapsed_s, 0.0), MAX_GAP_S) if math.isfinite(elapsed_s) else 0.0
-    return _Turn(plan, time_s, elapsed_s, requests, faults)
+    is_held = requests.hold or (memory.is_held and not requests.resume)
+    return _Turn(plan, time_s, elapsed_s, requests, faults, is_held)
 
 
 def _rewound(memory: RobotMemory, time_s: float) -> RobotMemory:
     """Return the memory without times, after the clock went backwards."""
     held = {name: Held(each.fault, time_s) for name, each in memory.held.items()}
-    return RobotMemory(memory.mode, memory.latched, held)
+    return RobotMemory(memory.mode, memory.navigates, memory.latched, held)
 
 
 # The rules of one robot.
@@ -148,7 +157,9 @@ def _decide(
 ) -> tuple[RobotMemory, Decision]:
     memory, requested = _after_requests(memory, plan.name, turn.requests)
     memory, judged = _judge_inputs(memory, plan, inputs, turn)
-    setpoint = inputs.manual if memory.mode is Mode.MANUAL else inputs.setpoint
+    is_manual = memory.mode is Mode.MANUAL
+    setpoint = inputs.manual if is_manual else inputs.setpoint
+    lifetime_s = MANUAL_LIFETIME_S if is_manual else turn.plan.setpoint_lifetime_s
     now = gravest_first(
         (
             *requested,
@@ -157,7 +168,8 @@ def _decide(
             *causes.links(plan, inputs.links),
             *causes.fence(plan, _values(memory, plan, Quantity.POSITION)),
             *causes.battery(plan, _values(memory, plan, Quantity.BATTERY)),
-            *causes.setpoint(setpoint, turn.plan.setpoint_lifetime_s, turn.time_s),
+            *causes.setpoint(setpoint, lifetime_s, turn.time_s),
+            *_hold_of(memory, turn),
             *causes.turning(plan, memory.turning_since_s, turn.time_s),
         )
     )
@@ -168,6 +180,9 @@ def _decide(
     if action is Action.MOVE and setpoint is not None:
         motion = _limited(setpoint.motion, plan, is_slow=_is_slow(warnings))
     memory = _after_motion(memory, action, motion, turn.time_s)
+    is_blocked = bool(memory.latched) or any(each != HELD for each in faults)
+    blocked_since_s = _since(memory.blocked_since_s, turn.time_s, is_true=is_blocked)
+    memory = replace(memory, blocked_since_s=blocked_since_s)
     decision = Decision(
         action=action,
         motion=motion,
@@ -178,8 +193,16 @@ def _decide(
         warnings=warnings,
         is_confirmed=_is_confirmed(memory, plan, turn.time_s),
         mode=memory.mode,
+        navigates=memory.navigates,
     )
     return memory, decision
+
+
+def _hold_of(memory: RobotMemory, turn: _Turn) -> Iterator[Fault]:
+    if turn.is_held:
+        yield HELD.because("all robots are held: not resumed")
+    if memory.mode is Mode.AUTO and not memory.navigates:
+        yield HELD.because("its navigation is switched off")
 
 
 def _after_requests(
@@ -202,8 +225,9 @@ def _after_requests(
     if mode != memory.mode and mode in tuple(Mode):
         requested.append(MODE_CHANGED.because(f"switched to {Mode(mode)} mode"))
         memory = replace(memory, mode=Mode(mode))
-    if latched is not memory.latched:
-        memory = replace(memory, latched=latched)
+    navigates = bool(requests.navigate.get(name, memory.navigates))
+    if latched is not memory.latched or navigates != memory.navigates:
+        memory = replace(memory, latched=latched, navigates=navigates)
     return memory, tuple(requested)
 
 
@@ -249,7 +273,6 @@ def _after_motion(
         action=action,
         motion=motion,
         stopped_since_s=_since(memory.stopped_since_s, time_s, is_true=motion.is_stop),
-        blocked_since_s=_since(memory.blocked_since_s, time_s, is_true=action is not Action.MOVE),
         turning_since_s=_since(memory.turning_since_s, time_s, is_true=is_turning),
         turned_s=turned_s,
     )
@@ -284,11 +307,13 @@ def _with(latched: tuple[Fault, ...], fault: Fault) -> tuple[Fault, ...]:
 
 
 def _limited(motion: Motion, plan: RobotPlan, *, is_slow: bool) -> Motion:
+    # Values of tracks that are not slowed down go to the motors as they were requested.
     max_m_s = min(plan.max_speed_m_s, plan.manual_speed_m_s) if is_slow else plan.max_speed_m_s
     return Motion(
         _clamped(motion.speed_m_s, max_m_s),
         _clamped(motion.turn_rate_rad_s, plan.max_turn_rate_rad_s),
         motion.heading_rad,
+        None if is_slow else motion.tracks,
     )
 
 

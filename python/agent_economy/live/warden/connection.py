@@ -83,6 +83,10 @@ class Connection(asyncio.Protocol):
         queued = fcntl.ioctl(number, _SIOCOUTQ, b"\0" * 4)
         return bool(struct.unpack("i", queued)[0] == 0)
 
+    def is_acknowledged(self) -> bool:
+        """Whether the robot's machine is known to have acknowledged all that was written."""
+        return _SIOCOUTQ is not None and self.is_up and self.is_empty()
+
     def unacknowledged_s(self, now_s: float) -> float:
         """Return for how long written bytes have not been acknowledged."""
         if self._queued_since_s is None or self.is_empty():

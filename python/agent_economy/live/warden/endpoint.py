@@ -1,20 +1,29 @@
-"""The warden's HTTP endpoint: `POST /stop`, `/arm` and `/release`, on loopback.
+"""The warden's HTTP endpoint on loopback: POST requests of pages and other programs.
 
-The body is JSON: `{"token": ...}`, for `/arm` also `{"robots": [...]}`, without which all robots
-are armed. The token keeps other users and pages in browsers from reaching the robots.
+The body is JSON of any content type, so that a page can send it as text without a request in
+advance; it has the token, which keeps other users and pages in browsers from reaching the robots.
+Each connection is served by itself, with limits of size and time: none delays the stop of another.
 """
 
 import asyncio
 import hmac
 import json
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import dataclass
 from http import HTTPStatus
 from typing import Any
 
 MAX_BYTES = 65_536
 READ_TIMEOUT_S = 2.0
+"""Time for the rest of a request, from its first byte on."""
+
+IDLE_S = 60.0
+"""Time between two requests of one connection."""
+
+MAX_CONNECTIONS = 200
+"""With more, the oldest is closed: new ones must always be accepted."""
 
 NO_REQUEST = (
     OSError,  # Also a time-out.
@@ -25,8 +34,31 @@ NO_REQUEST = (
 )
 """What reading a request raises that is none."""
 
-Action = Callable[[dict[str, Any]], str]
-"""Takes the body of a request and returns an answer in words; ValueError refuses it."""
+Answer = Mapping[str, Any]
+Action = Callable[[dict[str, Any]], Answer]
+"""Takes the body of a request and returns an answer; ValueError refuses it with the reason."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A request as it was read.
+
+    Attributes:
+        method: Its method.
+        path: Its path.
+        fields: The fields of its head, in lower case.
+        body: Its body.
+    """
+
+    method: str
+    path: str
+    fields: Mapping[str, str]
+    body: bytes
+
+    @property
+    def is_last(self) -> bool:
+        """Whether the connection ends after it."""
+        return self.fields.get("connection", "").strip().lower() == "close"
 
 
 class Endpoint:
@@ -37,10 +69,12 @@ class Endpoint:
         address: Host and port, once it has started.
     """
 
-    def __init__(self, actions: dict[str, Action]) -> None:
+    def __init__(self, actions: Mapping[str, Action]) -> None:
         """Create it; `actions` are keyed by path."""
         self.token, self.address = secrets.token_urlsafe(16), ("127.0.0.1", 0)
         self._actions = actions
+        self._origins: set[str] = set()
+        self._open: dict[asyncio.StreamWriter, None] = {}
         self._server: asyncio.Server | None = None
 
     async def start(self) -> None:
@@ -49,49 +83,94 @@ class Endpoint:
         host, port = self._server.sockets[0].getsockname()[:2]
         self.address = (host, port)
 
+    def allow(self, origin: str) -> None:
+        """Let pages of an origin, such as `http://127.0.0.1:8000`, read answers in a browser."""
+        self._origins.add(origin)
+
     def close(self) -> None:
         """Accept no more requests."""
         if self._server is not None:
             self._server.close()
-
-    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        try:
-            async with asyncio.timeout(READ_TIMEOUT_S):
-                status, text = await self._answer(reader)
-        except NO_REQUEST:
-            status, text = HTTPStatus.BAD_REQUEST, "not a request that this endpoint takes"
-        body = (json.dumps({"message": text}) + "\n").encode()
-        head = (
-            f"HTTP/1.1 {status.value} {status.phrase}\r\nContent-Type: application/json\r\n"
-            f"Content-Length: {len(body)}\r\nConnection: close\r\n\r\n"
-        )
-        with suppress(OSError):
-            writer.write(head.encode() + body)
-            await writer.drain()
+        for writer in self._open:
             writer.close()
 
-    async def _answer(self, reader: asyncio.StreamReader) -> tuple[HTTPStatus, str]:
-        head = (await reader.readuntil(b"\r\n\r\n")).decode("latin-1").split("\r\n")
-        method, path, *_ = head[0].split(" ")
-        action = self._actions.get(path)
+    async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self._open[writer] = None
+        if len(self._open) > MAX_CONNECTIONS:
+            oldest = next(iter(self._open))
+            self._open.pop(oldest)
+            oldest.transport.abort()
+        try:
+            while await self._serve_one(reader, writer):
+                pass
+        except OSError:
+            pass
+        finally:
+            self._open.pop(writer, None)
+            with suppress(OSError):
+                writer.close()
+
+    async def _serve_one(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> bool:
+        """Answer the next request; return whether another one may follow."""
+        try:
+            async with asyncio.timeout(IDLE_S):
+                first = await reader.readexactly(1)
+        except (TimeoutError, asyncio.IncompleteReadError):
+            return False
+        request = None
+        try:
+            async with asyncio.timeout(READ_TIMEOUT_S):
+                request = await _read(first, reader)
+            status, answer = self._answer(request)
+        except NO_REQUEST:
+            text = "not a request that this endpoint takes"
+            status, answer = HTTPStatus.BAD_REQUEST, {"message": text}
+        is_last = request is None or request.is_last
+        origin = "" if request is None else request.fields.get("origin", "").strip()
+        async with asyncio.timeout(READ_TIMEOUT_S):
+            writer.write(self._response(status, answer, origin, is_last=is_last))
+            await writer.drain()
+        return not is_last
+
+    def _response(self, status: HTTPStatus, answer: Answer, origin: str, *, is_last: bool) -> bytes:
+        body = (json.dumps(answer) + "\n").encode()
+        lines = [
+            f"HTTP/1.1 {status.value} {status.phrase}",
+            "Content-Type: application/json",
+            f"Content-Length: {len(body)}",
+            "Cache-Control: no-store",
+            "Vary: Origin",
+            f"Connection: {'close' if is_last else 'keep-alive'}",
+        ]
+        if origin in self._origins:
+            lines.append(f"Access-Control-Allow-Origin: {origin}")
+        return ("\r\n".join(lines) + "\r\n\r\n").encode() + body
+
+    def _answer(self, request: Request) -> tuple[HTTPStatus, Answer]:
+        action = self._actions.get(request.path)
         if action is None:
-            return HTTPStatus.NOT_FOUND, f"must be one of {', '.join(self._actions)}"
-        if method != "POST":
-            return HTTPStatus.METHOD_NOT_ALLOWED, "must be a POST request"
-        body = await self._body(reader, head[1:])
+            text = f"must be one of {', '.join(self._actions)}"
+            return HTTPStatus.NOT_FOUND, {"message": text}
+        if request.method != "POST":
+            return HTTPStatus.METHOD_NOT_ALLOWED, {"message": "must be a POST request"}
+        body = json.loads(request.body)
+        if not isinstance(body, dict):
+            raise ValueError  # noqa: TRY004  (of the request, not of the program)
         if not hmac.compare_digest(str(body.get("token")).encode(), self.token.encode()):
-            return HTTPStatus.FORBIDDEN, "the token is missing or wrong"
+            return HTTPStatus.FORBIDDEN, {"message": "the token is missing or wrong"}
         try:
             return HTTPStatus.OK, action(body)
         except ValueError as error:
-            return HTTPStatus.CONFLICT, str(error)
+            return HTTPStatus.CONFLICT, {"message": str(error)}
 
-    async def _body(self, reader: asyncio.StreamReader, lines: list[str]) -> dict[str, Any]:
-        fields = dict(line.lower().split(":", 1) for line in lines if ":" in line)
-        length = int(fields.get("content-length", "0"))
-        if not 0 < length <= MAX_BYTES:
-            raise ValueError
-        body = json.loads(await reader.readexactly(length))
-        if not isinstance(body, dict):
-            raise ValueError  # noqa: TRY004  (of the request, not of the program)
-        return body
+
+async def _read(first: bytes, reader: asyncio.StreamReader) -> Request:
+    head = first + await reader.readuntil(b"\r\n\r\n")
+    start, *lines = head.decode("latin-1").split("\r\n")
+    method, path, *_ = start.split(" ")
+    pairs = (line.split(":", 1) for line in lines if ":" in line)
+    fields = {name.lower(): value for name, value in pairs}
+    length = int(fields.get("content-length", "0"))
+    if not 0 <= length <= MAX_BYTES:
+        raise ValueError
+    return Request(method, path, fields, await reader.readexactly(length))

@@ -10,6 +10,8 @@ from agent_economy.live.plan import Origin
 SEMI_MAJOR_M = 6_378_137.0
 ECCENTRICITY_SQUARED = 6.694379990141316e-3
 FULL_TURN_DEG = 360.0
+STEPS = 8
+"""Each step of the inverse leaves less than a hundredth of the error."""
 
 
 def world_of(origin: Origin, latitude_deg: float, longitude_deg: float) -> tuple[float, float]:
@@ -27,6 +29,21 @@ def world_of(origin: Origin, latitude_deg: float, longitude_deg: float) -> tuple
     x_m = east_m * math.cos(turn) - north_m * math.sin(turn)
     y_m = east_m * math.sin(turn) + north_m * math.cos(turn)
     return x_m, y_m
+
+
+def geographic_of(origin: Origin, x_m: float, y_m: float) -> tuple[float, float]:
+    """Return latitude and longitude of a position in the world: the inverse of `world_of`."""
+    latitude, longitude = origin.latitude_deg, origin.longitude_deg
+    metre_deg = 360.0 / (2 * math.pi * SEMI_MAJOR_M)
+    turn = math.radians(origin.rotation_deg)
+    for _ in range(STEPS):
+        there_x_m, there_y_m = world_of(origin, latitude, longitude)
+        dx_m, dy_m = x_m - there_x_m, y_m - there_y_m
+        east_m = dx_m * math.cos(turn) + dy_m * math.sin(turn)
+        north_m = dy_m * math.cos(turn) - dx_m * math.sin(turn)
+        latitude += north_m * metre_deg
+        longitude += east_m * metre_deg / math.cos(math.radians(origin.latitude_deg))
+    return latitude, longitude
 
 
 def magnetic_bearing_deg(origin: Origin, heading_rad: float) -> float:

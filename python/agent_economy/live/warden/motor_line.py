@@ -50,6 +50,8 @@ class MotorLines:
     def _lines(self, motion: Motion) -> tuple[PortLine, ...]:
         if motion.is_stop:
             return self.driver.stop(self.settings)
+        if motion.tracks is not None:
+            return self.driver.move(motion, self.settings)
         if motion.heading_rad is not None:
             bearing_deg = magnetic_bearing_deg(self.origin, motion.heading_rad)
             lines = self.driver.turn_to(bearing_deg, self.settings)

@@ -25,6 +25,7 @@ class PortLink:
 
     Attributes:
         connection: The current connection; it may be down.
+        has_connected: Whether it has ever been connected.
     """
 
     def __init__(
@@ -37,7 +38,7 @@ class PortLink:
         """Wait for `run`. `received` is called with each line, `connected` after each connect."""
         self._address, self._lookup = address, lookup
         self._received, self._connected = received, connected
-        self.connection = Connection(received)
+        self.connection, self.has_connected = Connection(received), False
 
     async def run(self) -> None:
         """Keep the port connected, until cancelled."""
@@ -70,7 +71,7 @@ class PortLink:
             self._lookup.forget()
             self.connection.reason = f"{host}:{port}: {_words(error)}"
             return False
-        self.connection = new
+        self.connection, self.has_connected = new, True
         self._connected()
         return True
 

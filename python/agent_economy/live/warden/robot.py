@@ -27,8 +27,20 @@ class Robot:
 
     Attributes:
         plan: Its entry in the fleet file.
+        driver: Its driver.
+        links: The link of each port.
         setpoint: The newest setpoint of the loop.
+        manual: The newest setpoint of the operator.
+        readings: The newest reading of each port, as the driver made it, and its time.
+        written: The newest motor lines, and when they were written; None before.
+        standing_s: Time for which stop was commanded, since the start.
+        driving_s: Time for which it was not.
     """
+
+    setpoint: Setpoint | None
+    manual: Setpoint | None
+    readings: dict[str, tuple[Reading, float]]
+    written: tuple[str, float] | None
 
     def __init__(
         self, plan: RobotPlan, origin: Origin, stamp_s: Callable[[], float], report: LineReport
@@ -41,17 +53,20 @@ class Robot:
             stamp_s: Returns the time stamp of a line that is read now.
             report: Is called with each line.
         """
-        self.plan, self.setpoint = plan, None
+        self.plan, self.setpoint, self.manual = plan, None, None
+        self.readings, self.written = {}, None
+        self.standing_s = self.driving_s = 0.0
+        self._commanded_s: float | None = None
         self._origin, self._stamp_s, self._report = origin, stamp_s, report
-        self._driver = DRIVERS[plan.driver]
+        self.driver = DRIVERS[plan.driver]
         self._has_moved = False
         self._samples: dict[str, Sample] = {}
         self._arrived: dict[str, deque[tuple[bytes, float]]] = {
             port: deque(maxlen=MAX_LINES) for port in plan.ports
         }
-        self._motors = MotorLines(self._driver, plan.settings, origin, plan.repeat_s)
+        self._motors = MotorLines(self.driver, plan.settings, origin, plan.repeat_s)
         lookup = NameLookup(plan.host)
-        self._links = {
+        self.links = {
             port: PortLink(
                 (plan.host, number),
                 lookup,
@@ -61,30 +76,40 @@ class Robot:
             for port, number in plan.ports.items()
         }
 
-    setpoint: Setpoint | None
-
     def start(self, tasks: asyncio.TaskGroup) -> None:
         """Start to connect all ports."""
-        for link in self._links.values():
+        for link in self.links.values():
             tasks.create_task(link.run())
 
     def inputs(self, now_s: float) -> RobotInputs:
         """Return what the rules have to know, after the lines that have arrived."""
         for port in self._arrived:
             self._take_lines(port)
-        links = {port: self._link(port, now_s) for port in self._links}
-        return RobotInputs(links=links, samples=dict(self._samples), setpoint=self.setpoint)
+        links = {port: self._link(port, now_s) for port in self.links}
+        return RobotInputs(links, dict(self._samples), self.setpoint, self.manual)
 
     def command(self, motion: Motion, now_s: float) -> None:
         """Write the motor lines that are due."""
         self._has_moved |= not motion.is_stop
+        self._count(motion, now_s)
         lines = self._motors.due(motion, now_s, is_empty=self._is_empty())
         for line in lines:
             self._write(line, now_s)
+        text = " ".join(
+            line.data.decode("latin-1").strip()
+            for line in lines
+            if line.port == self.driver.motor_port
+        )
+        if text and self._motor_link.connection.is_up:
+            self.written = (text, now_s)
+
+    def is_acknowledged(self) -> bool:
+        """Whether the robot's machine is known to have acknowledged its newest motor line."""
+        return self._motor_link.connection.is_acknowledged()
 
     def is_quiet(self) -> bool:
         """Whether everything written has been acknowledged, or its port is down."""
-        return all(link.connection.is_empty() for link in self._links.values())
+        return all(link.connection.is_empty() for link in self.links.values())
 
     def has_stop(self) -> bool:
         """Whether stop can have reached it: it is connected, or has never moved."""
@@ -92,25 +117,37 @@ class Robot:
 
     def peer(self) -> tuple[str, int] | None:
         """Return the numeric address of the connected motor port."""
-        return self._links[self._driver.motor_port].connection.peer()
+        return self._motor_link.connection.peer()
+
+    @property
+    def _motor_link(self) -> PortLink:
+        return self.links[self.driver.motor_port]
+
+    def _count(self, motion: Motion, now_s: float) -> None:
+        elapsed_s = 0.0 if self._commanded_s is None else now_s - self._commanded_s
+        self._commanded_s = now_s
+        if motion.is_stop:
+            self.standing_s += elapsed_s
+        else:
+            self.driving_s += elapsed_s
 
     async def end(self) -> None:
         """Write stop behind everything, also behind a turn of the coprocessor; then close."""
         self._motors.connected()
         self.command(Motion(), self._stamp_s())
-        await asyncio.gather(*(link.end() for link in self._links.values()))
+        await asyncio.gather(*(link.end() for link in self.links.values()))
 
     def _is_empty(self) -> bool:
-        return self._links[self._driver.motor_port].connection.is_empty()
+        return self._motor_link.connection.is_empty()
 
     def _write(self, line: PortLine, now_s: float) -> None:
-        connection = self._links[line.port].connection
+        connection = self.links[line.port].connection
         if connection.is_up:
             connection.write(line.data, now_s)
             self._report(self.plan.name, line.port, line.data, now_s, True)  # noqa: FBT003
 
     def _link(self, port: str, now_s: float) -> Link:
-        connection = self._links[port].connection
+        connection = self.links[port].connection
         waiting_s = connection.unacknowledged_s(now_s)
         if waiting_s > ABORT_S:
             connection.abort()
@@ -119,7 +156,8 @@ class Robot:
     def _connected(self, port: str) -> None:
         self._arrived[port].clear()
         self._samples.pop(port, None)
-        if port == self._driver.motor_port:
+        self.readings.pop(port, None)
+        if port == self.driver.motor_port:
             self._motors.connected()
             self.command(Motion(), self._stamp_s())
 
@@ -131,9 +169,14 @@ class Robot:
         while self._arrived[port]:
             line, at_s = self._arrived[port].popleft()
             self._report(self.plan.name, port, line, at_s, False)  # noqa: FBT003
-            reading = self._driver.parse(port, line, self.plan.settings)
+            reading = self.driver.parse(port, line, self.plan.settings)
             if reading is not None:
+                self.readings[port] = (reading, at_s)
                 self._samples[port] = Sample(at_s, self._values(reading))
+
+    def position_m(self, port: str) -> tuple[float | None, ...]:
+        """Return the newest position of a port in the world; its reading must be known."""
+        return self._samples[port].values
 
     def _values(self, reading: Reading) -> tuple[float | None, ...]:
         if reading.quantity is not Quantity.POSITION:

@@ -14,8 +14,11 @@ from agent_economy.live.drivers import DRIVERS
 from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.plan import FleetPlan
 from agent_economy.live.running_drives import RunningDrive, registered
+from agent_economy.live.warden.control import Control, Drive
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.endpoint import Endpoint
+from agent_economy.live.warden.event_log import EventLog
+from agent_economy.live.warden.page_process import start_page
 from agent_economy.live.warden.reporter import Reporter
 from agent_economy.live.warden.warden import Report, Warden
 
@@ -48,15 +51,21 @@ def drive_fleet(options: Options, report: Report) -> End:
 async def _drive(options: Options, print_event: Report) -> End:
     loop = asyncio.get_running_loop()
     # A drive whose output is closed has no reader: it ends as after Ctrl-C.
-    report = Reporter(print_event, lambda: loop.call_soon_threadsafe(warden.interrupt))
+    printer = Reporter(print_event, lambda: loop.call_soon_threadsafe(warden.interrupt))
+    events = EventLog()
+
+    def report(event: Mapping[str, Any]) -> None:
+        printer(event)
+        events.report(event)
+
     warden = Warden(report, is_headless=options.is_headless)
     try:
-        return await _supervised(options, warden, report)
+        return await _supervised(options, warden, report, events)
     finally:
-        report.close()
+        printer.close()
 
 
-async def _supervised(options: Options, warden: Warden, report: Report) -> End:
+async def _supervised(options: Options, warden: Warden, report: Report, events: EventLog) -> End:
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, warden.interrupt)
@@ -64,8 +73,8 @@ async def _supervised(options: Options, warden: Warden, report: Report) -> End:
     # that background processes must not write to (`stty tostop`) does not suspend it.
     signal.signal(signal.SIGTTOU, signal.SIG_IGN)
     loop.add_signal_handler(signal.SIGTSTP, _stopper(warden, report))
-    arguments = (str(options.fleet), "--record", str(options.record), "--seed", str(options.seed))
-    plan = await warden.load(arguments)
+    arguments = [str(options.fleet), "--record", str(options.record), "--seed", str(options.seed)]
+    plan = await warden.load(arguments if options.is_headless else [*arguments, "--page"])
     if plan is None:
         return warden.end_of_load
     for text in plan.warnings:
@@ -74,12 +83,18 @@ async def _supervised(options: Options, warden: Warden, report: Report) -> End:
     loop.set_default_executor(ThreadPoolExecutor(max_workers=2 * len(plan.robots)))
     with ExitStack() as stack:
         try:
-            await _publish(stack, options, warden, plan)
+            drive = Drive(plan, str(options.fleet), str(options.record))
+            endpoint = await _publish(stack, drive, Control(warden, drive, events))
         except (LockedError, OSError) as error:
             report({"type": "message", "message": str(error)})
             await warden.close()
             return End.INVALID
+        page = None if warden.run is None else start_page(warden.run, endpoint, report)
+        if page is not None:
+            warden.page = page.add
         end = await warden.drive(plan)
+        if page is not None:
+            await page.end()
     report(
         {
             "type": "end",
@@ -93,17 +108,18 @@ async def _supervised(options: Options, warden: Warden, report: Report) -> End:
     return end
 
 
-async def _publish(stack: ExitStack, options: Options, warden: Warden, plan: FleetPlan) -> None:
+async def _publish(stack: ExitStack, drive: Drive, control: Control) -> Endpoint:
     """Lock the robots for this drive, and let other programs stop it, until the stack is closed."""
     locks = AddressLocks()
     stack.callback(locks.close)
-    locks.take(await addresses(plan))
-    endpoint = Endpoint(actions(warden, plan))
+    locks.take(await addresses(drive.plan))
+    endpoint = Endpoint(control.actions())
     await endpoint.start()
     stack.callback(endpoint.close)
     host, port = endpoint.address
-    drive = RunningDrive(os.getpid(), str(options.fleet), host, port, endpoint.token)
-    stack.enter_context(registered(drive))
+    entry = RunningDrive(os.getpid(), drive.fleet, host, port, endpoint.token)
+    stack.enter_context(registered(entry))
+    return endpoint
 
 
 async def addresses(plan: FleetPlan) -> list[tuple[str, int]]:
@@ -129,25 +145,3 @@ def _stopper(warden: Warden, report: Report) -> Callable[[], None]:
         report({"type": "message", "message": "Emergency stop (Ctrl-Z); Ctrl-C ends the drive."})
 
     return stop
-
-
-def actions(warden: Warden, plan: FleetPlan) -> dict[str, Callable[[dict[str, Any]], str]]:
-    """Return what the endpoint does for each path."""
-    names = [robot.name for robot in plan.robots]
-
-    def stop(_: Mapping[str, Any]) -> str:
-        warden.operator.stop = True
-        return "emergency stop of all robots"
-
-    def release(_: Mapping[str, Any]) -> str:
-        warden.operator.release = True
-        return "released: the robots stand until they are armed"
-
-    def arm(body: Mapping[str, Any]) -> str:
-        robots = body.get("robots", names)
-        if not isinstance(robots, list) or not all(each in names for each in robots):
-            message = f"robots must be a list of {', '.join(names)}"
-            raise ValueError(message)
-        return warden.arm(robots)
-
-    return {"/stop": stop, "/arm": arm, "/release": release}

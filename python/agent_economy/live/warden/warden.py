@@ -2,18 +2,19 @@
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 from agent_economy.live import rules
 from agent_economy.live.channel import BEAT_S
 from agent_economy.live.clock import now_s
-from agent_economy.live.plan import FleetPlan, plan_of
+from agent_economy.live.plan import FleetPlan, Point, plan_of
 from agent_economy.live.readings import Motion
-from agent_economy.live.rules import Action, Decision, Inputs, LoopInputs, Requests, Setpoint
+from agent_economy.live.rules import Action, Decision, Inputs, LoopInputs, Outputs, Setpoint
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.loop_process import LoopProcess
 from agent_economy.live.warden.mission import Mission
+from agent_economy.live.warden.operator import Operator
 from agent_economy.live.warden.robot import Robot
 
 TURN_S = 0.02
@@ -29,28 +30,17 @@ Report = Callable[[Mapping[str, Any]], None]
 """Takes an event: a change of a robot's state, a verdict, or a message."""
 
 
-@dataclass
-class Operator:
-    """What has been requested since the last turn."""
-
-    stop: bool = False
-    release: bool = False
-    arm: set[str] = field(default_factory=set)
-
-    def take(self) -> Requests:
-        """Return the requests, and forget them."""
-        taken = Requests(stop=self.stop, release=self.release, arm=frozenset(self.arm))
-        self.stop = self.release = False
-        self.arm = set()
-        return taken
-
-
 class Warden:
     """Drives one fleet, from the start of the loop to the end of the drive.
 
     Attributes:
         operator: Takes requests.
         plan: The fleet; None until the loop has read it.
+        robots: Its robots, once the drive has begun.
+        outputs: What the rules decided last.
+        goals: The newest verdict of each goal, by robot and goal.
+        run: What the loop has reported of the run for a page; None without one.
+        page: Takes the tick and the inputs of each step.
         late_steps: Number of steps of the loop that were late by more than a step.
         behind_s: Time by which the run is behind the clock because of them.
     """
@@ -62,10 +52,12 @@ class Warden:
         self.operator, self.plan = Operator(), None
         self._report, self._is_headless = report, is_headless
         self._loop = LoopProcess(self._message)
-        self._robots: dict[str, Robot] = {}
-        self._decisions: Mapping[str, Decision] = {}
+        self.robots: dict[str, Robot] = {}
+        self.outputs = Outputs({})
+        self.goals: dict[str, dict[str, Mapping[str, Any]]] = {}
+        self.run: Mapping[str, Any] | None = None
+        self.page: Callable[[int, Mapping[str, Any]], None] = lambda *_: None
         self._peers: dict[str, tuple[str, int]] = {}
-        self._verdicts: dict[str, dict[str, str]] = {}
         self._loop_inputs = LoopInputs(is_alive=True, last_message_s=None)
         self.late_steps, self.behind_s = 0, 0.0
         self._planned: asyncio.Future[FleetPlan | None] | None = None
@@ -86,25 +78,41 @@ class Warden:
     async def drive(self, plan: FleetPlan) -> End:
         """Drive the robots until the drive ends; then stop them, and close everything."""
         for each in plan.robots:
-            self._robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line)
+            self.robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line)
         async with asyncio.TaskGroup() as tasks:
             connecting = tasks.create_task(self._connect())
             try:
                 end = await self._turns(plan)
             finally:  # also after an error in this program
                 connecting.cancel()
-                await asyncio.gather(*(robot.end() for robot in self._robots.values()))
+                await asyncio.gather(*(robot.end() for robot in self.robots.values()))
         await self._loop.end()
         return end
 
     def unconfirmed(self) -> list[str]:
         """Return the robots whose standstill the inputs do not confirm."""
-        return [name for name, each in self._decisions.items() if not each.is_confirmed]
+        return [name for name, each in self.outputs.robots.items() if not each.is_confirmed]
 
     @property
     def end_of_load(self) -> End:
         """How the drive ends if there is no fleet to drive."""
         return self._end or End.INVALID
+
+    @property
+    def is_ending(self) -> bool:
+        """Whether all robots are being stopped because the drive ends."""
+        return self._end is not None
+
+    def order(self, robot: str, point_m: Point) -> None:
+        """Order a robot to a waypoint, after its others.
+
+        Raises:
+            ValueError: If nothing takes orders any more.
+        """
+        if self._end is not None or not self._loop_state().is_alive:
+            message = "no order is taken: the drive ends, or the process of the loop has ended"
+            raise ValueError(message)
+        self._loop.send({"type": "order", "t": now_s(), "robot": robot, "at_m": list(point_m)})
 
     def arm(self, robots: Sequence[str]) -> str:
         """Arm robots in the next turn; return an answer in words.
@@ -123,9 +131,9 @@ class Warden:
         return f"armed: {', '.join(robots)}"
 
     def _why_not_armed(self, name: str) -> str:
-        if name not in self._decisions:  # before the first turn
+        if name not in self.outputs.robots:  # before the first turn
             return "nothing is known of it yet"
-        return ", ".join(fault.reason for fault in self._decisions[name].blockers)
+        return ", ".join(fault.reason for fault in self.outputs.robots[name].blockers)
 
     async def close(self) -> None:
         """End the loop of a drive that has not begun."""
@@ -140,20 +148,20 @@ class Warden:
 
     async def _connect(self) -> None:
         async with asyncio.TaskGroup() as tasks:
-            for robot in self._robots.values():
+            for robot in self.robots.values():
                 robot.start(tasks)
 
     async def _turns(self, plan: FleetPlan) -> End:
         memory = rules.initial(plan)
-        mission = Mission(tuple(self._robots), now_s())
+        mission = Mission(tuple(self.robots), now_s())
         ending_since_s = None
         self._turned_s = now_s()
         while True:
             now = now_s()
             memory = self._turn(memory, plan, now)
             if self._is_headless and self._end is None:
-                self.operator.arm |= mission.to_arm(self._decisions)
-                self._end = mission.end(self._decisions, self._verdicts, now)
+                self.operator.arm |= mission.to_arm(self.outputs.robots)
+                self._end = mission.end(self.outputs.robots, self._verdicts(), now)
             if self._end is not None:
                 self.operator.stop = True
                 ending_since_s = ending_since_s or now
@@ -163,27 +171,27 @@ class Warden:
 
     def _turn(self, memory: rules.Memory, plan: FleetPlan, now: float) -> rules.Memory:
         inputs = Inputs(
-            robots={name: robot.inputs(now) for name, robot in self._robots.items()},
+            robots={name: robot.inputs(now) for name, robot in self.robots.items()},
             loop=self._loop_state(),
             gap_s=now - self._turned_s,
         )
         self._turned_s = now
         memory, outputs = rules.update(memory, plan, now, inputs, self.operator.take())
         for name, decision in outputs.robots.items():
-            self._robots[name].command(decision.motion, now)
+            self.robots[name].command(decision.motion, now)
             self._report_peer(name)
             self._report_changes(name, decision, now)
-        self._decisions = outputs.robots
+        self.outputs = outputs
         if now - self._beaten_s >= BEAT_S:
             self._loop.send({"type": "beat", "t": now})
             self._beaten_s = now
         return memory
 
     def _is_over(self, ending_s: float) -> bool:
-        decisions = self._decisions.values()
+        decisions = self.outputs.robots.values()
         if any(decision.action is Action.MOVE for decision in decisions):
             return False
-        robots = self._robots.values()
+        robots = self.robots.values()
         is_confirmed = all(decision.is_confirmed for decision in decisions)
         # A robot that has not received stop may stand in front of something, and then drive on.
         is_confirmed = is_confirmed and all(robot.has_stop() for robot in robots)
@@ -224,22 +232,30 @@ class Warden:
                 self.late_steps, self.behind_s = message["late_steps"], message["behind_s"]
             case "setpoint":
                 self._setpoint(message, now)
+            case "run":
+                self.run = message["run"]
+            case "input":
+                self.page(message["tick"], message["inputs"])
             case "goal":
-                self._verdicts.setdefault(message["robot"], {})[message["goal"]] = message[
-                    "verdict"
-                ]
+                self.goals.setdefault(message["robot"], {})[message["goal"]] = message
                 self._report(message)
-            case "recording_error":
-                error = message["message"]
+            case "radio" | "recording_error":
+                error = message.get("message", error)
                 self._report(message)
         self._loop_inputs = LoopInputs(True, now, lateness_s, error)  # noqa: FBT003
+
+    def _verdicts(self) -> dict[str, dict[str, str]]:
+        return {
+            robot: {goal: each["verdict"] for goal, each in goals.items()}
+            for robot, goals in self.goals.items()
+        }
 
     def _set_plan(self, plan: FleetPlan | None) -> None:
         if self._planned is not None and not self._planned.done():
             self._planned.set_result(plan)
 
     def _setpoint(self, message: Mapping[str, Any], now: float) -> None:
-        robot = self._robots.get(message["robot"])
+        robot = self.robots.get(message["robot"])
         if robot is not None and self.plan is not None:
             motion = Motion(*message["motion"])
             lifetime_s = self.plan.setpoint_lifetime_s
@@ -247,13 +263,13 @@ class Warden:
 
     def _report_peer(self, name: str) -> None:
         """Let the loop know the address of a motor port: if the warden dies, it has to stop it."""
-        peer = self._robots[name].peer()
+        peer = self.robots[name].peer()
         if peer is not None and self._peers.get(name) != peer:
             self._peers[name] = peer
             self._loop.send({"type": "peer", "robot": name, "address": peer})
 
     def _report_changes(self, name: str, decision: Decision, now: float) -> None:
-        before = self._decisions.get(name)
+        before = self.outputs.robots.get(name)
         if before is not None and _shown(before) == _shown(decision):
             return
         event = {"type": "event", "t": now, "robot": name, **_shown(decision)}
@@ -272,6 +288,7 @@ def _shown(decision: Decision) -> dict[str, Any]:
         "action": Action(decision.action).name.lower(),
         "is_armed": decision.is_armed,
         "is_confirmed": decision.is_confirmed,
+        "mode": decision.mode.value,
         **{
             key: [fault.name for fault in getattr(decision, key)]
             for key in ("faults", "latched", "blockers", "warnings")

@@ -1,5 +1,6 @@
 """Runs that pages watch.
 
-A `session` connects one page to one run: `player` decides what to do next, `timeline` is the run
-with its history, and `engines` contains what differs between the simulators.
+A `connection` serves one page, and a `host` one run: a `timeline`, which is the run with its past
+and is moved by a `player`, or a `live_run`, which all pages share and a `follower` moves. `engines`
+contains what differs between the simulators.
 """

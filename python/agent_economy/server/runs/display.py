@@ -7,10 +7,11 @@ from collections import deque
 
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.belief_view import Selected
+from agent_economy.server.runs.follower import Follower
 from agent_economy.server.runs.frames import frame, setting
 from agent_economy.server.runs.overlay import Overlay
 from agent_economy.server.runs.player import Player
-from agent_economy.server.runs.timeline import Timeline
+from agent_economy.server.runs.run import Run
 from agent_economy.types.page import Layers, ServerMessage, State
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
@@ -33,13 +34,13 @@ class Display:
         self._generation = self._number = 0
         self._sent_setting: object = None
         self._in_flight: deque[int] = deque()
-        self._has_news = False
+        self._has_news = self._owes_state = self._owes_map = False
         self._frame_at_s = self._state_at_s = self._map_at_s = 0.0
 
-    def open(self, timeline: Timeline) -> None:
+    def open(self, run: Run) -> None:
         """Show another run, with no robot selected."""
         self._sent_setting = None
-        self._selected = engines.of(timeline.simulation).selected()
+        self._selected = engines.of(run.simulation).selected()
         self._overlay.choose(None)
 
     def select(self, robot: str | None) -> None:
@@ -62,52 +63,60 @@ class Display:
         self._has_news = True
 
     def wait_s(self, now_s: float, *, is_moving: bool) -> float | None:
-        """Return the time until a frame is due; None if none is."""
-        if not self._has_news or len(self._in_flight) >= MAX_IN_FLIGHT:
+        """Return the time until something is due; None if nothing is."""
+        due = (
+            (self._has_news, self._frame_at_s + FRAME_S),
+            (self._owes_state, self._state_at_s + STATE_S),
+            (self._owes_map, self._map_at_s + MAP_S),
+        )
+        due_s = [at_s for is_due, at_s in due if is_due]
+        if not due_s or len(self._in_flight) >= MAX_IN_FLIGHT:
             return None
-        return max(0.0, self._frame_at_s + FRAME_S - now_s) if is_moving else 0.0
+        return max(0.0, min(due_s) - now_s) if is_moving else 0.0
 
-    def outputs(self, timeline: Timeline, player: Player, now_s: float) -> list[Output]:
+    def outputs(self, run: Run, player: Player | Follower, now_s: float) -> list[Output]:
         """Return what is due to be sent, in order."""
         is_at_rest = not player.is_moving
         if self.wait_s(now_s, is_moving=player.is_moving) != 0:
             return []
-        outputs = self._setting(timeline)
-        outputs += self._frame(timeline, now_s)
-        if is_at_rest or now_s - self._state_at_s >= STATE_S:
-            self._state_at_s = now_s
-            outputs.append(self._state(timeline, player))
-        if is_at_rest or now_s - self._map_at_s >= MAP_S:
-            self._map_at_s = now_s
-            if part := self._selected.map(timeline.simulation):
+        outputs = self._setting(run)
+        if self._has_news:
+            outputs += self._frame(run, now_s)
+            self._owes_state = self._owes_map = True
+        if is_at_rest or now_s >= self._state_at_s + STATE_S:
+            self._state_at_s, self._owes_state = now_s, False
+            outputs.append(self._state(run, player))
+        if is_at_rest or now_s >= self._map_at_s + MAP_S:
+            self._map_at_s, self._owes_map = now_s, False
+            if part := self._selected.map(run.simulation):
                 outputs.append(part)
         return outputs
 
-    def _setting(self, timeline: Timeline) -> list[Output]:
-        current = timeline.simulation.changes, timeline.log
+    def _setting(self, run: Run) -> list[Output]:
+        current = run.simulation.changes, run.log
         if current == self._sent_setting:
             return []
         self._generation += 1
         self._sent_setting = current
-        return [setting(timeline, self._generation)]
+        return [setting(run, self._generation)]
 
-    def _frame(self, timeline: Timeline, now_s: float) -> list[Output]:
+    def _frame(self, run: Run, now_s: float) -> list[Output]:
         """Return the next frame, behind its overlay if a layer is on."""
         self._number += 1
         self._in_flight.append(self._number)
         self._frame_at_s, self._has_news = now_s, False
-        simulation = timeline.simulation
+        simulation = run.simulation
         drawn = frame(simulation, self._generation, self._number)
         if not self._overlay.is_shown(simulation):
             return [drawn]
         return [self._overlay.over(simulation, self._number), drawn]
 
-    def _state(self, timeline: Timeline, player: Player) -> State:
-        simulation = timeline.simulation
+    def _state(self, run: Run, player: Player | Follower) -> State:
+        simulation = run.simulation
         return {
             "type": "state",
             "tick": simulation.tick,
-            "latest_tick": timeline.latest_tick,
+            "latest_tick": run.latest_tick,
             "time_s": simulation.time_s,
             "hash": f"{simulation.hash:016x}",
             "is_playing": player.is_playing,
@@ -115,7 +124,7 @@ class Display:
             "measured_speed": player.clock.measured_speed,
             "target_tick": player.target_tick,
             "is_over": simulation.is_over,
-            "mismatch_tick": timeline.recorded.mismatch_tick,
+            "mismatch_tick": run.mismatch_tick,
             "outcome": simulation.outcome().row,
             "inspection": self._selected.inspection(simulation),
             "robot": self._selected.details(simulation),

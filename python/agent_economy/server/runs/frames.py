@@ -11,7 +11,7 @@ from typing import Any
 from agent_economy import _core
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import engines
-from agent_economy.server.runs.timeline import Timeline
+from agent_economy.server.runs.run import Run
 from agent_economy.types.page import Setting
 
 KIND = 1
@@ -32,9 +32,9 @@ def frame(simulation: Stepped, generation: int, number: int) -> bytes:
     return HEADER.pack(KIND, generation, tick, robots, time_s, items, number) + drawn
 
 
-def setting(timeline: Timeline, generation: int) -> Setting:
+def setting(run: Run, generation: int) -> Setting:
     """Return everything that stays the same from frame to frame until the scenario changes."""
-    simulation, log = timeline.simulation, timeline.log
+    simulation, log = run.simulation, run.log
     own: Any = {
         "type": "setting",
         "generation": generation,
@@ -42,7 +42,7 @@ def setting(timeline: Timeline, generation: int) -> Setting:
         "document": _core.read_filled(simulation.scenario.source),
         "robots": simulation.robots,
         "changes": simulation.changes,
-        "log": None if timeline.is_recorded else log,
+        "log": None if run.is_recorded else log,
     }
     whole: Setting = own | engines.of(simulation).still(simulation)
     return whole

@@ -19,8 +19,8 @@ FOREVER = 2**53
 """A tick that no run reaches."""
 
 
-class Run(Protocol):
-    """A run that can be moved back and forth; see `Timeline`."""
+class ReversibleRun(Protocol):
+    """What a player needs of a run that can be moved back and forth; see `Timeline`."""
 
     @property
     def tick(self) -> int:
@@ -92,11 +92,11 @@ class Player:
         """Begin without a run."""
         self.state: State = Idle()
         self.clock = PlaybackClock(0.1)
-        self._run: Run | None = None
+        self._run: ReversibleRun | None = None
         self._pending = PendingQueue()
 
     @property
-    def run(self) -> Run:
+    def run(self) -> ReversibleRun:
         """The open run.
 
         Raises:
@@ -147,7 +147,7 @@ class Player:
         """Forget deferred messages."""
         self._pending.clear()
 
-    def open(self, run: Run, tick: int) -> None:
+    def open(self, run: ReversibleRun, tick: int) -> None:
         """Replace the run, and seek a tick."""
         self._run, self.state = run, Seeking(tick)
         self.clock = PlaybackClock(run.step_s)

@@ -10,6 +10,7 @@ from agent_economy.runs import factory
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario, TomlValue, validation
 from agent_economy.server.recordings.history import RunHistory
+from agent_economy.server.runs.outcome_series import OutcomeSeries
 from agent_economy.server.runs.recorded_run import RecordedRun
 from agent_economy.server.runs.snapshots import Snapshots
 
@@ -28,10 +29,12 @@ class Timeline:
     Attributes:
         latest_tick: The last tick that was reached or recorded.
         recorded: The recording that the run is compared with; empty if it has none.
+        series: The outcome over time, up to the last tick that was reached.
     """
 
     latest_tick: int
     recorded: RecordedRun
+    series: OutcomeSeries
 
     def __init__(
         self,
@@ -67,6 +70,9 @@ class Timeline:
         self._snapshots = Snapshots(self.simulation)
         self._apply_log()
         self.recorded.compare(self.simulation)
+        self.series = OutcomeSeries()
+        self.series.note(self.simulation)
+        self.series.until = 0
 
     @property
     def log(self) -> tuple[Change, ...]:
@@ -82,6 +88,11 @@ class Timeline:
     def is_recorded(self) -> bool:
         """Whether the changes are those of a recording."""
         return self._is_recording and self.log == self.recorded.changes
+
+    @property
+    def mismatch_tick(self) -> int | None:
+        """The first tick at which the run differed from its recording; None if it never did."""
+        return self.recorded.mismatch_tick
 
     @property
     def history(self) -> RunHistory:
@@ -178,6 +189,7 @@ class Timeline:
         self.log, tick = made[:-1], made[-1].tick
         self.latest_tick = max(tick, self.recorded.latest_tick)
         self._snapshots.discard_after(tick, self.log)
+        self.series.discard_from(tick)
         self._restore(tick)
 
     def _before_last(self, path: str) -> Any:
@@ -208,11 +220,12 @@ class Timeline:
         self._apply_log()
         self.recorded.compare(self.simulation)
         self.latest_tick = max(self.latest_tick, self.tick)
+        self.series.until = max(self.series.until, self.tick)
         if self.tick >= self._snapshots.next_tick:
             self._snapshots.add(self.simulation, self.simulation.snapshot())
 
     def _next_stop(self, tick: int) -> int:
-        stops = [tick]
+        stops = [tick, self.series.until] if self.tick < self.series.until else [tick]
         if self.tick >= self._snapshots.last_tick:
             stops.append(self._snapshots.next_tick)
         stops += [change.tick for change in self.log[len(self.simulation.changes) :][:1]]
@@ -223,14 +236,19 @@ class Timeline:
     def _step(self, steps: int) -> None:
         """Take steps, but none after the end, where a run of the metric engine would continue."""
         before = self.tick
+        is_new = before >= self.series.until
         if inputs := self.recorded.input(before):
             # Only runs of the metric engine have external bodies.
             cast("Any", self.simulation).step(1, **inputs)
+            if is_new:
+                self.series.note(self.simulation)
             return
         for _ in range(steps):
             if self.is_finished:
                 return
             self.simulation.step()
+            if is_new:
+                self.series.note(self.simulation)
         if self.tick == before:
             # A classic run that is over takes no steps, whatever its recording contains.
             self.latest_tick = before
@@ -253,6 +271,9 @@ class Timeline:
         self.log = self.simulation.changes
         self.latest_tick = self.tick
         self._snapshots.discard_after(self.tick, self.log)
+        self.series.discard_from(self.tick)
+        self.series.note(self.simulation)
+        self.series.until = self.tick
         if self._snapshots.last_tick < self.tick:
             self._snapshots.add(self.simulation, before)
 

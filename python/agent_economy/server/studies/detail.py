@@ -1,24 +1,21 @@
 """The answer of a study as the page takes it: sections, tables and charts of the report."""
 
 import hashlib
-import math
 import re
 import threading
 from collections import OrderedDict
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from agent_economy import study
 from agent_economy.study import AnyAnswer, RequirementResult, Result, report
-from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.report import Section, Table
 from agent_economy.study.store.folder import ANSWER, read_bytes
+from agent_economy.types import page
 
 CACHE_SIZE = 8
 """AnswerCache that are kept ready."""
-
-Detail = dict[str, Any]
 
 
 class AnswerCache:
@@ -26,11 +23,11 @@ class AnswerCache:
 
     def __init__(self) -> None:
         """Begin empty."""
-        self._kept: OrderedDict[tuple[Path, str], Detail] = OrderedDict()
+        self._kept: OrderedDict[tuple[Path, str], page.StudyAnswer] = OrderedDict()
         # One at a time: pages share the work, and only one study's runs are in memory.
         self._lock = threading.Lock()
 
-    def of(self, folder: Path) -> Detail | None:
+    def of(self, folder: Path) -> page.StudyAnswer | None:
         """Return a study's answer; None if it has none.
 
         Raises:
@@ -49,15 +46,15 @@ class AnswerCache:
             return self._kept[key]
 
 
-def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
+def detail(answer: AnyAnswer, evidence: Evidence) -> page.StudyAnswer:
     """Return an answer with the sections and charts of the report."""
     results: Sequence[Result | RequirementResult] = answer.results
     shown = report.parts(answer, evidence)
     return {
-        "verdict": list(answer.verdict),
+        "verdict": answer.verdict,
         "sentence": answer.sentence,
         "guarantee": answer.guarantee,
-        "facts": list(shown.facts),
+        "facts": shown.facts,
         "quarantined": shown.quarantined,
         "sections": [section(each) for each in shown.sections],
         "charts": shown.charts,
@@ -65,7 +62,7 @@ def detail(answer: AnyAnswer, evidence: Evidence) -> Detail:
     }
 
 
-def section(given: Section) -> Detail:
+def section(given: Section) -> page.StudySection:
     """Return a section of the report."""
     return {
         "id": re.sub(r"[^a-z0-9]+", "-", given.heading.lower()).strip("-"),
@@ -78,7 +75,7 @@ def section(given: Section) -> Detail:
     }
 
 
-def table(given: Table) -> Detail:
+def table(given: Table) -> page.StudyTable:
     """Return a table of the report; an interval follows its number."""
     return {
         "caption": given.caption,
@@ -91,28 +88,19 @@ def table(given: Table) -> Detail:
     }
 
 
-def result(index: int, given: Result | RequirementResult) -> Detail:
-    """Return the results of a configuration."""
-    common = {
+def result(index: int, given: Result | RequirementResult) -> page.StudyResult:
+    """Return the result of a configuration."""
+    if isinstance(given, RequirementResult):
+        verdict: page.StudyVerdict = "best" if given.status == "selected" else given.status
+        met = (given.met.value, given.met.low, given.met.high) if given.met else None
+        is_out = given.status == "refuted"
+    else:
+        verdict, met, is_out = given.standing.verdict, None, given.eliminated is not None
+    return {
         "configuration": index,
         "label": given.label,
-        "values": given.values,
         "runs": given.runs,
+        "verdict": verdict,
+        "eliminated": is_out,
+        "met": met,
     }
-    if isinstance(given, RequirementResult):
-        verdict = "best" if given.status == "selected" else given.status
-        return {**common, "met": given.met and numbers(given.met), "verdict": verdict}
-    return {
-        **common,
-        "merit": numbers(given.merit),
-        "time_s": numbers(given.time_s),
-        "failed": numbers(given.failed),
-        "verdict": given.standing.verdict,
-        "eliminated": given.eliminated is not None,
-    }
-
-
-def numbers(interval: Interval) -> list[float | None]:
-    """Return an interval with null for numbers that are not finite."""
-    each = (interval.value, interval.low, interval.high)
-    return [number if math.isfinite(number) else None for number in each]

@@ -4,13 +4,14 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, cast
 
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario import Requirement, Scenario, Value
 from agent_economy.study.paths import robot_kind
 from agent_economy.study.plan import WITHOUT_RUNS
+from agent_economy.types import page
 
 Part = dict[str, Any]
 """A part of a schema."""
@@ -18,11 +19,11 @@ Part = dict[str, Any]
 MISSING: Any = object()
 
 
-def described(scenario: Scenario) -> dict[str, Any]:
+def described(scenario: Scenario) -> page.Factors:
     """Return what the page needs to request a study of a scenario."""
     return {
         "name": scenario.name,
-        "engine": scenario.engine,
+        "engine": cast("page.Engine", scenario.engine),
         "summary": scenario.summary,
         "factors": factors(scenario),
         "design": scenario.design,
@@ -30,14 +31,14 @@ def described(scenario: Scenario) -> dict[str, Any]:
         "merit": scenario.merit.name,
         "delta": scenario.delta,
         "confidence": scenario.confidence,
-        "requirement": scenario.requirement and required(scenario.requirement),
+        "requirement": required(scenario.requirement) if scenario.requirement else None,
         "columns": columns(scenario),
         "minimize": scenario.cost,
         "where": scenario.where,
     }
 
 
-def required(requirement: Requirement) -> dict[str, Any]:
+def required(requirement: Requirement) -> page.Requirement:
     """Return a requirement as the page takes it."""
     return {
         "words": str(requirement),
@@ -52,13 +53,13 @@ def columns(scenario: Scenario) -> list[str]:
     return [name for name, *_ in scenario.configuration({}).columns]
 
 
-def factors(scenario: Scenario) -> list[dict[str, Any]]:
+def factors(scenario: Scenario) -> list[page.Factor]:
     """Return all numbers and choices that a study can vary, team sizes first."""
     varied = scenario.to_dict().get("study", {}).get("vary", {})
     root = schema(scenario.engine)
     document = _core.read_filled(scenario.source)
-    found = [
-        {"path": path, **limits, "varied": varied.get(path)}
+    found: list[page.Factor] = [
+        cast("page.Factor", {"path": path, **limits, "varied": varied.get(path)})
         for keys, limits in walk(root, document, [root], document)
         if keys[0] not in {*WITHOUT_RUNS, "engine"}
         and ((path := ".".join(keys)) in varied or can_be_varied(scenario, document, keys, limits))

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
@@ -17,6 +16,7 @@ from agent_economy.study import Plan
 from agent_economy.study.description import usual_folder
 from agent_economy.study.plan import check_build, with_confidence
 from agent_economy.study.store.folder import is_locked
+from agent_economy.types import page
 
 MAX_RUNNING = 2
 """Maximum number of studies that run at the same time: each uses all processors."""
@@ -32,7 +32,7 @@ class StudyManager:
         self._summaries = Summaries()
         self._lock = threading.Lock()
 
-    def listed(self) -> list[dict[str, Any]]:
+    def listed(self) -> list[page.StudySummary]:
         """Return all studies, the newest first."""
         rows = []
         for name, _ in self._workspace.studies():
@@ -40,7 +40,7 @@ class StudyManager:
                 rows.append(self.of(name))
         return sorted(rows, key=lambda row: (-row["changed_s"], row["id"]))
 
-    def of(self, name: str) -> dict[str, Any]:
+    def of(self, name: str) -> page.StudySummary:
         """Return the row of a study in the list by its id.
 
         Raises:
@@ -87,12 +87,12 @@ class StudyManager:
         """
         return self._workspace.id_of_study(usual_folder(plan, self._workspace.folder))
 
-    def state(self, name: str) -> str | None:
+    def state(self, name: str) -> page.StudyState | None:
         """Return the state of a study by its id; None if there is none."""
         exists = is_study(self._workspace.folder / name)
-        return str(self.of(name)["state"]) if exists else None
+        return self.of(name)["state"] if exists else None
 
-    def start(self, plan: Plan) -> dict[str, Any]:
+    def start(self, plan: Plan) -> page.StudySummary:
         """Start or resume a study.
 
         Raises:
@@ -103,7 +103,7 @@ class StudyManager:
         self._begin(name, lambda: plan)
         return self.of(name)
 
-    def resume(self, name: str, confidence: float | None) -> dict[str, Any]:
+    def resume(self, name: str, confidence: float | None) -> page.StudySummary:
         """Resume a study, with a higher confidence unless that is None.
 
         Raises:
@@ -118,7 +118,7 @@ class StudyManager:
         self._begin(name, resumed)
         return self.of(name)
 
-    def stop(self, name: str) -> dict[str, Any]:
+    def stop(self, name: str) -> page.StudySummary:
         """Stop a study; its runs are kept.
 
         Raises:

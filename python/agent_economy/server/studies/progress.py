@@ -79,9 +79,10 @@ def progress(studies: StudyManager, name: str) -> dict[str, Any]:
             counts = begun
         if row["state"] != "damaged" and not (job and job.is_alive):
             counts = {**counts, **(stored(studies.folder(name)) or begun)}
+        state, message = row["state"], row["message"]
     except InputError as error:
-        row = {"state": "damaged", "message": str(error)}
-    return {"state": row["state"], "message": row["message"], **with_rate(counts)}
+        state, message = "damaged", str(error)
+    return {"state": state, "message": message, **with_rate(counts)}
 
 
 def with_rate(counts: dict[str, Any]) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from agent_economy.study.expression import Expression
 from agent_economy.study.plan import check_question
 from agent_economy.study.question import Best
 from agent_economy.study.teams import names
+from agent_economy.types import page
 
 T = TypeVar("T")
 
@@ -188,7 +189,7 @@ def overrides(request: Mapping[str, Any]) -> tuple[Override, ...]:
     )
 
 
-def planned(plan: Plan, name: str, state: str | None) -> dict[str, Any]:
+def planned(plan: Plan, name: str, state: page.StudyState | None) -> page.StudyPlan:
     """Return a plan as the page takes it; `name` is the id of its folder."""
     question = plan.question
     return {

@@ -6,7 +6,7 @@ POST `/api/studies/stop`: `id`. `/api/studies/resume`: `id`, and a higher `confi
 GET `/api/studies`: all studies, the newest first. `/api/study?id=`: one with its plan and answer.
 `/api/study/report?id=` and `/api/study/answer?id=`: its files.
 `/api/study/runs?id=&configuration=`: its runs, `first` and `count`, or a `sample` of them from the
-worst to the best.
+worst to the best, or the `median`.
 The response to a request with errors is `errors`, with status 422.
 """
 
@@ -32,6 +32,7 @@ from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.requests import StudyRequestError
 from agent_economy.server.workspace import Workspace
 from agent_economy.study.store.folder import ANSWER, REPORT
+from agent_economy.types import page
 
 DEFAULT_COUNT = "500"
 """Number of runs in a response, by default."""
@@ -75,7 +76,8 @@ class Routes:
 
     def listed(self, _: dict[str, str]) -> Response:
         """Return all studies."""
-        return JSONResponse({"studies": self.studies.listed()})
+        found: page.StudyList = {"studies": self.studies.listed()}
+        return JSONResponse(found)
 
     def start(self, body: dict[str, Any]) -> Response:
         """Start or resume a study."""
@@ -91,16 +93,17 @@ class Routes:
 
     def study(self, query: dict[str, str]) -> Response:
         """Return a study with its answer, if it has one."""
-        name = id_of(query)
+        return JSONResponse(self.found(id_of(query)))
+
+    def found(self, name: str) -> page.Study:
+        """Return a study by its id."""
         row, plan = self.studies.of(name), self.studies.plan(name)
-        return JSONResponse(
-            {
-                **row,
-                "planned": requests.planned(plan, name, row["state"]),
-                "source": {"scenario": gallery_id(plan.scenario, self.workspace)},
-                "answer": self.answers.of(self.studies.folder(name)),
-            }
-        )
+        return {
+            **row,
+            "planned": requests.planned(plan, name, row["state"]),
+            "source": {"scenario": gallery_id(plan.scenario, self.workspace)},
+            "answer": self.answers.of(self.studies.folder(name)),
+        }
 
     def runs(self, query: dict[str, str]) -> Response:
         """Return runs of a configuration of a study."""
@@ -110,6 +113,8 @@ class Routes:
         if "sample" in query:
             sample = number("sample", query["sample"])
             return JSONResponse(run_rows.sampled(plan, folder, configuration, sample))
+        if "median" in query:
+            return JSONResponse(run_rows.median(plan, folder, configuration))
         first = number("first", query.get("first", "0"))
         count = number("count", query.get("count", DEFAULT_COUNT))
         return JSONResponse(run_rows.listed(plan, folder, configuration, first, count))

@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from agent_economy import study
 from agent_economy._core import InputError
@@ -15,9 +15,7 @@ from agent_economy.study import Plan
 from agent_economy.study.answer.verdict import fails_often
 from agent_economy.study.description import Description
 from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, STAGING, read_bytes
-
-State = str
-"""running, answered, stopped or damaged."""
+from agent_economy.types import page
 
 
 @dataclass(frozen=True)
@@ -27,7 +25,7 @@ class Summary:
     Attributes:
         state: "answered", "stopped" or "damaged".
         name: The name of its scenario.
-        engine: The simulator that runs it.
+        engine: The simulator that runs it; None if the study is damaged.
         question: What it compares; None if the study is damaged.
         runs: The number of runs so far.
         sentence: The answer in one sentence.
@@ -37,9 +35,9 @@ class Summary:
         changed_s: The time of the last change, in seconds since 1970.
     """
 
-    state: State
+    state: page.StudyState
     name: str
-    engine: str
+    engine: page.Engine | None
     question: Description | None
     runs: int
     sentence: str | None
@@ -47,7 +45,7 @@ class Summary:
     message: str | None
     changed_s: float
 
-    def listed(self, name: str) -> dict[str, Any]:
+    def listed(self, name: str) -> page.StudySummary:
         """Return the row of the study in the list; `name` is its id."""
         question = self.question
         return {
@@ -106,14 +104,14 @@ def summary(folder: Path, changed_s: float) -> Summary:
         return of_plan(study.load_plan(folder), runs_so_far(folder), changed_s)
     except InputError as error:
         message = escaped(str(error))
-        return Summary("damaged", folder.name, "", None, 0, None, None, message, changed_s)
+        return Summary("damaged", folder.name, None, None, 0, None, None, message, changed_s)
 
 
 def of_plan(plan: Plan, runs: int, changed_s: float) -> Summary:
     """Return the summary of a study that has no answer yet."""
     scenario = plan.scenario
     question = Description.of(plan)
-    name, engine = scenario.name, scenario.engine
+    name, engine = scenario.name, cast("page.Engine", scenario.engine)
     return Summary("stopped", name, engine, question, runs, None, None, None, changed_s)
 
 
@@ -132,7 +130,7 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
             stored["question"],
             stored["data"].get("runs"),
         )
-        name, engine = str(scenario["name"]), str(scenario["engine"])
+        name, engine = str(scenario["name"]), scenario["engine"]
         runs, sentence = int(answer["runs"]), str(answer["sentence"])
         good = is_recommended(answer)
         found = Summary("answered", name, engine, question, runs, sentence, good, None, changed_s)

@@ -53,7 +53,7 @@ class RequirementResult:
         status: "selected": the cheapest certified one. "certified": it meets the requirement.
             "refuted": its share is below probability + tolerance. "open": neither is shown. "not
             needed": neither is shown either, but one that is not dearer is certified.
-            "impossible": it cannot be run.
+            "impossible": all its runs are quarantined, so that it is refuted or will be.
         met: The share of runs that meet the requirement; the intervals of all configurations hold
             simultaneously. None without runs.
         failing: The share of runs in which each condition does not hold, in their order;
@@ -106,10 +106,10 @@ def status(plan: Plan, evidence: Evidence, ending: RequirementEnding, index: int
         return "selected"
     if index in ending.certified:
         return "certified"
-    if index in ending.refuted:
-        return "refuted"
     if sample.runs and not sample.is_possible:
         return "impossible"
+    if index in ending.refuted:
+        return "refuted"
     is_cheaper = ending.selected is None or plan.costs[index] < plan.costs[ending.selected]
     return "open" if is_cheaper else "not needed"
 

@@ -134,7 +134,7 @@ def edge(
     question: Cheapest, chosen: RequirementResult, results: Sequence[RequirementResult]
 ) -> list[str]:
     """Return a warning if the selected team is the cheapest compared; none for a single robot."""
-    lowest = min(each.cost for each in results if each.is_possible)
+    lowest = min(each.cost for each in results)
     is_robots = question.cost.strip() == "robots"
     if chosen.cost > lowest or (is_robots and chosen.cost <= 1):
         return []
@@ -199,14 +199,12 @@ def guarantee(
     confidently = f"With {percentage(confidence)} confidence"
     is_certified = selected(results) is not None
     meets = f"the selected team meets the requirement in at least {share} of missions"
-    possible = "" if all(each.is_possible for each in results) else " that can be run"
     if is_over and is_certified:
-        cheaper = cheaper_teams(question.cost.strip()) + possible
+        cheaper = cheaper_teams(question.cost.strip())
         return f"{confidently}, {meets}, and {cheaper} meets it in {spare} or more."
     if is_over:
         return (
-            f"{confidently}, no compared team{possible} meets the requirement in {spare} or more "
-            "of missions."
+            f"{confidently}, no compared team meets the requirement in {spare} or more of missions."
         )
     if is_certified:
         return f"{confidently}, {meets}. Cheaper teams that are not decided may meet it as well."

@@ -145,6 +145,11 @@ def axis_of(view: View, rows: Rows) -> tuple[str, Spec, str]:
     return "x", field("at", title=title, axis=ticks, scale=scale), "y"
 
 
+def value_channel(view: View) -> str:
+    """Return the channel of values: that along which configurations do not lie."""
+    return "x" if view.numeric_factor is None else "y"
+
+
 def intervals(view: View, rows: Rows, title: Spec, style: Spec) -> Spec:
     """Return a chart of points with intervals along the axis of configurations."""
     channel, place, value = axis_of(view, rows)

@@ -36,9 +36,12 @@ from agent_economy.study.report.chart_parts import (
     line_at,
     place_of,
     row_of,
+    value_channel,
     with_bounds,
 )
+from agent_economy.study.report.contenders import contenders
 from agent_economy.study.report.formatting import finite
+from agent_economy.study.report.scale import ValueAxis, scaled
 from agent_economy.study.report.view import View
 
 VERDICTS: Codes = {
@@ -73,7 +76,8 @@ def merit(view: View) -> Spec:
     """Return the chart of the figure of merit of each configuration."""
     rows = [judged(view, index, view.result(index).merit) for index in view.shown]
     style = coded("verdict", VERDICTS, rows)
-    return intervals(view, rows, {"title": "figure of merit (higher is better)"}, style)
+    made = intervals(view, rows, {"title": "figure of merit (higher is better)"}, style)
+    return scaled(made, ValueAxis(value_channel(view)), contenders(view.answer))
 
 
 def failed(view: View) -> Spec:
@@ -84,7 +88,9 @@ def failed(view: View) -> Spec:
         "axis": {"format": "~%"},
         "scale": {"zero": True},
     }
-    return intervals(view, rows, title, coded("verdict", VERDICTS, rows))
+    made = intervals(view, rows, title, coded("verdict", VERDICTS, rows))
+    axis = ValueAxis(value_channel(view), include=(0.0,), within=(0.0, 1.0))
+    return scaled(made, axis, contenders(view.answer))
 
 
 def behind(view: View) -> Spec:
@@ -101,7 +107,8 @@ def behind(view: View) -> Spec:
     )
     title = {"title": "difference of merit from the selected one"}
     points = with_bounds("x", title, {"y": by_name(rows)}, coded("verdict", VERDICTS, rows))
-    return chart([band, line_at("x", 0.0), *points], rows, heights(rows))
+    made = chart([band, line_at("x", 0.0), *points], rows, heights(rows))
+    return scaled(made, ValueAxis("x", include=(-delta, delta)), contenders(view.answer))
 
 
 def judged(view: View, index: int, interval: Interval) -> dict[str, Any]:
@@ -139,7 +146,7 @@ def front(view: View) -> Spec:
         {"mark": {"type": "rule", "color": GREY, "opacity": 0.7}, "encoding": spans},
         {"mark": {"type": "point", "filled": True, "opacity": 0.85}, "encoding": dots},
     ]
-    return chart(layers, rows, FRONT_HEIGHT)
+    return scaled(chart(layers, rows, FRONT_HEIGHT), ValueAxis("y"), contenders(view.answer))
 
 
 def front_row(view: View, index: int) -> dict[str, Any]:
@@ -206,7 +213,9 @@ def times(view: View) -> Spec:
         {"mark": {**blue, "size": box, "opacity": 0.6}, "encoding": between("p25", "p75")},
         {"mark": {**dot, "size": 45}, "encoding": {**base, value: field("p50")}},
     ]
-    return chart(layers, rows, HEIGHT if channel == "x" else heights(rows))
+    made = chart(layers, rows, HEIGHT if channel == "x" else heights(rows))
+    axis = ValueAxis(value, value="p50", ends=("p5", "p95"))
+    return scaled(made, axis, contenders(view.answer))
 
 
 def quantile_row(view: View, index: int) -> dict[str, Any] | None:

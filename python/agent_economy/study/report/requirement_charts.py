@@ -27,8 +27,10 @@ from agent_economy.study.report.chart_parts import (
     line_at,
     with_bounds,
 )
+from agent_economy.study.report.contenders import contenders
 from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.requirement_view import RequirementView
+from agent_economy.study.report.scale import ValueAxis, scaled
 
 STATUSES: Codes = {
     "selected": (BLUE, "circle"),
@@ -65,12 +67,13 @@ def share(view: RequirementView) -> Spec:
         {"type": "rect", "opacity": 0.15, "color": BLUE},
         {"x": field("from"), "x2": {"field": "to"}},
     )
-    scale: Spec = {"domain": [view.lowest_share, 1.0], "clamp": True}
-    title = {"title": "share of missions that meet the requirement", "scale": scale}
+    title = {"title": "share of missions that meet the requirement", "scale": {"zero": False}}
     title["axis"] = {"format": "~%"}
     style = coded("status", STATUSES, rows)
     points = with_bounds("x", title, {"y": by_name(rows)}, style)
-    return chart([band, line_at("x", requirement.probability), *points], rows, heights(rows))
+    layers = [band, line_at("x", requirement.probability), *points]
+    axis = ValueAxis("x", include=(requirement.probability, spare), within=(0.0, 1.0))
+    return scaled(chart(layers, rows, heights(rows)), axis, contenders(view.answer))
 
 
 def share_row(view: RequirementView, index: int) -> dict[str, Any]:
@@ -111,11 +114,14 @@ def price(view: RequirementView) -> Spec:
         {**share_row(view, index), "price": finite(view.result(index).price)}
         for index in view.shown
     ]
-    title = {"title": "share of missions that meet the requirement", "axis": {"format": "~%"}}
-    title["scale"] = {"domain": [view.lowest_share, 1.0], "clamp": True}
+    required = view.answer.requirement.probability
+    title = {"title": "share of missions that meet the requirement", "scale": {"zero": False}}
+    title["axis"] = {"format": "~%"}
     place = {"x": field("price", title="price", scale={"zero": False, "padding": 16})}
     points = with_bounds("y", title, place, coded("status", STATUSES, rows))
-    return chart([line_at("y", view.answer.requirement.probability), *points], rows, HEIGHT)
+    axis = ValueAxis("y", include=(required,), within=(0.0, 1.0))
+    made = chart([line_at("y", required), *points], rows, HEIGHT)
+    return scaled(made, axis, contenders(view.answer))
 
 
 def distribution(view: RequirementView) -> Spec:

@@ -54,12 +54,6 @@ class RequirementView:
         return self.known[max(0, end - MAX_SHOWN) : end]
 
     @cached_property
-    def lowest_share(self) -> float:
-        """The lower end of an axis of shares: the contenders decide it, not the hopeless."""
-        requirement = self.answer.requirement
-        return max(0.0, 1 - 5 * (1 - requirement.probability))
-
-    @cached_property
     def compared_distributions(self) -> tuple[int, ...]:
         """The chosen configuration, or the dearest, and the next cheaper one."""
         if not self.known:

@@ -100,7 +100,7 @@ class View:
 
     @cached_property
     def nearest(self) -> tuple[int, ...]:
-        """Those closest to the selected one; distant ones would dominate the scale."""
+        """Those closest to the selected one, which are compared with it run by run."""
         others = self.ranked[1:]
         return others[: min(MAX_NEAREST, max(MIN_NEAREST, len(others) // 2))]
 

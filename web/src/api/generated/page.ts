@@ -22,6 +22,67 @@ export interface CircleView {
 /** A simulator. */
 export type Engine = "metric" | "classic";
 
+/** A number or choice of a scenario that a study can vary. */
+export interface Factor {
+  /** Its keys from the root, separated by dots. */
+  path: string;
+  /** Its value; null if the scenario does not set it. */
+  value: FactorValue | null;
+  /** The lower bound, if any. */
+  low: number | null;
+  /** The upper bound, if any. */
+  high: number | null;
+  /** The kind of its values. */
+  kind: FactorKind;
+  /** The choices; null if it is a number. */
+  values: FactorValue[] | null;
+  /** The unit, if any. */
+  unit: string | null;
+  /** The description. */
+  help: string;
+  /** The scenario's own range, such as `1..8`. */
+  varied: string | null;
+}
+
+/** The kind of a factor's values. */
+export type FactorKind = "whole" | "real" | "choice";
+
+/** A value of a factor. */
+export type FactorValue = number | string | boolean;
+
+/** What a study of a scenario can be about. */
+export interface Factors {
+  /** The name of the scenario. */
+  name: string;
+  /** The simulator that runs it. */
+  engine: Engine;
+  /** Its summary. */
+  summary: string;
+  /** What can be varied, team sizes first. */
+  factors: Factor[];
+  /** The design. */
+  design: string;
+  /** The names of the built-in figures of merit. */
+  merits: string[];
+  /** The name of the scenario's own. */
+  merit: string;
+  /** The indifference zone; null if it is derived from the merit. */
+  delta: number | null;
+  /** The confidence. */
+  confidence: number;
+  /** The requirement of the scenario, if any. */
+  requirement: Requirement | null;
+  /** Columns that conditions can be about. */
+  columns: string[];
+  /** The quantity to be minimal in a study with a requirement. */
+  minimize: string;
+  /** Limits the combinations; null if all are compared. */
+  where: string | null;
+}
+
+/** The guarantee of a study of the best by merit. */
+export type Guarantee = "indifference" | "pgs";
+
 /** An error of input. */
 export interface InputError {
   /** The file that contains it. */
@@ -191,6 +252,8 @@ export interface Open {
   study?: StudyMember | null;
   /** A recording by its id. */
   recording?: string | null;
+  /** Whether to join the live run of the server, at the present. All pages share it: it can neither be moved nor changed. */
+  live?: boolean;
   /** The seed as a decimal number; by default that of the study, or 0. A recording has its own. */
   seed?: string | null;
   /** The number of the run as a decimal number; 0 by default. A recording has its own. */
@@ -211,6 +274,13 @@ export interface Play {
   type: "play";
   /** A multiple of real time; null for as fast as possible. */
   speed?: number | null;
+}
+
+/** Request the outcome over time. */
+export interface RequestSeries {
+  type: "request_series";
+  /** The first tick of that part. */
+  since: number;
 }
 
 /** Save the run up to its latest tick as a recording. */
@@ -244,7 +314,31 @@ export interface Undo {
   type: "undo";
 }
 
-export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Save | CancelSave | Export | Select | Layers | Acknowledge;
+export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Save | CancelSave | Export | Select | Layers | RequestSeries | Acknowledge;
+
+/** A factor of a planned study; it has either values or a range. */
+export interface PlannedFactor {
+  /** Its keys from the root, separated by dots. */
+  path: string;
+  /** Its values; empty if it has a range. */
+  values: FactorValue[];
+  /** The ends of its range. */
+  range: [number, number] | null;
+}
+
+/** The requirement of a planned study. */
+export interface PlannedRequirement {
+  /** All of this in one sentence. */
+  words: string;
+  /** A mission meets the requirement if all hold. */
+  conditions: string[];
+  /** The required share of missions. */
+  probability: number;
+  /** Shares from the probability to this much above it are not distinguished. */
+  tolerance: number;
+  /** The quantity to be minimal. */
+  minimize: string;
+}
 
 /** The run of a recording. */
 export interface RecordedRun {
@@ -276,6 +370,18 @@ export interface RecordingEntry {
   run: RecordedRun | null;
   /** Why the recording cannot be opened. */
   error: string | null;
+}
+
+/** What a mission must meet, and in which share of missions. */
+export interface Requirement {
+  /** All of this in one sentence. */
+  words: string;
+  /** A mission meets the requirement if all hold. */
+  conditions: string[];
+  /** The required share of missions. */
+  probability: number;
+  /** Shares from the probability to this much above it are not distinguished. */
+  tolerance: number;
 }
 
 /** What is known of a configuration in a study of a requirement. */
@@ -325,6 +431,14 @@ export interface SensorView {
   width_rad: number;
   /** The middle of the sector, from the front of the robot. */
   facing_rad: number;
+}
+
+/** The outcome at a tick, if the run had ended there. */
+export interface SeriesRow {
+  /** The tick. */
+  tick: number;
+  /** A value per column; null where there is none. */
+  values: (number | null)[];
 }
 
 /** The server is about to disconnect. */
@@ -377,6 +491,8 @@ export interface Opened {
   run: string;
   /** The recording that it was opened from, if any. */
   recording: OpenedRecording | null;
+  /** Whether it is the live run of the server. */
+  is_live: boolean;
 }
 
 /** A message was refused; it changed nothing. */
@@ -404,6 +520,17 @@ export interface Saving {
   done: number;
   /** Total number of steps. */
   steps: number;
+}
+
+/** The outcome over time. */
+export interface Series {
+  type: "series";
+  /** The first tick that the rows are about: they replace all rows from here on. */
+  since: number;
+  /** The columns with numbers. */
+  columns: string[];
+  /** The rows by tick. */
+  rows: SeriesRow[];
 }
 
 /** The setting in which frames are drawn; sent whenever the scenario has changed. */
@@ -497,10 +624,72 @@ export interface StudyProgress {
   labels: string[] | null;
 }
 
-export type ServerMessage = Opened | Setting | State | MapPart | Saving | Saved | Exported | Refused | Ended | StudyProgress;
+export type ServerMessage = Opened | Setting | State | MapPart | Saving | Saved | Exported | Series | Refused | Ended | StudyProgress;
 
 /** A configuration: index, runs, merit, the bounds of its confidence interval, null before they are computed, and its status, null without a requirement. With one, the merit is the share of runs that meet it. */
 export type Standing = [number, number, number | null, number | null, number | null, RequirementStatus | null];
+
+/** A study with its plan and its answer. */
+export interface Study {
+  /** Its id: its folder. */
+  id: string;
+  /** The name of its scenario. */
+  name: string;
+  /** The simulator that runs it; null if the study is damaged. */
+  engine: Engine | null;
+  /** Its state. */
+  state: StudyState;
+  /** What it compares, in one sentence. */
+  words: string;
+  /** The number of configurations. */
+  configurations: number;
+  /** The number of runs so far. */
+  runs: number;
+  /** The confidence. */
+  confidence: number;
+  /** The indifference zone; null with a requirement. */
+  delta: number | null;
+  /** The answer in one sentence, if there is one. */
+  sentence: string | null;
+  /** Whether the answer recommends a configuration without reservation; null without an answer. */
+  is_recommended: boolean | null;
+  /** What is wrong, if anything is. */
+  message: string | null;
+  /** The time of the last change, in seconds since 1970. */
+  changed_s: number;
+  /** What it compares. */
+  planned: StudyPlan;
+  /** Its scenario. */
+  source: StudySource;
+  /** Its answer, if it has one. */
+  answer: StudyAnswer | null;
+}
+
+/** The answer of a study, with the sections of its report. */
+export interface StudyAnswer {
+  /** What to send, how it does, what is known of the others, and what is not distinguished. */
+  verdict: [string, string, string, string];
+  /** The answer in one sentence. */
+  sentence: string;
+  /** The guarantee. */
+  guarantee: string;
+  /** Key numbers, each with its label. */
+  facts: [string, string][];
+  /** A warning about quarantined runs; empty if there are none. */
+  quarantined: string;
+  /** The sections of the report. */
+  sections: StudySection[];
+  /** The Vega-Lite specifications of the charts, by name. */
+  charts: Record<string, Record<string, Json>>;
+  /** The results, by configuration. */
+  results: StudyResult[];
+}
+
+/** All studies. */
+export interface StudyList {
+  /** The newest first. */
+  studies: StudySummary[];
+}
 
 /** A configuration of a study. */
 export interface StudyMember {
@@ -510,8 +699,162 @@ export interface StudyMember {
   configuration: number;
 }
 
+/** What a study compares. */
+export interface StudyPlan {
+  /** The id of the study: its folder. */
+  id: string;
+  /** The name of the scenario. */
+  name: string;
+  /** The number of configurations. */
+  configurations: number;
+  /** The labels of the first configurations. */
+  labels: string[];
+  /** All of this in one sentence. */
+  words: string;
+  /** The indifference zone; null with a requirement. */
+  delta: number | null;
+  /** The confidence. */
+  confidence: number;
+  /** The guarantee; null with a requirement. */
+  guarantee: Guarantee | null;
+  /** The requirement, if there is one. */
+  requirement: PlannedRequirement | null;
+  /** The name of the figure of merit. */
+  merit: string;
+  /** The varied factors. */
+  factors: PlannedFactor[];
+  /** The state of the study that exists in this folder; null if there is none. */
+  state: StudyState | null;
+}
+
+/** What a study is about. */
+export type StudyQuestion = "merit" | "requirement";
+
+/** A study that the page requests; parts that belong to the other question are null. */
+export interface StudyRequest {
+  /** A scenario by its id in the gallery; this or `text` is null. */
+  scenario: string | null;
+  /** The text of a scenario, TOML. */
+  text: string | null;
+  /** What the study is about. */
+  question: StudyQuestion;
+  /** The conditions; null for those of the scenario. */
+  require: string[] | null;
+  /** The required share of missions; null for that of the scenario. */
+  probability: number | null;
+  /** The tolerance; null for that of the scenario. */
+  tolerance: number | null;
+  /** The quantity to be minimal; null for that of the scenario. */
+  minimize: string | null;
+  /** Limits the combinations; null for the limit of the scenario. */
+  where: string | null;
+  /** Values by path; empty for those of the scenario. */
+  vary: Record<string, string>;
+  /** The design; null for that of the scenario. */
+  design: string | null;
+  /** The indifference zone; null for that of the scenario. */
+  delta: number | null;
+  /** The confidence; null for that of the scenario. */
+  confidence: number | null;
+  /** The guarantee; null for indifference. */
+  guarantee: Guarantee | null;
+  /** The name of a figure of merit; null for that of the scenario. */
+  merit: string | null;
+  /** The same number of runs for all configurations; null for as few as needed. */
+  runs: number | null;
+  /** The maximum number of runs. */
+  max_runs: number | null;
+  /** The seed as a decimal number. */
+  seed: string;
+}
+
+/** The result of a configuration. */
+export interface StudyResult {
+  /** The configuration. */
+  configuration: number;
+  /** Its label. */
+  label: string;
+  /** The number of its runs. */
+  runs: number;
+  /** What is known of it. */
+  verdict: StudyVerdict;
+  /** Whether it was eliminated; with a requirement, refuted. */
+  eliminated: boolean;
+  /** The share of runs that meet the requirement, with its interval; null without one, and without runs. */
+  met: [number, number, number] | null;
+}
+
+/** A section of the report. */
+export interface StudySection {
+  /** Its id in the page. */
+  id: string;
+  /** Its title. */
+  title: string;
+  /** Explanations, a paragraph each. */
+  words: string[];
+  /** The names of its charts. */
+  charts: string[];
+  /** The caption of each chart. */
+  captions: Record<string, string>;
+  /** Its tables. */
+  tables: StudyTable[];
+  /** Whether its tables are initially closed. */
+  folded: boolean;
+}
+
+/** The scenario of a study. */
+export interface StudySource {
+  /** Its id in the gallery; null if it has changed or is gone. */
+  scenario: string | null;
+}
+
 /** The state of a study. */
 export type StudyState = "running" | "answered" | "stopped" | "damaged";
+
+/** A study in the list. */
+export interface StudySummary {
+  /** Its id: its folder. */
+  id: string;
+  /** The name of its scenario. */
+  name: string;
+  /** The simulator that runs it; null if the study is damaged. */
+  engine: Engine | null;
+  /** Its state. */
+  state: StudyState;
+  /** What it compares, in one sentence. */
+  words: string;
+  /** The number of configurations. */
+  configurations: number;
+  /** The number of runs so far. */
+  runs: number;
+  /** The confidence. */
+  confidence: number;
+  /** The indifference zone; null with a requirement. */
+  delta: number | null;
+  /** The answer in one sentence, if there is one. */
+  sentence: string | null;
+  /** Whether the answer recommends a configuration without reservation; null without an answer. */
+  is_recommended: boolean | null;
+  /** What is wrong, if anything is. */
+  message: string | null;
+  /** The time of the last change, in seconds since 1970. */
+  changed_s: number;
+}
+
+/** A table of the report. */
+export interface StudyTable {
+  /** Its caption. */
+  caption: string;
+  /** The titles of its columns. */
+  head: string[];
+  /** The cells of each row. */
+  rows: string[][];
+  /** The configuration of each row; null if it has none. */
+  configurations: (number | null)[];
+}
+
+/** What is known of a configuration: by merit from `best` to `worse`, with a requirement `best` for the selected one and the status of the others. */
+export type StudyVerdict = "best" | "tied" | "not better" | "undecided" | "worse" | "impossible" | "certified" | "refuted" | "open" | "not needed";
 
 /** The unit of a world. */
 export type Unit = "m" | "px";

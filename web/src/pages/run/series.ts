@@ -1,4 +1,4 @@
-import type { State } from "../../api/protocol";
+import type { SeriesAnswer, State } from "../../api/protocol";
 
 /** The outcome of a run up to a tick. */
 export interface Row {
@@ -7,22 +7,46 @@ export interface Row {
   values: Record<string, number>;
 }
 
-/** The outcomes received so far, ordered by tick. */
+/** The outcomes that the server has kept, ordered by tick, and the present one. */
 export class Series {
-  rows: Row[] = [];
+  private kept: Row[] = [];
+  private present: Row | null = null;
+  private step_s = 0;
+  /** Rows from this tick on are not known. */
+  private missing = 0;
 
-  /** Adds the outcome of a state. Rows beyond its edge are removed: a change has discarded that future. */
-  add(state: State): void {
-    while ((this.rows.at(-1)?.tick ?? -1) > state.latest_tick) this.rows.pop();
-    const row = { tick: state.tick, time_s: state.time_s, values: numbers(state.outcome) };
-    const place = this.placeOf(state.tick);
-    const replaced = this.rows[place]?.tick === state.tick ? 1 : 0;
-    this.rows.splice(place, replaced, row);
+  /** The first tick to request of the server. */
+  get since(): number {
+    return Math.min(this.missing, this.kept.at(-1)?.tick ?? 0);
   }
 
-  /** Sets the step length of all rows, so that time is monotonic after a change of the clock. */
-  setStep(step_s: number): void {
-    this.rows = this.rows.map((row) => ({ ...row, time_s: row.tick * step_s }));
+  /** All rows. The present one is among them unless the run was moved back. */
+  get rows(): Row[] {
+    const { present } = this;
+    return present && present.tick > (this.kept.at(-1)?.tick ?? -1) ? [...this.kept, present] : this.kept;
+  }
+
+  /** Adds rows of the server; returns whether they were still needed. */
+  add({ since, columns, rows }: SeriesAnswer): boolean {
+    if (since > this.since) return false;
+    this.kept = this.kept.filter((row) => row.tick < since);
+    for (const { tick, values } of rows) this.kept.push(this.row(tick, named(columns, values)));
+    this.missing = Number.POSITIVE_INFINITY;
+    return true;
+  }
+
+  /** Sets the present. Rows beyond the latest tick are removed: a change has discarded that future. */
+  setPresent(state: State): void {
+    this.kept = this.kept.filter((row) => row.tick <= state.latest_tick);
+    this.present = { tick: state.tick, time_s: state.time_s, values: numbers(state.outcome) };
+  }
+
+  /** Sets the step length of all rows; all are requested again, because the run may be another one. */
+  renew(step_s: number): void {
+    this.step_s = step_s;
+    this.missing = 0;
+    this.kept = this.kept.map((row) => this.row(row.tick, row.values));
+    if (this.present) this.present = this.row(this.present.tick, this.present.values);
   }
 
   /** The names of all values, in the order of their first appearance. */
@@ -41,18 +65,17 @@ export class Series {
     return [["tick", "time_s", ...names], ...lines].map((line) => `${line.join(",")}\n`).join("");
   }
 
-  private placeOf(tick: number): number {
-    let [low, high] = [0, this.rows.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if ((this.rows[middle]?.tick ?? 0) < tick) low = middle + 1;
-      else high = middle;
-    }
-    return low;
+  private row(tick: number, values: Row["values"]): Row {
+    return { tick, time_s: Number((tick * this.step_s).toPrecision(12)), values };
   }
 }
 
-function numbers(outcome: State["outcome"]): Record<string, number> {
+function named(columns: string[], values: (number | null)[]): Row["values"] {
+  const pairs = columns.map((column, i) => [column, values[i]] as const);
+  return Object.fromEntries(pairs.filter((pair): pair is [string, number] => typeof pair[1] === "number"));
+}
+
+function numbers(outcome: State["outcome"]): Row["values"] {
   return Object.fromEntries(
     Object.entries(outcome).filter((entry): entry is [string, number] => typeof entry[1] === "number"),
   );

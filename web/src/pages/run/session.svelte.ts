@@ -1,11 +1,10 @@
-import { Connection, type Listener } from "../../api/connection";
+import { Connection, type Listener, type Transport } from "../../api/connection";
 import type { Frame } from "../../api/frames";
 import type { ServerMessage } from "../../api/protocol";
 import type {
   Change,
   PageMessage,
   Ended,
-  InputError,
   Json,
   MapPart,
   Opened,
@@ -13,6 +12,7 @@ import type {
   RecordingEntry,
   Refused,
   Saving,
+  SeriesAnswer,
   Setting,
   Speed,
   State,
@@ -20,11 +20,10 @@ import type {
 import { FrameQueue } from "../../canvas/frame_queue";
 import { BelievedMap } from "../../shared/believed_map";
 import type { Link } from "../../shared/link";
-import { Series } from "./series";
 import { Throttle } from "../../shared/throttle";
-
-/** `opening` until the server confirms the run; `lost` while reconnecting. */
-export type Phase = "opening" | "open" | "lost" | "refused" | "ended";
+import { Exports } from "./exports";
+import { lostPhase, type Phase } from "./phase";
+import { Series } from "./series";
 
 /** The run of an address, with its text unpacked. */
 export type Source = Omit<Link, "text" | "view"> & { text: string | null };
@@ -43,13 +42,10 @@ const states_ms = 180;
 
 /** A run on the page, and the commands to it. */
 export class Session implements Listener {
-  phase = $state<Phase>("opening");
+  phase = $state.raw<Phase>({ name: "opening" });
   opened = $state.raw<Opened | null>(null);
   setting = $state.raw<Setting | null>(null);
   state = $state.raw<State | null>(null);
-  /** Why the run could not be opened. */
-  errors = $state.raw<InputError[]>([]);
-  ended = $state.raw<Ended | null>(null);
   /** The latest error of each refused change, by path, or of another command, by name. */
   refusals = $state.raw<Record<string, string>>({});
   selected = $state.raw<string | null>(null);
@@ -61,8 +57,10 @@ export class Session implements Listener {
   saving = $state.raw<Pick<Saving, "done" | "steps"> | null>(null);
   /** The recording that was saved last, and the changes in it. */
   saved = $state.raw<{ recording: RecordingEntry; changes: string } | null>(null);
-  /** Milliseconds until the next attempt to connect. */
-  retry_ms = $state(0);
+  /** Changes that were made while the server was away, by path: they are sent when it is back. */
+  unsent = $state.raw<Record<string, PendingChange>>({});
+  /** A change of a run that is over, until the user has decided about it. */
+  afterEnd = $state.raw<{ path: string; value: Json } | null>(null);
   /** Incremented when `series` changes. */
   seriesVersion = $state(0);
   /** Incremented when a new frame has been drawn, at most five times per second. */
@@ -73,20 +71,24 @@ export class Session implements Listener {
   /** Called when there is something new to draw. */
   onFrame = () => {};
 
-  private readonly connection = new Connection(this);
+  private readonly connection: Connection;
   private readonly changes = new Throttle<PendingChange>(
     changes_ms,
-    (path, put) => this.send({ type: "change", path, ...put }),
+    (path, put) => this.sendChange(path, put),
     (passed, latest) => ({ ...latest, replaces_last: passed.replaces_last }),
   );
   private drawnAt_ms = 0;
   private stateAt_ms = 0;
   private savedChanges = "";
-  private resolveExport: ((text: string) => void) | null = null;
-  /** Speed to continue with after reconnecting; undefined if the run was paused. */
-  private resumeSpeed: Speed | undefined;
+  private readonly exports = new Exports();
+  /** Whether the answer to a request for the series has yet to arrive. */
+  private awaitsSeries = false;
 
-  constructor(private readonly source: Source) {
+  constructor(
+    private readonly source: Source,
+    transport?: Transport,
+  ) {
+    this.connection = new Connection(this, transport);
     this.selected = source.robot;
   }
 
@@ -100,7 +102,7 @@ export class Session implements Listener {
 
   /** Reopens an ended run. */
   reopen(): void {
-    this.phase = "opening";
+    this.phase = { name: "opening" };
     this.start();
   }
 
@@ -142,9 +144,22 @@ export class Session implements Listener {
     this.send({ type: "seek", tick });
   }
 
-  /** Changes the scenario; `replaces_last` replaces the previous value of the same drag. */
+  /**
+   * Changes the scenario; `replaces_last` replaces the previous value of the same drag. A change of a run that is
+   * over would have no effect: the user decides about it.
+   */
   change(path: string, value: Json, replaces_last = false): void {
-    this.changes.put(path, { value, replaces_last });
+    if (this.state?.is_over && this.state.tick > 0) this.afterEnd = { path, value };
+    else this.changes.put(path, { value, replaces_last });
+  }
+
+  /** Goes back to the step before the end, and makes the change there. */
+  changeBeforeEnd(): void {
+    const change = this.afterEnd;
+    this.afterEnd = null;
+    if (!change || !this.state) return;
+    this.go(this.state.tick - 1);
+    this.changes.put(change.path, { value: change.value, replaces_last: false });
   }
 
   undo(): void {
@@ -168,12 +183,14 @@ export class Session implements Listener {
     return JSON.stringify(this.setting?.log ?? null);
   }
 
-  /** The scenario with all changes, as TOML. */
-  exported(): Promise<string> {
-    this.send({ type: "export" });
-    return new Promise((resolve) => {
-      this.resolveExport = resolve;
-    });
+  /** The scenario with all changes, as TOML; null if it could not be exported, which is then among `refusals`. */
+  exported(): Promise<string | null> {
+    return this.exports
+      .next(() => this.phase.name === "open" && this.send({ type: "export" }))
+      .catch((error: Error) => {
+        this.refusals = { ...this.refusals, export: error.message };
+        return null;
+      });
   }
 
   select(robot: string | null): void {
@@ -197,14 +214,15 @@ export class Session implements Listener {
   }
 
   lost(retry_ms: number): void {
-    if (this.phase === "ended" || this.phase === "refused") {
+    const phase = lostPhase(this.phase, this.state, retry_ms);
+    this.awaitsSeries = false;
+    this.exports.fail();
+    if (!phase) {
       this.connection.close();
       return;
     }
     this.saving = null;
-    if (this.phase === "open") this.resumeSpeed = this.state?.is_playing ? this.state.speed : undefined;
-    this.phase = "lost";
-    this.retry_ms = retry_ms;
+    this.phase = phase;
   }
 
   frame(frame: Frame): void {
@@ -220,7 +238,8 @@ export class Session implements Listener {
     else if (message.type === "refused") this.receiveRefusal(message);
     else if (message.type === "saving") this.saving = message;
     else if (message.type === "saved") this.receiveSaved(message.recording);
-    else if (message.type === "exported") this.resolveExport?.(message.text);
+    else if (message.type === "exported") this.exports.received(message.text);
+    else if (message.type === "series") this.receiveSeries(message);
     else if (message.type === "ended") this.receiveEnd(message);
   }
 
@@ -233,29 +252,45 @@ export class Session implements Listener {
   }
 
   private receiveOpened(opened: Opened): void {
+    const { phase } = this;
     this.opened = opened;
-    this.phase = "open";
+    this.phase = { name: "open" };
     this.map = null;
+    this.awaitsSeries = false;
     if (this.selected !== null) this.send({ type: "select", robot: this.selected });
-    if (this.resumeSpeed !== undefined) this.play(this.resumeSpeed);
-    this.resumeSpeed = undefined;
+    const unsent = Object.entries(this.unsent);
+    this.unsent = {};
+    for (const [path, change] of unsent) this.sendChange(path, change);
+    if (phase.name === "lost" && phase.resumeSpeed !== undefined) this.play(phase.resumeSpeed);
   }
 
   private receiveSetting(setting: Setting): void {
-    if (this.setting && this.setting.step_s !== setting.step_s) this.series.setStep(setting.step_s);
+    this.series.renew(setting.step_s);
     this.setting = setting;
     this.refusals = {};
     this.onFrame();
   }
 
   private receiveState(state: State): void {
-    this.series.add(state);
     const now = performance.now();
     // While playing, the next state follows soon; starts and stops are displayed at once.
     if (state.is_playing && this.state?.is_playing && now - this.stateAt_ms < states_ms) return;
     this.stateAt_ms = now;
     this.state = state;
+    this.series.setPresent(state);
     this.seriesVersion += 1;
+    this.requestSeries();
+  }
+
+  private requestSeries(): void {
+    if (this.awaitsSeries) return;
+    this.awaitsSeries = this.send({ type: "request_series", since: this.series.since });
+  }
+
+  private receiveSeries(answer: SeriesAnswer): void {
+    this.awaitsSeries = false;
+    if (this.series.add(answer)) this.seriesVersion += 1;
+    else this.requestSeries();
   }
 
   private receiveMap(part: MapPart): void {
@@ -270,20 +305,20 @@ export class Session implements Listener {
   }
 
   private receiveRefusal({ about, path, errors }: Refused): void {
+    const text = errors.map((error) => error.message).join(" ");
     if (about === "save") this.saving = null;
+    if (about === "export") this.exports.fail(text);
     if (about === "open") {
-      this.errors = errors;
-      this.phase = "refused";
+      this.phase = { name: "refused", errors };
       this.connection.close();
       return;
     }
-    const text = errors.map((error) => error.message).join(" ");
     this.refusals = { ...this.refusals, [path ?? about]: text };
   }
 
   private receiveEnd(ended: Ended): void {
-    this.ended = ended;
-    this.phase = "ended";
+    this.phase = { name: "ended", ended };
+    this.exports.fail();
     this.connection.close();
   }
 
@@ -296,7 +331,13 @@ export class Session implements Listener {
     return { type: "open", scenario, text, study, recording, ...seedField, run, changes, tick };
   }
 
-  private send(command: PageMessage): void {
-    this.connection.send(command);
+  /** Sends a change, or keeps it until the server is back. */
+  private sendChange(path: string, change: PendingChange): void {
+    if (this.phase.name !== "lost" && this.send({ type: "change", path, ...change })) return;
+    this.unsent = { ...this.unsent, [path]: { ...change, replaces_last: false } };
+  }
+
+  private send(command: PageMessage): boolean {
+    return this.connection.send(command);
   }
 }

@@ -1,10 +1,15 @@
 import type { State } from "../../api/protocol";
 import { plural, seconds, times } from "../../shared/format";
 import { stateLabels } from "../../shared/robots";
-import type { Phase } from "./session.svelte";
+import type { Phase } from "./phase";
 
 /** The state of the run in one sentence, for screen readers and below the canvas. */
-export function statusText(state: State | null, robots: number[], items: number, phase: Phase): string {
+export function statusText(
+  state: State | null,
+  robots: number[],
+  items: number,
+  phase: Phase["name"],
+): string {
   if (phase === "lost") return "The connection is lost.";
   if (phase === "ended") return "The run has ended.";
   if (!state) return "Loading…";

@@ -7,6 +7,7 @@ import type { Spec } from "../../api/study";
 export class Chart {
   private drawn: Result | null = null;
   private width_px = 0;
+  private isAll = false;
   /** Serialises drawing: each starts after the previous one. */
   private last: Promise<void> = Promise.resolve();
   private readonly observer: ResizeObserver;
@@ -29,6 +30,12 @@ export class Chart {
     this.last = this.last.then(() => this.redraw());
   }
 
+  /** Scales the chart to all configurations, or to the contenders; only if it can be switched. */
+  scaleTo(isAll: boolean): void {
+    this.isAll = isAll;
+    this.last = this.last.then(() => this.rescale());
+  }
+
   close(): void {
     this.observer.disconnect();
     void this.last.then(() => this.drawn?.finalize());
@@ -41,6 +48,11 @@ export class Chart {
       const { configuration } = (item?.datum ?? {}) as { configuration?: unknown };
       if (typeof configuration === "number") this.open(configuration);
     });
+    if (this.isAll) await this.rescale();
+  }
+
+  private async rescale(): Promise<void> {
+    await this.drawn?.view.signal("all_teams", this.isAll).runAsync();
   }
 
   private options() {

@@ -30,6 +30,11 @@ export function placeOn([low, high]: Domain, value: number): number {
   return Math.min(100, Math.max(0, (100 * (value - low)) / (high - low)));
 }
 
+/** Whether a value is between the ends of the axis. */
+export function isOn([low, high]: Domain, value: number): boolean {
+  return low <= value && value <= high;
+}
+
 function rounded(low: number, high: number): Domain {
   const width = Math.max(high - low, 1e-6 * Math.max(1, Math.abs(low)));
   const step = stepOf(width / 5);

@@ -1,10 +1,19 @@
 import { expect, test } from "vitest";
 import type { InputError } from "../../api/protocol";
 import type { Factor, Factors, ScenarioSource } from "../../api/study";
-import { requestOf, type Draft, draftOf, rangeText, teamOf, fieldErrors } from "./draft";
+import {
+  requestOf,
+  type Draft,
+  draftOf,
+  isFoundBy,
+  rangeText,
+  teamOf,
+  fieldErrors,
+  valuesText,
+} from "./draft";
 
 const factor = (path: string, value: number, varied: string | null): Factor => {
-  return { path, value, low: 0, high: 250, kind: "whole", values: null, varied };
+  return { path, value, low: 0, high: 250, kind: "whole", values: null, unit: null, help: "", varied };
 };
 const known: Factors = {
   name: "classic",
@@ -90,6 +99,21 @@ test("allowed values are described", () => {
   expect(rangeText(factor("a", 1, null))).toBe("whole numbers from 0 to 250");
   expect(rangeText({ ...factor("a", 1, null), kind: "real", high: null })).toBe("numbers from 0");
   expect(rangeText({ ...factor("a", 1, null), values: ["touch", "ahead"] })).toBe("touch, ahead");
+});
+
+test("values have their unit", () => {
+  const limit = { ...factor("clock.time_limit_s", 120, null), unit: "s" };
+  expect(valuesText(limit)).toBe("Current value 120 s; whole numbers from 0 to 250 s");
+  expect(valuesText({ ...limit, value: null })).toMatch(/^Current value model default; /);
+  expect(valuesText(factor("robots.rover.count", 4, null))).toBe(
+    "Current value 4; whole numbers from 0 to 250",
+  );
+});
+
+test("a factor is found by words of its path and of its help", () => {
+  const limit = { ...factor("clock.time_limit_s", 120, null), help: "A run ends at this time." };
+  expect(isFoundBy(limit, ["ends", "clock"])).toBe(true);
+  expect(isFoundBy(limit, ["ends", "radio"])).toBe(false);
 });
 
 test("a robot kind is recognised by its path", () => {

@@ -126,6 +126,19 @@ export function valueText({ value }: Factor): string {
   return value === null ? "model default" : String(value);
 }
 
+/** The current and the allowed values of a factor, with its unit. */
+export function valuesText(factor: Factor): string {
+  const unit = factor.unit === null ? "" : ` ${factor.unit}`;
+  const value = factor.value === null ? valueText(factor) : valueText(factor) + unit;
+  return `Current value ${value}; ${rangeText(factor)}${factor.values ? "" : unit}`;
+}
+
+/** Whether a factor is found by all of some words in lower case. */
+export function isFoundBy({ path, help }: Factor, words: string[]): boolean {
+  const text = `${path} ${help}`.toLowerCase();
+  return words.every((word) => text.includes(word));
+}
+
 /** The robot kind whose count is at a path; null for other paths. */
 export function teamOf(path: string): string | null {
   return teamPath.exec(path)?.[1] ?? null;

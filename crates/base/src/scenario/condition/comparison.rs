@@ -57,6 +57,19 @@ impl Condition {
         value.is_some_and(|value| self.holds_for(*value))
     }
 
+    /// Whether it holds only for values below the first or above the second of two ends.
+    #[must_use]
+    pub fn needs_beyond(&self, (low, high): (f64, f64)) -> bool {
+        match self.operator {
+            Operator::AtLeast => self.number > high,
+            Operator::Above => self.number >= high,
+            Operator::AtMost => self.number < low,
+            Operator::Below => self.number <= low,
+            Operator::Equal => self.number > high || self.number < low,
+            Operator::NotEqual => false,
+        }
+    }
+
     /// Whether it holds for a value of its quantity.
     #[must_use]
     pub fn holds_for(&self, value: f64) -> bool {

@@ -8,7 +8,7 @@ mod comparison;
 mod cursor;
 mod parse;
 
-pub use columns::{ConditionColumns, TimesUntil};
+pub use columns::{ConditionColumns, TimesUntil, Unseen};
 pub use comparison::{Condition, Operator, Quantity};
 pub use cursor::ConditionError;
 pub use parse::parse;

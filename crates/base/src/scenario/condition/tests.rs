@@ -18,6 +18,7 @@ fn columns(times: &[(&str, Range<usize>)]) -> ConditionColumns {
     ConditionColumns {
         names: NAMES.map(str::to_owned).into(),
         times: times.collect(),
+        unseen: Vec::new(),
     }
 }
 

@@ -148,3 +148,48 @@ fn a_kind_without_items_has_no_times() {
         .collect();
     assert_eq!(counts, ["found_mine"]);
 }
+
+/// Whether a requirement of one condition is refused because of the end of runs, for four mines and one scrap.
+fn is_unseen(end: &str, condition: &str) -> bool {
+    let text = format!("{}\n[end]\nwhen = \"{end}\"\n", field());
+    let document = Document::parse("t.toml", &text).unwrap();
+    let columns = Metric.condition_columns(&document);
+    let parsed = parse(condition, &columns).unwrap();
+    let mut unseen = columns.unseen.iter();
+    unseen.any(|unseen| unseen.place == parsed.place && parsed.needs_beyond(unseen.seen))
+}
+
+#[test]
+fn a_run_that_ends_at_a_find_shows_nothing_of_later_ones() {
+    let beyond = [
+        "found_mine >= 3",
+        "found_mine > 2",
+        "found_mine == 3",
+        "missed_mine <= 1",
+        "missed_mine == 0",
+        "found_mine_3_s <= 20",
+        "time_until(found_mine >= 4) <= 20",
+        "found >= 4",
+    ];
+    let within = [
+        "found_mine >= 2",
+        "found_mine <= 2",
+        "missed_mine <= 2",
+        "found_mine_2_s <= 20",
+        "time_until(found_mine >= 1) <= 20",
+        "found >= 3",
+        "missed_scrap <= 0",
+        "time_s <= 20",
+    ];
+    for end in ["found_mine >= 2", "found_mine > 1", "missed_mine <= 2", "missed_mine < 3"] {
+        for condition in beyond {
+            assert!(is_unseen(end, condition), "{end}: {condition}");
+        }
+        for condition in within {
+            assert!(!is_unseen(end, condition), "{end}: {condition}");
+        }
+    }
+    assert!(is_unseen("found >= 3", "found >= 4") && is_unseen("found >= 3", "found_mine >= 4"));
+    assert!(!is_unseen("found >= 3", "found_mine >= 3"));
+    assert!(!is_unseen("collisions >= 1", "found_mine >= 4"));
+}

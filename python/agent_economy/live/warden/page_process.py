@@ -1,0 +1,264 @@
+"""The server of the page: a child process that is given the run, and that may die at any time.
+
+It is `python -m agent_economy.server.live`. On its standard input it reads JSON, one object a line:
+
+* `{"type": "start", "fleet", "scenario": {"file", "text", "files"}, "seed", "external", "origin",
+  "fences_m", "warden": {"port", "token"}, "port"}`, once. `files` are those that the scenario refers to, in
+  base 64. `port` is where to serve the page: that of the server that it replaces, or null.
+* `{"type": "input", "tick", "inputs"}` for each step, from the first one on: the percepts of the
+  robots whose brains step in it.
+
+The end of its input is the end of the drive. On its standard output it writes one line when it
+serves: `{"type": "ready", "url": "http://127.0.0.1:8000/..."}`.
+"""
+
+import asyncio
+import os
+import subprocess
+import sys
+import zlib
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+from urllib.parse import urlsplit
+
+from agent_economy.live.channel import Decoder, encode
+from agent_economy.live.clock import now_s
+from agent_economy.live.warden.endpoint import Endpoint
+
+COMMAND = (sys.executable, "-m", "agent_economy.server.live")
+
+BLOCK_BYTES = 2**16
+STUCK_S = 30.0
+"""A server that has read nothing for this time, although there is something, is replaced."""
+
+LOOK_S = 0.2
+FIRST_PAUSE_S, MAX_PAUSE_S = 0.2, 10.0
+"""Pauses before a server that has ended is replaced; they grow until one serves."""
+
+MAX_FAILURES = 5
+"""After this number of servers that ended before they served, none is started any more."""
+
+END_S = 1.0
+
+
+class History:
+    """All that was ever sent, so that a new server can take the run from its start; compressed."""
+
+    def __init__(self) -> None:
+        """Start empty."""
+        self._blocks: list[bytes] = []
+        self._last = bytearray()
+
+    def add(self, data: bytes) -> None:
+        """Add bytes."""
+        self._last += data
+        if len(self._last) >= BLOCK_BYTES:
+            self._blocks.append(zlib.compress(self._last, 1))
+            self._last = bytearray()
+
+    def block(self, number: int) -> tuple[bytes, bool]:
+        """Return a block, and whether it is complete."""
+        if number < len(self._blocks):
+            return zlib.decompress(self._blocks[number]), True
+        return bytes(self._last), False
+
+
+class PageProcess:
+    """Keeps a server of the page running, and never waits for it.
+
+    Attributes:
+        url: Where the page is; empty until a server serves it.
+    """
+
+    def __init__(
+        self,
+        start: Mapping[str, Any],
+        ready: Callable[[str], None],
+        failed: Callable[[], None],
+        command: Sequence[str],
+    ) -> None:
+        """Create it without starting.
+
+        Args:
+            start: The first message, without `port`.
+            ready: Is called with the address of the page, each time that a server serves it.
+            failed: Is called when no server is started any more.
+            command: The server.
+        """
+        self.url = ""
+        self._start, self._ready, self._failed = dict(start), ready, failed
+        self._command = command
+        self._history = History()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._decoder = Decoder()
+        self._number = self._offset = 0
+        self._block: tuple[int, bytes] | None = None
+        self._first = b""
+        self._read_s = now_s()
+        self._is_waiting = self._has_served = False
+        self._task: asyncio.Task[None] | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """The process id of the current server."""
+        return None if self._process is None else self._process.pid
+
+    def start(self) -> None:
+        """Start to keep a server running, until `end`."""
+        self._task = asyncio.create_task(self._keep_running())
+
+    def add(self, tick: int, inputs: Mapping[str, Any]) -> None:
+        """Pass on the inputs of a step."""
+        if self._is_caught_up():
+            self._read_s = now_s()
+        self._history.add(encode({"type": "input", "tick": tick, "inputs": inputs}))
+        if not self._is_waiting:
+            self._write()
+
+    async def end(self) -> None:
+        """Let the server end, or end it."""
+        if self._task is not None:
+            self._task.cancel()
+        process = self._process
+        self._close()
+        began_s = now_s()
+        while process is not None and process.poll() is None:
+            if now_s() - began_s > END_S:
+                process.kill()
+            await asyncio.sleep(0.02)
+
+    async def _keep_running(self) -> None:
+        failures, pause_s = 0, FIRST_PAUSE_S
+        while failures < MAX_FAILURES:
+            self._launch()
+            while self._process is not None and self._process.poll() is None:
+                await asyncio.sleep(LOOK_S)
+                if not self._is_caught_up() and now_s() - self._read_s > STUCK_S:
+                    self._process.kill()
+            self._close()
+            failures = 0 if self._has_served else failures + 1
+            pause_s = FIRST_PAUSE_S if self._has_served else min(2 * pause_s, MAX_PAUSE_S)
+            await asyncio.sleep(pause_s)
+        self._failed()
+
+    def _launch(self) -> None:
+        port = urlsplit(self.url).port if self.url else None
+        self._first = encode({**self._start, "port": port})
+        self._number = self._offset = 0
+        self._block, self._decoder = None, Decoder()
+        self._read_s, self._has_served = now_s(), False
+        with suppress(OSError):
+            self._process = subprocess.Popen(
+                self._command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL if sys.stderr is None else None,
+                start_new_session=True,
+            )
+            for stream in (self._process.stdin, self._process.stdout):
+                assert stream is not None  # noqa: S101  (both are pipes)
+                os.set_blocking(stream.fileno(), False)
+            asyncio.get_running_loop().add_reader(self._descriptor("stdout"), self._read)
+            self._write()
+
+    def _descriptor(self, name: str) -> int:
+        return int(getattr(self._process, name).fileno())
+
+    def _read(self) -> None:
+        try:
+            data = os.read(self._descriptor("stdout"), 2**16)
+        except BlockingIOError:
+            return
+        if not data:
+            asyncio.get_running_loop().remove_reader(self._descriptor("stdout"))
+            return
+        with suppress(ValueError, KeyError, TypeError):  # what it prints may be anything
+            for message in self._decoder.feed(data):
+                if message["type"] == "ready":
+                    self.url, self._has_served = str(message["url"]), True
+                    self._ready(self.url)
+
+    def _is_caught_up(self) -> bool:
+        data, is_complete = self._piece()
+        return not self._first and not is_complete and self._offset >= len(data)
+
+    def _piece(self) -> tuple[bytes, bool]:
+        """Return the block that is being written, and whether there are others after it."""
+        if self._block is not None and self._block[0] == self._number:
+            return self._block[1], True
+        data, is_complete = self._history.block(self._number)
+        if is_complete:
+            self._block = (self._number, data)
+        return data, is_complete
+
+    def _write(self) -> None:
+        """Write as much as the server reads, and continue when it reads more."""
+        if self._process is None:
+            return
+        try:
+            while self._first:
+                self._first = self._first[self._written(self._first) :]
+            while not self._is_caught_up():
+                data, is_complete = self._piece()
+                if self._offset < len(data):
+                    self._offset += self._written(data[self._offset :])
+                elif is_complete:
+                    self._number, self._offset = self._number + 1, 0
+            self._wait(is_waiting=False)
+        except BlockingIOError:
+            self._wait(is_waiting=True)
+        except OSError:  # it has ended, or will be replaced
+            self._wait(is_waiting=False)
+
+    def _written(self, data: bytes) -> int:
+        number = os.write(self._descriptor("stdin"), data[:BLOCK_BYTES])
+        self._read_s = now_s()
+        return number
+
+    def _wait(self, *, is_waiting: bool) -> None:
+        loop = asyncio.get_running_loop()
+        if is_waiting and not self._is_waiting:
+            loop.add_writer(self._descriptor("stdin"), self._write)
+        elif self._is_waiting and not is_waiting:
+            loop.remove_writer(self._descriptor("stdin"))
+        self._is_waiting = is_waiting
+
+    def _close(self) -> None:
+        """Forget the server, which ends when its input does."""
+        process = self._process
+        if process is None:
+            return
+        self._wait(is_waiting=False)
+        asyncio.get_running_loop().remove_reader(self._descriptor("stdout"))
+        self._process = None
+        for stream in (process.stdin, process.stdout):
+            with suppress(OSError):
+                if stream is not None:
+                    stream.close()
+
+
+def start_page(
+    run: Mapping[str, Any], endpoint: Endpoint, report: Callable[[Mapping[str, Any]], None]
+) -> PageProcess:
+    """Start to serve the page of a drive; its origin may read the answers of the endpoint.
+
+    Args:
+        run: What the loop has reported of the run.
+        endpoint: The endpoint, which has started.
+        report: Takes the address of the page, as a message.
+    """
+    warden = {"port": endpoint.address[1], "token": endpoint.token}
+
+    def ready(url: str) -> None:
+        parts = urlsplit(url)
+        endpoint.allow(f"{parts.scheme}://{parts.netloc}")
+        report({"type": "message", "message": f"The page is at {url}"})
+
+    def failed() -> None:
+        text = f"There is no page: its server has ended {MAX_FAILURES} times before it served it"
+        report({"type": "message", "message": text})
+
+    page = PageProcess({"type": "start", **run, "warden": warden}, ready, failed, COMMAND)
+    page.start()
+    return page

@@ -1,0 +1,69 @@
+"""Events of a drive in words."""
+
+from collections.abc import Mapping
+from typing import Any
+
+
+def sentence(event: Mapping[str, Any]) -> str:
+    """Return an event in words; empty for events without news for a person."""
+    match event["type"]:
+        case "plan":
+            names = ", ".join(robot["name"] for robot in event["plan"]["robots"])
+            return f"Driving {names}; recording to {event['record']}"
+        case "event":
+            return robot_sentence(event)
+        case "goal":
+            return f"{event['robot']}: waypoint {event['goal']}: {event['verdict']}" + server(event)
+        case "radio":
+            return radio_sentence(event)
+        case "end":
+            return f"Ended: {event['reason']}.{confirmation(event)}{lateness(event)}"
+        case _:
+            return str(event.get("message", ""))
+
+
+def radio_sentence(event: Mapping[str, Any]) -> str:
+    """Return whether a robot sends to its team, in words."""
+    if event["is_silent"]:
+        return f"{event['robot']}: silent for 10 s: others take over its waypoint"
+    return f"{event['robot']}: sends to its team again"
+
+
+def server(event: Mapping[str, Any]) -> str:
+    """Return which robot serves a shared waypoint, if another one does."""
+    by = event.get("served_by")
+    return f" by {by}" if by not in (None, event["robot"]) else ""
+
+
+def confirmation(event: Mapping[str, Any]) -> str:
+    """Return which robots are known to be stationary."""
+    if not event["unconfirmed"]:
+        return " All robots are stationary."
+    return f" Not confirmed as stationary: {', '.join(event['unconfirmed'])}."
+
+
+def lateness(event: Mapping[str, Any]) -> str:
+    """Return how late the brains were in a drive; empty if they never were."""
+    if not event["late_steps"]:
+        return ""
+    return (
+        f" Late steps of the brains: {event['late_steps']}, by {event['behind_s']:.2f} s in total."
+    )
+
+
+def robot_sentence(event: Mapping[str, Any]) -> str:
+    """Return the state of a robot in words, with the reasons."""
+    name = event["robot"]
+    if event["action"] == "move":
+        return f"{name}: moves" + reasons(event, "warnings", "with a warning")
+    if event["is_armed"]:
+        return f"{name}: stopped" + reasons(event, "faults", "because of")
+    state = "stopped (standstill confirmed)" if event["is_confirmed"] else "stopped"
+    why = reasons(event, "faults", "because of") or reasons(event, "latched", "since")
+    return f"{name}: {state}, not armed{why}"
+
+
+def reasons(event: Mapping[str, Any], kind: str, word: str) -> str:
+    """Return faults of an event, the gravest first, each with its reason."""
+    texts = [f"{each.replace('_', ' ')} ({event['reasons'][each]})" for each in event[kind]]
+    return f" {word} {', '.join(texts)}" if texts else ""

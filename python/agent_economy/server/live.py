@@ -1,0 +1,113 @@
+"""The server of a drive's page. The warden starts it, as `python -m agent_economy.server.live`.
+
+The messages on its standard input and output are described in
+`agent_economy.live.warden.page_process`. It has no part in the drive: the warden runs on if it ends.
+"""
+
+import json
+import sys
+import threading
+from base64 import b64decode
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import uvicorn
+
+from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.listening import listening_socket
+from agent_economy.scenario import Scenario, Source
+from agent_economy.server.app import app
+from agent_economy.server.drive import Drive, RobotOnMap, Sonar
+from agent_economy.server.request_body import MAX_BYTES
+from agent_economy.server.runs.live_run import LiveRun
+from agent_economy.server.workspace import Workspace
+
+HOST, PORT = "127.0.0.1", 8765
+
+
+def main() -> None:
+    """Serve the page until the input ends."""
+    lines = iter(sys.stdin.buffer.readline, b"")
+    start = json.loads(next(lines))
+    scenario = scenario_of(start["scenario"])
+    live = LiveRun(scenario, start["seed"], start["external"])
+    listening = listening_socket_of(start["port"])
+    served = app(Workspace(Path.cwd()), HOST, live=live, drive=drive_of(start, scenario))
+    config = uvicorn.Config(
+        served,
+        log_level="warning",
+        ws="websockets-sansio",
+        ws_max_size=MAX_BYTES,
+        ws_per_message_deflate=False,
+        lifespan="on",
+    )
+    server = uvicorn.Server(config)
+    threading.Thread(target=receive, args=(lines, live, server), daemon=True).start()
+    url = f"http://{HOST}:{listening.getsockname()[1]}/#/robots"
+    sys.stdout.write(json.dumps({"type": "ready", "url": url}) + "\n")
+    sys.stdout.flush()
+    # Ctrl-C of the terminal is for the warden, which ends this process after the drive.
+    server.capture_signals = uncaught
+    server.run(sockets=[listening])
+
+
+def receive(lines: Iterable[bytes], live: LiveRun, server: uvicorn.Server) -> None:
+    """Pass on the inputs of all steps, and end the server after the last one."""
+    try:
+        for line in lines:
+            message = json.loads(line)
+            live.append(message["tick"], {"percepts": message["inputs"]})
+    finally:
+        live.end()
+        server.should_exit = True
+
+
+def scenario_of(source: Mapping[str, Any]) -> Scenario:
+    """Return the scenario of a drive.
+
+    Raises:
+        InputError: If it has errors.
+    """
+    files = {name: b64decode(data) for name, data in source["files"].items()}
+    return Scenario.of(Source(source["file"], source["text"], (), files))
+
+
+def listening_socket_of(port: int | None) -> Any:
+    """Return a socket on a port; without one on the usual port, or on any that is free.
+
+    Raises:
+        InputError: If none can be used.
+    """
+    if port is not None:
+        return listening_socket(HOST, port)
+    try:
+        return listening_socket(HOST, PORT)
+    except InputError:
+        return listening_socket(HOST, 0)
+
+
+def drive_of(start: Mapping[str, Any], scenario: Scenario) -> Drive:
+    """Return where the warden is, and what the map draws of each robot."""
+    kinds = _core.read_filled(scenario.source)["robots"]
+    robots = {
+        name: RobotOnMap(start["fences_m"].get(name), sonars_of(kinds[name.rpartition("/")[0]]))
+        for name in start["external"]
+    }
+    warden, fleet = start["warden"], Path(start["fleet"]).stem
+    return Drive(warden["port"], warden["token"], fleet, start["origin"], robots)
+
+
+def sonars_of(kind: Mapping[str, Any]) -> tuple[Sonar, ...]:
+    """Return the range sensors of a kind of robots, in the order of their names."""
+    sensors = sorted(kind.get("sensors", {}).items())
+    return tuple(
+        Sonar(sensor.get("facing_deg", 0.0), sensor["range_m"])
+        for _, sensor in sensors
+        if sensor["kind"] == "range"
+    )
+
+
+if __name__ == "__main__":
+    main()

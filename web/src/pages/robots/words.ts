@@ -1,0 +1,76 @@
+import type { WardenLink, WardenRobot } from "../../api/warden";
+import type { Connection } from "./connection";
+
+export function actionOf({ action }: WardenRobot): string {
+  return { move: "moves", stop: "stopped", latched_stop: "stopped, latched" }[action];
+}
+
+/** What is known of a robot's motion, from the request to the evidence. */
+export function motionOf(robot: WardenRobot): [string, string][] {
+  const { requested, written } = robot;
+  return [
+    ["Requested", requested ? setpoint(requested) : "nothing"],
+    ["Written", written ? `${written.line.trim()} · ${written.age_s.toFixed(1)} s ago` : "nothing"],
+    ["Acknowledged", acknowledged(written)],
+    ["Standstill", robot.is_standing ? "confirmed" : "not confirmed"],
+  ];
+}
+
+function setpoint({ speed_m_s, turn_rate_rad_s, heading_rad }: NonNullable<WardenRobot["requested"]>) {
+  const turn =
+    heading_rad === null
+      ? `turn ${degrees(turn_rate_rad_s).toFixed(0)}°/s`
+      : `to heading ${degrees(heading_rad).toFixed(0)}°`;
+  return `${speed_m_s.toFixed(2)} m/s, ${turn}`;
+}
+
+function acknowledged(written: WardenRobot["written"]): string {
+  if (!written) return "not confirmed";
+  return written.is_acknowledged ? "by the robot's kernel" : "not confirmed";
+}
+
+const degrees = (angle_rad: number) => (180 / Math.PI) * angle_rad;
+
+export function batteryOf({ battery }: WardenRobot): string {
+  if (!battery) return "not reported";
+  return `${Math.round(100 * battery.share)}%${battery.is_estimated ? " (estimated)" : ""}`;
+}
+
+export function ageOf({ age_s, max_age_s }: WardenLink): string {
+  const age = age_s === null ? "no line yet" : `${age_s.toFixed(1)} s`;
+  return max_age_s === null ? age : `${age} of ${max_age_s.toFixed(1)} s`;
+}
+
+export function isOld({ state, age_s, max_age_s }: WardenLink): boolean {
+  return state !== "connected" || (max_age_s !== null && (age_s === null || age_s > max_age_s));
+}
+
+/** The name of a fault or reason as people read it. */
+export function readable(name: string): string {
+  return name.replaceAll("_", " ");
+}
+
+/** The state of the connection in words, and how serious it is. */
+export function phaseOf(connection: Connection): { tone: "plain" | "warning" | "error"; text: string } {
+  switch (connection.phase) {
+    case "connecting":
+      return { tone: "plain", text: "Connecting to the warden." };
+    case "connected":
+      return { tone: "plain", text: "Connected to the warden." };
+    case "stale":
+      return {
+        tone: "warning",
+        text: "Stale: the warden has reported nothing for more than 0.5 s. Values are old.",
+      };
+    case "lost":
+      return {
+        tone: "error",
+        text: "Lost: the warden cannot be reached. Nothing is known of the robots; values are old.",
+      };
+    case "refused":
+      return {
+        tone: "error",
+        text: "Refused: the warden does not accept this page. Reload it from the server of the drive.",
+      };
+  }
+}

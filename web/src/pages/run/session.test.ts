@@ -1,0 +1,119 @@
+import { beforeEach, expect, test } from "vitest";
+import type { Socket } from "../../api/connection";
+import type { ServerMessage, State } from "../../api/protocol";
+import { emptyLink } from "../../shared/link";
+import { Session } from "./session.svelte";
+
+let sockets: (Socket & { sent: Record<string, unknown>[] })[];
+let retry: () => void;
+let session: Session;
+
+const last = () => sockets.at(-1) as (typeof sockets)[number];
+const sent = (type: string) => last().sent.filter((each) => each.type === type);
+const receive = (message: object) => last().onmessage?.({ data: JSON.stringify(message) });
+
+function connect(): void {
+  last().onopen?.();
+  receive({ type: "opened", scenario: {}, seed: "0", run: "0" } as unknown as ServerMessage);
+}
+
+function showState(rest: Partial<State>): void {
+  receive({
+    type: "state",
+    tick: 9,
+    latest_tick: 9,
+    is_over: false,
+    is_playing: false,
+    outcome: {},
+    ...rest,
+  });
+}
+
+beforeEach(() => {
+  sockets = [];
+  session = new Session(
+    { ...emptyLink, scenario: "search", text: null },
+    {
+      connect: () => {
+        const sent: Record<string, unknown>[] = [];
+        const send = (data: string) => void sent.push(JSON.parse(data));
+        const close = () => {};
+        sockets.push({ binaryType: "", onopen: null, onclose: null, onmessage: null, sent, send, close });
+        return last();
+      },
+      after: (_, action) => {
+        retry = action;
+        return () => {};
+      },
+    },
+  );
+  session.start();
+});
+
+test("a run is open once the server confirms it, and lost until it does again", () => {
+  expect(session.phase).toEqual({ name: "opening" });
+  connect();
+  expect(session.phase).toEqual({ name: "open" });
+  last().onclose?.();
+  expect(session.phase).toEqual({ name: "lost", retry_ms: 500, resumeSpeed: undefined });
+  retry();
+  connect();
+  expect(session.phase).toEqual({ name: "open" });
+});
+
+test("a refused run has its errors, and one that ended its reason; neither is opened again", () => {
+  const errors = [{ message: "No." }];
+  last().onopen?.();
+  receive({ type: "refused", about: "open", path: null, errors });
+  expect(session.phase).toEqual({ name: "refused", errors });
+  session.reopen();
+  connect();
+  const ended = { type: "ended", reason: "idle", message: "Idle." };
+  receive(ended);
+  expect(session.phase).toEqual({ name: "ended", ended });
+});
+
+test("changes made while the server is away are sent once, when the run is open again", () => {
+  connect();
+  last().onclose?.();
+  session.change("robots.rover.count", 6);
+  session.change("clock.time_limit_s", 30);
+  expect(Object.keys(session.unsent)).toEqual(["robots.rover.count"]);
+  retry();
+  connect();
+  const change = { type: "change", path: "robots.rover.count", value: 6, replaces_last: false };
+  expect(sent("change")).toEqual([change]);
+  expect(session.unsent).toEqual({});
+});
+
+test("an export is refused while the server is away, and when the connection is lost", async () => {
+  connect();
+  const exported = session.exported();
+  last().onclose?.();
+  expect(await exported).toBeNull();
+  expect(session.refusals.export).toContain("connection is lost");
+  expect(await session.exported()).toBeNull();
+});
+
+test("a change of a run that is over waits for the user, and is made one step before the end", () => {
+  connect();
+  showState({ is_over: true });
+  session.change("robots.rover.count", 6);
+  expect(sent("change")).toEqual([]);
+  expect(session.afterEnd).toEqual({ path: "robots.rover.count", value: 6 });
+  session.changeBeforeEnd();
+  expect(sent("seek")).toEqual([{ type: "seek", tick: 8 }]);
+  expect(sent("change")).toHaveLength(1);
+  expect(session.afterEnd).toBeNull();
+});
+
+test("one request for the series is under way at a time", () => {
+  connect();
+  showState({});
+  showState({ tick: 10, latest_tick: 10 });
+  expect(sent("request_series")).toEqual([{ type: "request_series", since: 0 }]);
+  receive({ type: "series", since: 0, columns: ["found"], rows: [{ tick: 4, values: [1] }] });
+  showState({ tick: 11, latest_tick: 11 });
+  expect(sent("request_series").at(-1)).toEqual({ type: "request_series", since: 4 });
+  expect(session.series.rows.map(({ tick }) => tick)).toEqual([4, 11]);
+});
