@@ -53,7 +53,7 @@ async function drive(page: Page, warden: FakeWarden, control: Locator): Promise<
   }).toPass();
 }
 
-/** Holds a button for as long as it takes until a request arrives. */
+/** Holds a button until a request arrives. */
 async function holdUntil(page: Page, warden: FakeWarden, name: string, path: string): Promise<void> {
   await press(page, page.getByRole("button", { name }), 0);
   await expect.poll(() => warden.count(path)).toBe(1);

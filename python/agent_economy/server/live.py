@@ -5,10 +5,11 @@ The messages on its standard input and output are described in
 """
 
 import json
+import os
 import sys
 import threading
 from base64 import b64decode
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ import uvicorn
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.listening import listening_socket
+from agent_economy.live.channel import Decoder
 from agent_economy.scenario import Scenario, Source
 from agent_economy.server.app import app
 from agent_economy.server.drive import Drive, RobotOnMap, Sonar
@@ -25,12 +27,13 @@ from agent_economy.server.runs.live_run import LiveRun
 from agent_economy.server.workspace import Workspace
 
 HOST, PORT = "127.0.0.1", 8765
+BLOCK_BYTES = 2**16
 
 
 def main() -> None:
     """Serve the page until the input ends."""
-    lines = iter(sys.stdin.buffer.readline, b"")
-    start = json.loads(next(lines))
+    received = messages()
+    start = next(received)
     scenario = scenario_of(start["scenario"])
     live = LiveRun(scenario, start["seed"], start["external"])
     listening = listening_socket_of(start["port"])
@@ -44,20 +47,27 @@ def main() -> None:
         lifespan="on",
     )
     server = uvicorn.Server(config)
-    threading.Thread(target=receive, args=(lines, live, server), daemon=True).start()
+    threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
     url = f"http://{HOST}:{listening.getsockname()[1]}/#/robots"
     sys.stdout.write(json.dumps({"type": "ready", "url": url}) + "\n")
     sys.stdout.flush()
-    # Ctrl-C of the terminal is for the warden, which ends this process after the drive.
-    server.capture_signals = uncaught
     server.run(sockets=[listening])
 
 
-def receive(lines: Iterable[bytes], live: LiveRun, server: uvicorn.Server) -> None:
+def messages() -> Iterator[dict[str, Any]]:
+    """Yield the messages on standard input, until it ends."""
+    decoder = Decoder()
+    # Without a buffer: Python waits for the lock of a buffer that a thread reads when it ends.
+    while data := os.read(sys.stdin.fileno(), BLOCK_BYTES):
+        yield from decoder.feed(data)
+
+
+def receive(
+    received: Iterable[Mapping[str, Any]], live: LiveRun, server: uvicorn.Server
+) -> None:
     """Pass on the inputs of all steps, and end the server after the last one."""
     try:
-        for line in lines:
-            message = json.loads(line)
+        for message in received:
             live.append(message["tick"], {"percepts": message["inputs"]})
     finally:
         live.end()

@@ -1,5 +1,6 @@
 //! The outcome columns, each defined in one place.
 
+use super::find_times::{find_time, find_times};
 use super::outcome::Outcome;
 use super::unseen::unseen;
 use crate::scenario::{Scenario, ScenarioSpec};
@@ -9,9 +10,6 @@ use base::engine::{Bounds, OutcomeColumn, OutcomeColumns};
 use base::scenario::condition::{ConditionColumns, TimesUntil};
 
 type Column = OutcomeColumn<Scenario, Outcome>;
-
-/// Maximum number of finds per kind of items whose times have columns.
-const MAX_FIND_TIMES: u32 = 64;
 
 /// The outcome columns of scenarios with these kinds of items, each with the largest number of items in any
 /// configuration of the study: all configurations have the same columns.
@@ -165,16 +163,6 @@ fn find_times_of(
         };
         Column::new(name, Real, |_| Bounds::NOT_NEGATIVE, time_s)
     })
-}
-
-/// The name of the column of the time of a find of a kind; the first is 1.
-pub(super) fn find_time(kind: &str, find: u32) -> String {
-    format!("found_{kind}_{find}_s")
-}
-
-/// Number of columns of times for a kind with this largest number of items.
-pub(super) fn find_times(max_count: u32) -> u32 {
-    max_count.min(MAX_FIND_TIMES)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]

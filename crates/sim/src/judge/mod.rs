@@ -9,6 +9,7 @@ pub(crate) mod columns;
 pub(crate) mod cost;
 pub(crate) mod detections;
 mod end;
+mod find_times;
 pub(crate) mod moment;
 mod outcome;
 pub(crate) mod tally;

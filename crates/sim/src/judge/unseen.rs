@@ -1,6 +1,6 @@
 //! What the runs of a scenario cannot show, because they end at a number of finds.
 
-use super::columns::{find_time, find_times};
+use super::find_times::{find_time, find_times};
 use crate::end::{Count, EndCondition};
 use crate::scenario::ScenarioSpec;
 use base::document::{Document, Value};

@@ -181,7 +181,12 @@ fn a_run_that_ends_at_a_find_shows_nothing_of_later_ones() {
         "missed_scrap <= 0",
         "time_s <= 20",
     ];
-    for end in ["found_mine >= 2", "found_mine > 1", "missed_mine <= 2", "missed_mine < 3"] {
+    for end in [
+        "found_mine >= 2",
+        "found_mine > 1",
+        "missed_mine <= 2",
+        "missed_mine < 3",
+    ] {
         for condition in beyond {
             assert!(is_unseen(end, condition), "{end}: {condition}");
         }
