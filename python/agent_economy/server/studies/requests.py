@@ -72,13 +72,20 @@ def by_line(error: Error) -> list[Error]:
     if error["path"]:
         return [error]
     lines = str(error["message"]).splitlines()
-    return [{**error, "message": line, "path": path_of(line)} for line in lines]
+    return [{**error, **of_line(line)} for line in lines]
 
 
-def path_of(line: str) -> str:
-    """Return the path of "delta = -1: must be ..."; empty if a line does not begin with one."""
-    path, equals, _ = line.partition(" = ")
-    return path if equals and " " not in path else ""
+def of_line(line: str) -> dict[str, str]:
+    """Return path and message of "delta = -1: must be ...", without a file and line before it.
+
+    The path is empty if the line has none.
+    """
+    before, equals, _ = line.partition(" = ")
+    origin, colon, path = before.rpartition(": ")
+    is_path = bool(equals) and " " not in path
+    if not is_path:
+        return {"path": "", "message": line}
+    return {"path": path, "message": line.removeprefix(origin + colon)}
 
 
 def plan(request: Any, workspace: Workspace) -> Plan:
