@@ -72,10 +72,11 @@ def by_line(error: Error) -> list[Error]:
     if error["path"]:
         return [error]
     lines = str(error["message"]).splitlines()
-    return [{**error, **of_line(line)} for line in lines]
+    parts = map(path_and_message, lines)
+    return [{**error, "path": path, "message": message} for path, message in parts]
 
 
-def of_line(line: str) -> dict[str, str]:
+def path_and_message(line: str) -> tuple[str, str]:
     """Return path and message of "delta = -1: must be ...", without a file and line before it.
 
     The path is empty if the line has none.
@@ -84,8 +85,8 @@ def of_line(line: str) -> dict[str, str]:
     origin, colon, path = before.rpartition(": ")
     is_path = bool(equals) and " " not in path
     if not is_path:
-        return {"path": "", "message": line}
-    return {"path": path, "message": line.removeprefix(origin + colon)}
+        return "", line
+    return path, line.removeprefix(origin + colon)
 
 
 def plan(request: Any, workspace: Workspace) -> Plan:
