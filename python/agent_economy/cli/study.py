@@ -1,7 +1,7 @@
 """The command `study`."""
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +22,7 @@ from agent_economy.study.api import answer_so_far
 from agent_economy.study.description import Description, usual_folder
 from agent_economy.study.engine import Engine
 from agent_economy.study.plan import Plan, with_confidence
+from agent_economy.study.question import Cheapest
 from agent_economy.study.run_block import Compute
 from agent_economy.study.store.folder import REPORT
 
@@ -257,6 +258,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         }
         settings = {name: value for name, value in settings.items() if value is not None}
         refuse_two_executors(workers, dask)
+        if require:
+            refuse_with_requirement({"--merit": merit, **merit_options(settings)})
         request: NewStudy | ResumeStudy
         if resume is None:
             if confidence is not None:
@@ -267,6 +270,9 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             refuse_with_resume(others, changes)
             request = ResumeStudy(resume, confidence)
         plan, folder = request.plan()
+        if minimize is not None and not isinstance(plan.question, Cheapest):
+            message = "--minimize: needs a requirement: --require, or [require] of the scenario"
+            raise InputError(message)
         print_warnings(plan.warnings)
         typer.echo(str(Description.of(plan)), err=True)
         if vary and (also := others_varied(plan, vary)):
@@ -327,6 +333,26 @@ def executor(engine: Engine, workers: int | None, dask: str | None) -> Iterator[
             yield stack.enter_context(engine.on_dask(dask)).columns
         else:
             yield None
+
+
+def merit_options(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that select the best by merit, of those that were given."""
+    return {f"--{name}": settings.get(name) for name in ("delta", "guarantee", "runs")}
+
+
+def refuse_with_requirement(options: Mapping[str, Any]) -> None:
+    """Raise an error if options of a study of merit were given together with --require.
+
+    Raises:
+        InputError: If one was.
+    """
+    given = [name for name, value in options.items() if value is not None]
+    if given:
+        message = (
+            f"--require, {', '.join(given)}: expected one question: the cheapest team that meets a "
+            "requirement, or the best by merit"
+        )
+        raise InputError(message)
 
 
 def refuse_two_executors(workers: int | None, dask: str | None) -> None:

@@ -7,6 +7,8 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
+import numpy as np
+
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Value, as_scenario, validation
 from agent_economy.scenario.source import check_path
@@ -92,12 +94,16 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             another build of this program, is damaged, or cannot be written.
     """
     validation.of_type("vary", vary, Mapping | None, "a dict of values by their paths")
+    weights = "the name of a figure of merit, or a dict of weights"
+    validation.of_type("merit", merit, str | Mapping | None, weights)
+    conditions = "a condition, or a list of them"
+    validation.of_type("require", require, str | list | tuple | None, conditions)
     options = {
         "study.design": design,
         "merit": merit if merit is None or isinstance(merit, str) else dict(merit),
         "require.all": [require] if isinstance(require, str) else require and list(require),
-        "require.probability": probability,
-        "require.tolerance": tolerance,
+        "require.probability": plain(probability),
+        "require.tolerance": plain(tolerance),
         "study.minimize": minimize,
         "study.where": where,
     }
@@ -120,6 +126,11 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         return run_plan(plan, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return run_race(plan, Path(folder), compute, on_progress)[0]
+
+
+def plain(number: Any) -> Any:
+    """Return a number of NumPy as one of Python, and anything else as it is."""
+    return number.item() if isinstance(number, np.generic) else number
 
 
 def factor_changes(vary: Mapping[str, str | Iterable[Value]], *, only_vary: bool) -> list[Override]:
