@@ -10,13 +10,15 @@ import pytest
 
 from agent_economy.study.answer import sensitivity as sensitivity_module
 from agent_economy.study.answer.effort import Effort, efforts
-from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.answer.evidence import Evidence, Interval, Sample
 from agent_economy.study.answer.front import front
 from agent_economy.study.answer.labels import label, recommendation
+from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.side_statements import SideStatements
 from agent_economy.study.answer.ties import Standing, Verdict, standings
+from agent_economy.study.answer.verdict import failures
 
 TEAM = "robots.rover.count"
 UNIT = (0.0, 1.0)
@@ -233,3 +235,18 @@ def test_labels_of_configurations_read_naturally() -> None:
     )
     assert recommendation({"clock.time_limit_s": 60}) == "Choose time_limit_s 60"
     assert recommendation({"robots.rover.is_loud": False}) == "Choose is_loud false"
+
+
+@pytest.mark.parametrize(
+    ("failed", "words"),
+    [
+        (Interval(0.02, 0.01, 0.04), "about 2 in 100 runs fail (1 to 4)"),
+        (Interval(0.0087, 2e-7, 0.12), "about 8.7 in 1,000 runs fail (0 to 120)"),
+        (Interval(0.0, 0.0, 0.0004), "none of 300 runs failed (up to 4 in 10,000 may)"),
+    ],
+)
+def test_rare_failures_can_be_read_aloud(failed: Interval, words: str) -> None:
+    _, seen = in_memory_study.study([{TEAM: 1}], in_memory_study.synthetic, runs=300)
+    ending = Ending(0, (), "", is_guaranteed=False)
+    (result,) = results(seen, ending, 0.1)
+    assert failures(replace(result, failed=failed)) == words

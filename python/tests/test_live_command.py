@@ -1,5 +1,6 @@
 """The commands drive and stop, against an emulated fleet: bad input, refused robots, and Ctrl-C."""
 
+import os
 import signal
 import socket
 import subprocess
@@ -60,6 +61,24 @@ def test_a_robot_that_refuses_connections_is_named_and_the_other_drives_until_ct
     assert bench.stops_after(0, stopped_s)[0] - stopped_s < 2
     assert not bench.moves_after(0, bench.stops_after(0, stopped_s)[0])
     assert not bench.moves_after(1, 0.0)
+
+
+def processor_s(process: int) -> float:
+    """Return the processor time of a process so far."""
+    fields = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_a_drive_that_waits_for_its_robots_leaves_the_processor_free(
+    bench: Bench, tmp_path: Path
+) -> None:
+    fleet = fleet_of(bench, tmp_path)
+    with driving(fleet) as drive:
+        drive.wait_for(lambda each: each["type"] == "event")
+        before_s = processor_s(drive.process.pid)
+        time.sleep(3)
+        assert processor_s(drive.process.pid) - before_s < 1.5
 
 
 @repeated_if_late

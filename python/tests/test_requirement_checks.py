@@ -1,11 +1,15 @@
 """What is wrong with the question of a requirement is reported at once, by file and line."""
 
 import re
+from typing import Any
 
+import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from agent_economy import Scenario, study
 from agent_economy._core import InputError
+from agent_economy.cli import app
 from agent_economy.scenario import Override
 
 
@@ -63,3 +67,36 @@ def test_errors_of_the_question_its_expressions_and_conditions_are_reported_at_o
 def test_expressions_that_are_too_deep_or_no_numbers_are_refused(cost: str) -> None:
     with pytest.raises(InputError, match="study.minimize"):
         study.make_plan(warehouse("time_s <= 900").replace("study.minimize", cost))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (
+            ["--require", "time_s <= 40", "--delta", "0.1"],
+            "--delta: expected one question",
+        ),
+        (["--require", "time_s <= 40", "--runs", "5"], "--runs: expected one question"),
+        (["--minimize", "price"], "--minimize: needs a requirement"),
+    ],
+)
+def test_options_of_two_questions_are_refused(options: list[str], message: str) -> None:
+    result = CliRunner().invoke(app, ["study", "search", *options])
+    assert result.exit_code == 2
+    assert message in result.output
+
+
+@pytest.mark.parametrize("wrong", [{"require": 5}, {"merit": 5}, {"require": [5]}])
+def test_arguments_of_another_type_are_refused_as_input(wrong: dict[str, Any]) -> None:
+    with pytest.raises(InputError):
+        study.run("classic", **wrong)
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    plain = {"probability": 0.5, "tolerance": 0.25}
+    of_numpy = {key: np.float32(value) for key, value in plain.items()}
+    answers = [
+        study.run("classic", require="time_s <= 30", max_runs=2000, **each)
+        for each in (plain, of_numpy)
+    ]
+    assert answers[0].guarantee == answers[1].guarantee

@@ -138,6 +138,50 @@ def test_each_page_of_a_live_run_selects_a_robot_of_its_own(
             assert shown["belief_state"] == feeder.same.belief_state(robot)
 
 
+def decided_tick(state: dict[str, Any], robot: str) -> int | None:
+    """Return the tick of the decision in a state; the brains of the scenario step at even ones."""
+    shown = state["inspection"]
+    assert shown["robot"] == robot
+    tick: int | None = shown["tick"]
+    return tick
+
+
+def test_a_page_that_selects_a_robot_keeps_the_decision_that_another_page_sees(
+    live_client: TestClient, feeder: Feeder
+) -> None:
+    feeder.feed(20)
+    with live_client.websocket_connect(WS) as one, live_client.websocket_connect(WS) as other:
+        pages = {"rover/1": Page(one), "rover/2": Page(other)}
+        for robot, page in pages.items():
+            join(page)
+            page.send("select", robot=robot)
+            while page.wait_for("state")["inspection"] is None:
+                pass
+        for tick in range(21, 27):
+            feeder.feed(1)
+            for robot, page in pages.items():
+                state = page.wait_for("state", tick=tick)
+                assert decided_tick(state, robot) == tick - tick % 2
+
+
+def test_external_robots_are_named_in_the_setting_of_a_live_run_and_of_its_recording(
+    live_client: TestClient, feeder: Feeder
+) -> None:
+    feeder.feed(10)
+    with live_client.websocket_connect(WS) as socket:
+        page = Page(socket)
+        page.send("open", live=True)
+        assert page.wait_for("setting")["external"] == [ROBOT]
+        page.send("save")
+        name = page.wait_for("saved")["recording"]["id"]
+        page.send("open", recording=name)
+        page.wait_for("opened")
+        assert page.wait_for("setting")["external"] == [ROBOT]
+        page.send("open", scenario="classic")
+        page.wait_for("opened")
+        assert page.wait_for("setting")["external"] == []
+
+
 def test_a_live_run_that_ended_is_displayed_as_ended(
     live_client: TestClient, feeder: Feeder
 ) -> None:

@@ -95,6 +95,7 @@ test("a killed server is reported at once, and the run is restored when it is ba
   await ownServer.start();
   await expect(status(page)).toContainText("2.0 s, 6 robots");
   await expect.poll(() => hash(page)).toBe(there);
+  await expect(page.getByRole("alert")).toHaveCount(0);
 });
 
 test("a run that was playing when its server was killed continues playing", async ({ page, ownServer }) => {
@@ -110,6 +111,36 @@ test("a run that was playing when its server was killed continues playing", asyn
   await expect(page.getByRole("alert")).toHaveCount(0);
   await expect.poll(() => time_s(page)).toBeGreaterThanOrEqual(there);
   await expect(status(page)).toContainText("running");
+});
+
+test("a change that did not reach the server before the connection broke is reported as lost", async ({
+  page,
+  server,
+}) => {
+  let isCut = false;
+  await page.routeWebSocket(/\/ws/, (line) => {
+    const upstream = line.connectToServer();
+    line.onMessage((data) => {
+      if (isCut && String(data).includes('"change"')) {
+        isCut = false;
+        void line.close();
+      } else upstream.send(data);
+    });
+  });
+  await openRun(page, server, "scenario=search&seed=3&tick=40", "4.0 s, 4 robots");
+  await openTab(page, "Parameters");
+  isCut = true;
+  const count = page.getByRole("spinbutton", { name: "Count of rover" });
+  await count.fill("6");
+  await page.keyboard.press("Enter");
+  const report = page.getByRole("alert").filter({ hasText: "1 change lost: robots.rover.count" });
+  await expect(report).toBeVisible();
+  await expect(page.getByText("The connection is lost.")).toHaveCount(0);
+  await expect(status(page)).toContainText("4.0 s, 4 robots");
+  await expect(count).toHaveValue("4");
+  await expectAccessible(page);
+  await report.getByRole("button", { name: "Dismiss" }).click();
+  await expect(report).toHaveCount(0);
 });
 
 test("a run is operated by keyboard alone", async ({ page, server }) => {

@@ -21,7 +21,7 @@ export class FakeWarden {
   private operator: unknown = null;
   private readonly started_ms = performance.now();
   private server: Server | null = null;
-  private port = 0;
+  port = 0;
 
   async start(): Promise<void> {
     this.server = createServer((request, response) => void this.serve(request, response));

@@ -19,6 +19,8 @@ pub struct Setting {
     pub document: BTreeMap<String, Json>,
     /// The names of the robots, in the order of frames.
     pub robots: Vec<String>,
+    /// The names of the robots that had external bodies from the start, such as real robots.
+    pub external: Vec<String>,
     /// The changes up to now.
     pub changes: Vec<LoggedChange>,
     /// The changes up to the latest tick; null if they are those of the recording.

@@ -17,7 +17,6 @@ from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.verdict import repeated
-from agent_economy.study.store.folder import REPORT
 
 WIDE = 118
 """Width of a table with ranges, and of output that is not a terminal."""
@@ -29,8 +28,8 @@ MAX_ROWS = 20
 """Maximum number of configurations in a table."""
 
 
-def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
-    """Print an answer: as JSON, or as a table, a sentence and the path of the report."""
+def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
+    """Print an answer: as JSON, or as a table, a sentence and the path of the report if it has."""
     if as_json:
         typer.echo(files.as_json(answer), nl=False)
         return
@@ -53,9 +52,10 @@ def show(answer: AnyAnswer, folder: Path, *, as_json: bool) -> None:
         markup=False,
         emoji=False,
     )
-    if (count := len(answer.questions)) > 1:
-        typer.echo(f"{repeated(count, answer.confidence)}\n")
-    typer.echo(f"Report: {folder / REPORT}")
+    if len(answer.questions) > 1:
+        typer.echo(f"{repeated(answer.questions)}\n")
+    if report:
+        typer.echo(f"Report: {report}")
 
 
 def results_table(answer: Answer, *, ranges: bool) -> Table:

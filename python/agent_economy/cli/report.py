@@ -8,6 +8,7 @@ import typer
 from agent_economy import study
 from agent_economy.cli.answer_table import show
 from agent_economy.cli.errors import error_exits
+from agent_economy.study.store.folder import REPORT
 
 
 def report(
@@ -28,4 +29,4 @@ def report(
     """
     with error_exits():
         answer = study.rebuild(folder)
-    show(answer, folder, as_json=as_json)
+    show(answer, folder / REPORT, as_json=as_json)

@@ -1,12 +1,12 @@
 """The command `study`."""
 
 import signal
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NoReturn
 
 import typer
 
@@ -18,10 +18,13 @@ from agent_economy.cli.options import ScenarioArgument, Sets, overrides
 from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.scenario import Override, Scenario, TomlValue
 from agent_economy.study.answer.labels import label
+from agent_economy.study.api import answer_so_far
 from agent_economy.study.description import Description, usual_folder
 from agent_economy.study.engine import Engine
 from agent_economy.study.plan import Plan, with_confidence
+from agent_economy.study.question import Cheapest
 from agent_economy.study.run_block import Compute
+from agent_economy.study.store.folder import REPORT
 
 QUESTION, PRECISION, COMPUTING = "Question", "Precision", "Computing"
 """Panels of options in the help."""
@@ -229,7 +232,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     end. Options take precedence over the scenario.
 
     Exit codes: 0 answered; 1 the study cannot continue (the disk is full, the folder is damaged or
-    in use, workers fail); 2 an argument or the scenario is invalid; 130 stopped by Ctrl-C.
+    in use, workers fail); 2 an argument or the scenario is invalid; 130 stopped by Ctrl-C: about a
+    requirement, what the runs prove already is printed.
 
     Example: agent-economy study classic --vary robots.wanderer.count=1..12
 
@@ -254,6 +258,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         }
         settings = {name: value for name, value in settings.items() if value is not None}
         refuse_two_executors(workers, dask)
+        if require:
+            refuse_with_requirement({"--merit": merit, **merit_options(settings)})
         request: NewStudy | ResumeStudy
         if resume is None:
             if confidence is not None:
@@ -264,12 +270,18 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             refuse_with_resume(others, changes)
             request = ResumeStudy(resume, confidence)
         plan, folder = request.plan()
+        if minimize is not None and not isinstance(plan.question, Cheapest):
+            message = "--minimize: needs a requirement: --require, or [require] of the scenario"
+            raise InputError(message)
         print_warnings(plan.warnings)
         typer.echo(str(Description.of(plan)), err=True)
         if vary and (also := others_varied(plan, vary)):
             typer.echo(f"also over {also}, of the scenario", err=True)
-        answer = compute_answer(plan, folder, workers, dask)
-    show(answer, folder, as_json=as_json)
+        try:
+            answer = compute_answer(plan, folder, workers, dask)
+        except KeyboardInterrupt:
+            conclude_stopped(folder, as_json=as_json)
+    show(answer, folder / REPORT, as_json=as_json)
 
 
 def others_varied(plan: Plan, vary: list[str]) -> str:
@@ -282,19 +294,24 @@ def others_varied(plan: Plan, vary: list[str]) -> str:
 def compute_answer(
     plan: Plan, folder: Path, workers: int | None, dask: str | None
 ) -> studies.AnyAnswer:
-    """Run a study with a progress display; Ctrl-C prints how to resume it."""
+    """Run a study with a progress display."""
     display = ProgressDisplay([label(values) for values in plan.configurations])
+    with executor(plan.engine, workers, dask) as compute, display.shown() as on_progress:
+        return studies.run_plan(plan, folder, compute=compute, on_progress=on_progress)
+
+
+def conclude_stopped(folder: Path, *, as_json: bool) -> NoReturn:
+    """Print how to resume a stopped study, and what its runs prove already; then exit."""
+    # A second Ctrl-C must not cut off how to resume.
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        with executor(plan.engine, workers, dask) as compute, display.shown() as on_progress:
-            return studies.run_plan(plan, folder, compute=compute, on_progress=on_progress)
-    except KeyboardInterrupt:
-        # A second Ctrl-C must not cut off how to resume.
-        before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-        try:
-            typer.echo(f"\n{stopped(folder)}", err=True)
-        finally:
-            signal.signal(signal.SIGINT, before)
-        raise typer.Exit(INTERRUPTED) from None
+        typer.echo(f"\n{stopped(folder)}", err=True)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    with suppress(InputError):  # such as a folder without a study yet
+        if answer := answer_so_far(folder):
+            show(answer, None, as_json=as_json)
+    raise typer.Exit(INTERRUPTED)
 
 
 def stopped(folder: Path) -> str:
@@ -316,6 +333,26 @@ def executor(engine: Engine, workers: int | None, dask: str | None) -> Iterator[
             yield stack.enter_context(engine.on_dask(dask)).columns
         else:
             yield None
+
+
+def merit_options(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that select the best by merit, of those that were given."""
+    return {f"--{name}": settings.get(name) for name in ("delta", "guarantee", "runs")}
+
+
+def refuse_with_requirement(options: Mapping[str, Any]) -> None:
+    """Raise an error if options of a study of merit were given together with --require.
+
+    Raises:
+        InputError: If one was.
+    """
+    given = [name for name, value in options.items() if value is not None]
+    if given:
+        message = (
+            f"--require, {', '.join(given)}: expected one question: the cheapest team that meets a "
+            "requirement, or the best by merit"
+        )
+        raise InputError(message)
 
 
 def refuse_two_executors(workers: int | None, dask: str | None) -> None:

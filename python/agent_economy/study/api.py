@@ -7,6 +7,8 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
+import numpy as np
+
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Value, as_scenario, validation
 from agent_economy.scenario.source import check_path
@@ -15,9 +17,12 @@ from agent_economy.study import plan as plans
 from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import word
+from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.arguments import Guarantee
+from agent_economy.study.errors import NoMoreRunsError
 from agent_economy.study.plan import Plan
 from agent_economy.study.progress import OnProgress
+from agent_economy.study.question import Cheapest
 from agent_economy.study.race import answer_of, run_race
 from agent_economy.study.report.script import ChartScript
 from agent_economy.study.run_block import Compute, RunBlock
@@ -89,12 +94,16 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             another build of this program, is damaged, or cannot be written.
     """
     validation.of_type("vary", vary, Mapping | None, "a dict of values by their paths")
+    weights = "the name of a figure of merit, or a dict of weights"
+    validation.of_type("merit", merit, str | Mapping | None, weights)
+    conditions = "a condition, or a list of them"
+    validation.of_type("require", require, str | list | tuple | None, conditions)
     options = {
         "study.design": design,
         "merit": merit if merit is None or isinstance(merit, str) else dict(merit),
         "require.all": [require] if isinstance(require, str) else require and list(require),
-        "require.probability": probability,
-        "require.tolerance": tolerance,
+        "require.probability": plain(probability),
+        "require.tolerance": plain(tolerance),
         "study.minimize": minimize,
         "study.where": where,
     }
@@ -117,6 +126,11 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         return run_plan(plan, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return run_race(plan, Path(folder), compute, on_progress)[0]
+
+
+def plain(number: Any) -> Any:
+    """Return a number of NumPy as one of Python, and anything else as it is."""
+    return number.item() if isinstance(number, np.generic) else number
 
 
 def factor_changes(vary: Mapping[str, str | Iterable[Value]], *, only_vary: bool) -> list[Override]:
@@ -165,6 +179,28 @@ def load_answer(folder: str | Path) -> tuple[AnyAnswer, Evidence]:
         InputError: If the folder contains no study, or an unfinished one.
     """
     return answer_of(load_plan(folder), read(folder).stored(), refuse(folder))
+
+
+def answer_so_far(folder: str | Path) -> RequirementAnswer | None:
+    """Return what the stored runs of a study of a requirement prove, whether it is finished or not.
+
+    Nothing is computed or written.
+
+    Returns:
+        None for another question, or without runs.
+
+    Raises:
+        InputError: If the folder contains no study, or no configuration can be run.
+    """
+
+    def compute(_: RunBlock) -> Any:
+        raise NoMoreRunsError
+
+    plan = load_plan(folder)
+    if not isinstance(plan.question, Cheapest):
+        return None
+    answer, _ = answer_of(plan, read(folder).stored(), compute)
+    return answer if isinstance(answer, RequirementAnswer) and answer.runs else None
 
 
 def run_plan(

@@ -16,3 +16,7 @@ class StoreError(StudyError, InputError):
 
 class NoConfigurationError(InputError):
     """No configuration of a study can be run, so nothing can be selected."""
+
+
+class NoMoreRunsError(Exception):
+    """Only stored runs are used, and the next ones are missing: a study ends as if stopped."""

@@ -1,6 +1,7 @@
 """The output files of a study: answer.json and report.html."""
 
 import json
+import math
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -41,9 +42,19 @@ def as_json(answer: AnyAnswer) -> str:
     return json.dumps(as_dict(answer), indent=2, allow_nan=False) + "\n"
 
 
+def with_names_of_infinity(items: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return a dict in which infinity, which JSON lacks, is the string "inf": it means never."""
+    return {name: "inf" if is_infinite(value) else value for name, value in items}
+
+
+def is_infinite(value: Any) -> bool:
+    """Return whether a value is the number infinity."""
+    return isinstance(value, float) and value == math.inf
+
+
 def as_dict(answer: AnyAnswer) -> dict[str, Any]:
     """Return an answer as JSON values; `omissions` and other `questions` only if there are any."""
-    values = asdict(answer)
+    values = asdict(answer, dict_factory=with_names_of_infinity)
     scenario = values.pop("scenario")
     del scenario["source"]
     if isinstance(answer, Answer) and not answer.omissions:

@@ -26,7 +26,7 @@ from agent_economy.study.answer.requirement_results import RequirementEnding
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
-from agent_economy.study.errors import NoConfigurationError
+from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
 from agent_economy.study.leaders import leaders
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
@@ -41,6 +41,7 @@ from agent_economy.study.selection import (
     within,
 )
 from agent_economy.study.store import Store, StoredRuns
+from agent_economy.study.store.ledger import Answered
 
 LEADERS = 10
 """Leaders in a progress report."""
@@ -77,7 +78,13 @@ def run_race(
     with Store.open(
         folder, plan.text(), columns, content=content, may_replace=partial(may_replace, folder)
     ) as store:
-        answer, evidence = Race(plan, store, compute, on_progress).run()
+        try:
+            answer, evidence = Race(plan, store, compute, on_progress).run()
+        except KeyboardInterrupt:
+            if isinstance(plan.question, Cheapest):
+                # What its runs prove already can be read: a promise, too.
+                store.answered(answered(plan))
+            raise
         if finish:
             finish(answer, evidence)
     return answer, evidence
@@ -129,6 +136,8 @@ class Race:
         except NoConfigurationError as error:
             message = f"no configuration can be run: {error} ({self._obstacle(0)})"
             raise InputError(message) from None
+        except NoMoreRunsError:
+            pass  # It is concluded as it is, as if its run budget were reached.
         if len(self._impossible()) == len(self._runs):
             message = f"no configuration can be run: all runs are quarantined ({self._obstacle(0)})"
             raise InputError(message)
@@ -138,8 +147,7 @@ class Race:
             answer = conclude_requirement(plan, evidence, self._requirement_ending())
         else:
             answer = conclude(plan, evidence, self._ending())
-        questions = self._store.answered(question_in_words(plan))
-        return replace(answer, questions=questions), evidence
+        return replace(answer, questions=self._store.answered(answered(plan))), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure
@@ -216,6 +224,9 @@ class Race:
                 if name == self._plan.question.quantity:
                     parts.append(values[row])
                     continue
+                if name == "quarantined":
+                    parts.append(np.isnan(found[row]).astype(np.float64))
+                    continue
                 # A quarantined run counts as the worst possible: late, failed, and with its cost.
                 given = columns[name][row]
                 parts.append(np.where(np.isnan(given), limits[name][1], given))
@@ -289,18 +300,21 @@ class Race:
         return max(0.0, low - pending), max(0.0, high - pending)
 
 
-def question_in_words(plan: Plan) -> str:
-    """Return the question of a plan, which other questions about the same runs differ from."""
+def answered(plan: Plan) -> Answered:
+    """Return the question of a plan; other questions about the same runs have other words."""
     question = plan.question.as_dict(plan.confidence)
     if isinstance(plan.question, Best):
         question["merit"] = plan.scenario.merit.name
-    return ", ".join(f"{key} {value}" for key, value in question.items())
+    words = ", ".join(f"{key} {value}" for key, value in question.items())
+    return Answered(words, plan.confidence)
 
 
 def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
-    """Yield the columns that an answer uses, of those that the simulator has."""
+    """Yield the columns that an answer uses, of those that the simulator has, and its own."""
     question = plan.question
     yield question.quantity
+    if isinstance(question, Cheapest):
+        yield "quarantined"
     yield from (name for name in question.columns if name in limits)
 
 

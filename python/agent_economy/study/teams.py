@@ -102,7 +102,11 @@ def price(engine: Engine, configuration: int) -> float:
     """
     low, high = engine.limits(configuration).get("price", (np.nan, np.nan))
     if low == high:
-        # A sum: equal prices must not differ by rounding.
-        return float(f"{low:.12g}")
+        return rounded(low)
     message = "price: the engine of this scenario has no prices: use robots, or kinds of robots"
     raise InputError(message)
+
+
+def rounded(price: float) -> float:
+    """Return the price of a team without the error of its sum: equal prices must not differ."""
+    return float(f"{price:.12g}")

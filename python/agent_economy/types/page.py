@@ -590,6 +590,8 @@ class Setting(TypedDict):
         step_s: The simulated duration of a step.
         document: The scenario, with all defaults.
         robots: The names of the robots, in the order of frames.
+        external: The names of the robots that had external bodies from the start, such as real
+            robots.
         changes: The changes up to now.
         log: The changes up to the latest tick; null if they are those of the recording.
         world: The world.
@@ -605,6 +607,7 @@ class Setting(TypedDict):
     step_s: float
     document: Mapping[str, Any]
     robots: Sequence[str]
+    external: Sequence[str]
     changes: Sequence[LoggedChange]
     log: Sequence[LoggedChange] | None
     world: WorldView

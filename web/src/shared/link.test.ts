@@ -18,6 +18,7 @@ const full: Link = {
   text: null,
   study: null,
   recording: null,
+  live: false,
   seed: "18446744073709551615",
   run: "3",
   changes: [
@@ -37,6 +38,10 @@ test.each([
   ["of a study with its own seed", { ...emptyLink, study: { id: "a", configuration: 0 }, seed: null }],
   ["of a study", { ...emptyLink, study: { id: "studies/mine & yours", configuration: 12 }, run: "7" }],
   ["of a recording", { ...emptyLink, recording: "recordings/a b.mcap", changes: null, tick: 3 }],
+  [
+    "live",
+    { ...emptyLink, live: true, seed: null, view: [1, 2, 3] as [number, number, number], robot: "bender/0" },
+  ],
   ["of a recording with other changes", { ...emptyLink, recording: "a.mcap", changes: [] }],
 ])("a link that is %s survives a round trip", (_, link) => expect(read(writeLink(link))).toEqual(link));
 
@@ -62,13 +67,26 @@ test("an address has exactly one source, and a study its configuration", () => {
   expect(damages("study=studies/a&configuration=-1")).toEqual(["configuration=-1"]);
 });
 
+test("the live run is opened as it is: its address has nothing else to open", () => {
+  expect(writeLink({ ...full, scenario: null, live: true })).toBe(
+    "#/run?live=1&view=12.5,8,31.25&robot=rover/3",
+  );
+  expect(damages("live=1&robot=bender/0")).toEqual([]);
+  expect(damages("live=yes")).toEqual(["live=yes"]);
+  expect(damages("scenario=a&live=1")).toEqual(["scenario, live: only one of them can be opened"]);
+  expect(damages("live=1&tick=40&seed=7")).toEqual([
+    "seed: a live run is opened as it is",
+    "tick: a live run is opened as it is",
+  ]);
+});
+
 test("a long damaged part is shortened", () => {
   const [line] = damages(`scenario=a&changes=[${"1,".repeat(500)}`);
   expect(line?.length).toBeLessThan(80);
 });
 
 test("addresses that the page writes are not damaged", () => {
-  for (const link of [full, { ...emptyLink, recording: "a.mcap", changes: null }])
+  for (const link of [full, { ...emptyLink, recording: "a.mcap", changes: null }, { ...full, live: true }])
     expect(damages(writeLink(link).slice("#/run?".length))).toEqual([]);
 });
 

@@ -9,7 +9,9 @@ export interface Link {
   study: StudyConfiguration | null;
   /** A recording by name. It contains scenario, seed and run, and the changes unless others are given. */
   recording: string | null;
-  /** Null: the study's seed. */
+  /** Whether it is the live run of the server, at its present. Only `view` and `robot` belong to its address. */
+  live: boolean;
+  /** Null: the study's seed, or that of the live run. */
   seed: string | null;
   run: string;
   /** Null: the recording's changes. */
@@ -31,6 +33,7 @@ export const emptyLink: Link = {
   text: null,
   study: null,
   recording: null,
+  live: false,
   seed: "0",
   run: "0",
   changes: [],
@@ -42,6 +45,14 @@ export const emptyLink: Link = {
 /** The hash of the address of a run, such as `#/run?scenario=search&seed=7`. */
 export function writeLink(link: Link): string {
   const query = new URLSearchParams();
+  if (link.live) query.set("live", "1");
+  else writeRun(link, query);
+  if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
+  if (link.robot !== null) query.set("robot", link.robot);
+  return `#/run?${unescapeReadable(query.toString())}`;
+}
+
+function writeRun(link: Link, query: URLSearchParams): void {
   if (link.scenario !== null) query.set("scenario", link.scenario);
   if (link.text !== null) query.set("text", link.text);
   if (link.study) {
@@ -57,14 +68,12 @@ export function writeLink(link: Link): string {
     if (link.changes?.length) query.set("changes", JSON.stringify(link.changes));
   }
   if (link.tick > 0) query.set("tick", String(link.tick));
-  if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
-  if (link.robot !== null) query.set("robot", link.robot);
-  return `#/run?${unescapeReadable(query.toString())}`;
 }
 
 /** What is wrong with the query of an address: a line for each part that cannot be read. Other parts may be missing. */
 export function damagesOf(query: URLSearchParams): string[] {
   const readers: Record<string, (text: string) => boolean> = {
+    live: (text) => text === "1",
     configuration: (text) => readConfiguration(text) !== null,
     seed: isWhole,
     run: isWhole,
@@ -75,24 +84,31 @@ export function damagesOf(query: URLSearchParams): string[] {
   const parts = Object.entries(readers).map(([name, reads]) => ({ name, text: query.get(name), reads }));
   const damaged = parts.filter(({ text, reads }) => text !== null && !reads(text));
   const lines = damaged.map(({ name, text }) => `${name}=${shown(text ?? "")}`);
-  const sources = ["scenario", "text", "study", "recording"].filter((name) => query.has(name));
-  if (sources.length === 0) lines.unshift("scenario, text, study or recording: there is none");
-  if (sources.length > 1) lines.unshift(`${sources.join(", ")}: only one of them can be opened`);
   if (query.has("study") && !query.has("configuration")) lines.push("configuration: it is missing");
-  return lines;
+  return [...sourceDamages(query), ...lines];
+}
+
+function sourceDamages(query: URLSearchParams): string[] {
+  const sources = ["scenario", "text", "study", "recording", "live"].filter((name) => query.has(name));
+  if (sources.length === 0) return ["scenario, text, study, recording or live: there is none"];
+  if (sources.length > 1) return [`${sources.join(", ")}: only one of them can be opened`];
+  const others = ["configuration", "seed", "run", "changes", "tick"].filter((name) => query.has(name));
+  return query.has("live") ? others.map((name) => `${name}: a live run is opened as it is`) : [];
 }
 
 /** The link in the query of an address without damages. */
 export function readLink(query: URLSearchParams): Link {
   const study = readStudy(query.get("study"), query.get("configuration"));
   const recording = query.get("recording");
+  const live = query.has("live");
   const isRecorded = recording !== null && !query.has("changes");
   return {
     scenario: query.get("scenario"),
     text: query.get("text"),
     study,
     recording,
-    seed: study && !query.has("seed") ? null : whole(query.get("seed")),
+    live,
+    seed: (study || live) && !query.has("seed") ? null : whole(query.get("seed")),
     run: whole(query.get("run")),
     changes: isRecorded ? null : (readChanges(query.get("changes") ?? "[]") ?? []),
     tick: Number(whole(query.get("tick"))),

@@ -32,6 +32,18 @@ export function kindOf(setting: Setting, robot: number): KindView | null {
   return rangesOf(setting).find(({ first, count }) => robot >= first && robot < first + count)?.kind ?? null;
 }
 
+const externals = new WeakMap<Setting, number[]>();
+
+/** The numbers of the robots with external bodies that are in the team. */
+export function externalOf(setting: Setting): number[] {
+  let found = externals.get(setting);
+  if (!found) {
+    found = setting.external.map((name) => setting.robots.indexOf(name)).filter((robot) => robot >= 0);
+    externals.set(setting, found);
+  }
+  return found;
+}
+
 /** The number of robots that a robot receives from; null if its links may be incomplete (`maxLinks`). */
 export function sendersOf(links: Uint32Array, robot: number): number | null {
   let [own, senders] = [0, 0];

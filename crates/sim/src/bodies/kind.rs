@@ -9,7 +9,7 @@ use crate::schedule::Schedule;
 use crate::sensors::{Measure, Measures, Sensor, SensorSpec};
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
-use base::random::kind_key;
+use base::random::{Entity, kind_key};
 use brain::behaviours::flock::{self, Sums};
 use brain::{Body, Brain, Detector, Motion, Other, RandomWords, RangeRing};
 use std::collections::BTreeMap;
@@ -186,11 +186,18 @@ impl Kind {
         })
     }
 
-    /// Whether anything that its robots measure or receive can wait for their brains.
+    /// Whether anything that its robots measure can wait for their brains.
     pub(crate) fn needs_backlog(&self) -> bool {
         let is_late = |sensor: &Sensor| !sensor.is_immediate();
-        let is_slow = !self.schedule.is_every_step();
-        is_slow || self.radio.is_some() || self.sensors.iter().any(is_late)
+        !self.schedule.is_every_step() || self.sensors.iter().any(is_late)
+    }
+
+    /// The key of one of its robots in random streams.
+    pub(crate) fn entity(&self, index: u32) -> Entity {
+        Entity {
+            kind: self.key,
+            index,
+        }
     }
 
     /// Power of its radio and of its sensors, except the sensors whose bits are set in `off`.

@@ -16,9 +16,10 @@ pub(crate) struct RadioChannel {
     receivers: Vec<u32>,
 }
 
-/// A message in transit to one robot.
+/// A message in transit to one participant.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Transmission {
+    /// The number of the receiver.
     pub(crate) to: u32,
     pub(crate) at: u64,
     pub(crate) message: ReceivedMessage,
@@ -26,9 +27,10 @@ pub(crate) struct Transmission {
 
 base::hashed!(Transmission { to, at, message });
 
-/// A message that a robot sends, and its number among those that it sends in this step.
+/// A message that a participant sends, and its number among those that it sends in this step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Outgoing {
+    /// The number of the sender.
     pub(crate) from: u32,
     pub(crate) number: u32,
     pub(crate) message: Message,
@@ -65,7 +67,7 @@ impl RadioChannel {
         }
     }
 
-    /// Sends a message to the robots that `receivers` yields; it arrives `delay_steps` later, at
+    /// Sends a message to the participants that `receivers` yields; it arrives `delay_steps` later, at
     /// least 1.
     pub(crate) fn send(
         &mut self,

@@ -1,10 +1,10 @@
-//! The deciding part of a robot: its brain, its motion setpoint, and pending observations.
+//! The deciding part of a robot: its brain, its motion setpoint, and its inputs.
 
+use super::participant::{Participant, Place};
 use crate::bodies::kind::Kind;
-use crate::radio::channel::Transmission;
-use crate::sensors::backlog::Backlog;
-use crate::sensors::pending::Pending;
-use brain::{Brain, Motion, Percept, RobotId, SensorRequest};
+use crate::sensors::backlog::{Backlog, age_s};
+use base::noise::Noise;
+use brain::{Brain, Motion, Percept, ReceivedMessage, RobotId, SensorRequest};
 use std::collections::BTreeMap;
 
 /// The deciding part of one robot.
@@ -15,19 +15,39 @@ pub(crate) struct Agent {
     pub(crate) setpoint: Motion,
     /// A bit for each sensor that is switched off.
     pub(crate) sensors_off: u32,
-    /// Readings and messages that have not reached the brain. Most kinds of robots never have any.
+    pub(crate) inputs: Inputs,
+}
+
+/// What reaches the brain of a robot later than it is measured or sent. Most kinds of robots have
+/// nothing of it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Inputs {
+    /// Readings that have not reached the brain.
     pub(crate) backlog: Option<Box<Backlog>>,
+    /// The robot as a participant in communication, if it has a radio.
+    pub(crate) participant: Option<Box<Participant>>,
 }
 
 impl Agent {
-    pub(crate) fn new(kind: &Kind) -> Self {
+    /// The agent of the robot of a number, which is the `index`th of its kind.
+    pub(crate) fn new(kind: &Kind, id: RobotId, number: usize, noise: Noise) -> Self {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "robots have 32-bit numbers"
+        )]
+        let place = Place::Aboard(number as u32);
+        let draws = (kind.entity(id.index), noise);
+        let participant = |radio| Box::new(Participant::new(id, place, radio, draws));
         Self {
             brain: kind.brain.clone(),
             setpoint: Motion::default(),
             sensors_off: 0,
-            backlog: kind
-                .needs_backlog()
-                .then(|| Box::new(Backlog::new(&kind.sensors))),
+            inputs: Inputs {
+                backlog: kind
+                    .needs_backlog()
+                    .then(|| Box::new(Backlog::new(&kind.sensors))),
+                participant: kind.radio.map(participant),
+            },
         }
     }
 
@@ -40,39 +60,26 @@ impl Agent {
         }
     }
 
-    /// Takes a message that arrives now, unless the radio has received its maximum in this step.
-    pub(crate) fn receive(&mut self, sent: &Transmission, now: u64, max_messages: usize) {
-        let Some(backlog) = &mut self.backlog else {
-            return;
-        };
-        let inbox = &mut backlog.inbox;
-        inbox.forget(now);
-        if inbox
-            .entries
-            .iter()
-            .rev()
-            .take_while(|late| late.due == now)
-            .count()
-            < max_messages
+    /// Takes over the memory, the setpoint and the inputs of an agent that had the same brain and
+    /// sensors. Radio and place stay its own.
+    pub(crate) fn take_over(&mut self, before: &Self) {
+        self.brain = before.brain.rebriefed(&self.brain);
+        self.setpoint = before.setpoint;
+        self.sensors_off = before.sensors_off;
+        self.inputs.backlog.clone_from(&before.inputs.backlog);
+        if let Some((now, before)) = self
+            .inputs
+            .participant
+            .as_mut()
+            .zip(before.inputs.participant.as_ref())
         {
-            inbox.entries.push(Pending {
-                taken: sent.at,
-                due: now,
-                what: sent.message,
-            });
-        }
-    }
-
-    /// Adds received messages to an external percept.
-    pub(crate) fn deliver_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
-        if let Some(backlog) = &mut self.backlog {
-            backlog.deliver_messages(now, step_s, to);
+            now.inbox.clone_from(&before.inbox);
         }
     }
 
     /// Renumbers items; detections of items that were removed are dropped.
     pub(crate) fn renumber_items(&mut self, numbers: &BTreeMap<usize, usize>) {
-        if let Some(backlog) = &mut self.backlog {
+        if let Some(backlog) = &mut self.inputs.backlog {
             backlog.contacts.entries.retain_mut(|late| {
                 let Some(item) = &mut late.what.1 else {
                     return true;
@@ -87,12 +94,25 @@ impl Agent {
     /// Renumbers robots; detections and messages of robots that were removed are dropped.
     pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
         self.brain.renumber(|id| numbers.get(&id).copied());
-        let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
-        if let Some(backlog) = &mut self.backlog {
+        if let Some(backlog) = &mut self.inputs.backlog {
+            let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
             let neighbours = &mut backlog.neighbours.entries;
             neighbours.retain_mut(|late| renumber(&mut late.what.id));
-            let inbox = &mut backlog.inbox.entries;
-            inbox.retain_mut(|late| renumber(&mut late.what.from));
+        }
+        if let Some(participant) = &mut self.inputs.participant {
+            participant.renumber(numbers);
+        }
+    }
+}
+
+impl Inputs {
+    /// Adds received messages to a percept.
+    pub(crate) fn deliver_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+        if let Some(participant) = &mut self.participant {
+            participant.inbox.deliver(now, |late| {
+                let age_s = age_s(late.taken, now, step_s);
+                to.inbox.push(ReceivedMessage { age_s, ..late.what });
+            });
         }
     }
 }

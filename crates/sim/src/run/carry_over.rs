@@ -15,9 +15,9 @@ pub(super) fn previous_numbers(
     to: &Scenario,
 ) -> Vec<Option<usize>> {
     let old = before.ids.iter().enumerate();
-    let old = old.map(|(robot, id)| ((from.name_of(*id), id.index), robot));
+    let old = old.map(|(robot, id)| ((from.kind_of(*id).name.as_str(), id.index), robot));
     let old: BTreeMap<(&str, u32), usize> = old.collect();
-    let was = |id: &RobotId| old.get(&(to.name_of(*id), id.index)).copied();
+    let was = |id: &RobotId| old.get(&(to.kind_of(*id).name.as_str(), id.index)).copied();
     next.ids.iter().map(was).collect()
 }
 

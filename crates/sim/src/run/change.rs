@@ -1,6 +1,5 @@
 //! Continuing a run with another scenario.
 
-use super::agent::Agent;
 use super::carry_over::{is_same_team, new_ids, previous_numbers, removed, renumber_message};
 use super::state::{NoRoom, State, draws};
 use crate::bodies::Layer;
@@ -73,12 +72,14 @@ impl State {
             let Some(was) = old[robot] else {
                 continue;
             };
-            let old_kind = &from.kinds[usize::from(before.ids[was].kind)];
-            let kind = &to.kinds[usize::from(id.kind)];
+            let old_kind = from.kind_of(before.ids[was]);
+            let kind = to.kind_of(id);
             self.discs[robot].centre = before.discs[was].centre;
             self.orientations[robot] = before.orientations[was];
             self.body_states[robot] = kept_body_state(&before.body_states[was], kind, to);
-            self.agents[robot] = kept_agent(&before.agents[was], old_kind, kind);
+            if has_same_agent(old_kind, kind) {
+                self.agents[robot].take_over(&before.agents[was]);
+            }
             let is_same =
                 kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
             let is_placed = self.body_states[robot].is_external() || is_same_ground && is_same;
@@ -101,14 +102,14 @@ impl State {
             }
             let (id, centre) = (self.ids[robot], self.discs[robot].centre);
             let number = usize::from(id.kind);
-            let kind = &scenario.kinds[number];
+            let kind = scenario.kind_of(id);
             crowd.remove(number, centre);
             let is_free = |place| {
                 scenario.is_free(place, kind.radius_m, kind.layer) && !crowd.is_taken(number, place)
             };
             let place = match start {
                 _ if is_free(centre) => Ok(centre),
-                Start::New => kind.start.place(&draws, scenario.entity(id), is_free),
+                Start::New => kind.start.place(&draws, kind.entity(id.index), is_free),
                 _ => Err(PlacementError::Taken),
             };
             let place = place.map(|place| scenario.home(place));
@@ -198,16 +199,10 @@ fn kept_body_state(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodySt
     }
 }
 
-fn kept_agent(agent: &Agent, from: &Kind, to: &Kind) -> Agent {
-    let is_same = from.brain.spec() == to.brain.spec()
+/// Whether robots keep their agents, and only what their brains know about others changes.
+fn has_same_agent(from: &Kind, to: &Kind) -> bool {
+    from.brain.spec() == to.brain.spec()
         && from.brain.body().is_same_but_for_others(to.brain.body())
-        && from.sensors == to.sensors;
-    if is_same && from.needs_backlog() == to.needs_backlog() {
-        Agent {
-            brain: agent.brain.rebriefed(&to.brain),
-            ..agent.clone()
-        }
-    } else {
-        Agent::new(to)
-    }
+        && from.sensors == to.sensors
+        && from.needs_backlog() == to.needs_backlog()
 }

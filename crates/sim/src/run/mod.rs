@@ -3,6 +3,7 @@
 pub(crate) mod agent;
 mod carry_over;
 mod change;
+pub(crate) mod participant;
 pub(crate) mod snapshot;
 pub(crate) mod state;
 mod state_hash;

@@ -88,7 +88,7 @@ impl State {
     pub fn each_robot(&self, scenario: &Scenario) -> impl Iterator<Item = Robot> {
         (0..self.robots()).map(|robot| {
             let (id, body_state) = (self.ids[robot], &self.body_states[robot]);
-            let kind = &scenario.kinds[usize::from(id.kind)];
+            let kind = scenario.kind_of(id);
             Robot {
                 id,
                 at: self.discs[robot].centre,

@@ -1,6 +1,7 @@
 //! Everything that changes in a run.
 
 use super::agent::Agent;
+use super::participant::Participant;
 use crate::bodies::Layer;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
@@ -33,6 +34,8 @@ pub struct State {
     pub(crate) body_states: Vec<BodyState>,
     pub(crate) noises: Vec<Noise>,
     pub(crate) agents: Vec<Agent>,
+    /// The participants in communication without a body.
+    pub(crate) stations: Vec<Participant>,
     pub(crate) items: Items,
     pub(crate) channel: RadioChannel,
     pub(crate) tally: Tally,
@@ -75,6 +78,7 @@ impl State {
             body_states: Vec::new(),
             noises: Vec::new(),
             agents: Vec::new(),
+            stations: Vec::new(),
             tally: Tally::new(scenario, &items),
             items,
             channel: RadioChannel::default(),
@@ -93,7 +97,11 @@ impl State {
                     kind: group.kind,
                     index,
                 };
-                let heading_rad = group.placement.heading_rad(&draws, scenario.entity(id));
+                let entity = Entity {
+                    kind: group.key,
+                    index,
+                };
+                let heading_rad = group.placement.heading_rad(&draws, entity);
                 self.add(scenario, id, place, heading_rad);
             }
         }
@@ -101,7 +109,9 @@ impl State {
     }
 
     fn add(&mut self, scenario: &Scenario, id: RobotId, centre: Point, heading_rad: f64) {
-        let kind = &scenario.kinds[usize::from(id.kind)];
+        let kind = scenario.kind_of(id);
+        let noise = Noise::of(self.seed, self.run, kind.entity(id.index));
+        self.agents.push(Agent::new(kind, id, self.robots(), noise));
         self.ids.push(id);
         self.discs.push(Disc {
             centre: scenario.home(centre),
@@ -109,9 +119,7 @@ impl State {
         });
         self.orientations.push(Orientation::new(heading_rad));
         self.body_states.push(BodyState::default());
-        self.noises
-            .push(Noise::of(self.seed, self.run, scenario.entity(id)));
-        self.agents.push(Agent::new(kind));
+        self.noises.push(noise);
     }
 
     /// Whether the run is over: it is complete, time is up, or no robot can move.

@@ -1,5 +1,6 @@
 //! A hash of the state of a run.
 
+use super::participant::Participant;
 use super::state::State;
 use base::hash::Hash;
 use base::hashed::Hashed;
@@ -62,15 +63,22 @@ impl State {
         }
     }
 
-    /// The messages that robots have received, and that wait for their brains.
+    /// The messages that participants have received, and that wait for their agents.
     fn hash_inboxes(&self, hash: &mut Hash) {
-        for (robot, agent) in self.agents.iter().enumerate() {
-            let backlog = agent.backlog.as_ref();
-            let inbox = backlog.map(|backlog| &backlog.inbox.entries);
-            if let Some(inbox) = inbox.filter(|inbox| !inbox.is_empty()) {
-                robot.add_to(hash);
+        for (number, participant) in self.participants() {
+            let inbox = &participant.inbox.entries;
+            if !inbox.is_empty() {
+                number.add_to(hash);
                 inbox.add_to(hash);
             }
         }
+    }
+
+    /// The participants in communication, with their numbers.
+    fn participants(&self) -> impl Iterator<Item = (usize, &Participant)> {
+        let aboard = self.agents.iter();
+        let aboard = aboard.map(|agent| agent.inputs.participant.as_deref());
+        let all = aboard.chain(self.stations.iter().map(Some)).enumerate();
+        all.filter_map(|(number, participant)| Some((number, participant?)))
     }
 }

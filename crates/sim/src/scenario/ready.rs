@@ -13,7 +13,6 @@ use crate::world::obstacles::Solid;
 use crate::world::static_geometry::{StaticGeometry, Wall};
 use crate::world::terrain::{Area, Terrain, TerrainFactors};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
-use base::random::Entity;
 use brain::{Brain, RobotId};
 
 /// Neighbour lists reach farther than necessary: by this fraction of the range of rays, but within
@@ -234,17 +233,11 @@ impl Scenario {
         Some(self.kinds.get(usize::from(kind))?.layer)
     }
 
-    /// The key of a robot in random streams.
-    pub(crate) fn entity(&self, id: RobotId) -> Entity {
-        Entity {
-            kind: self.kinds[usize::from(id.kind)].key,
-            index: id.index,
-        }
-    }
-
-    /// The name of a robot's kind.
-    pub(crate) fn name_of(&self, id: RobotId) -> &str {
-        &self.kinds[usize::from(id.kind)].name
+    /// The kind of a robot of a run. Ids from anywhere else, such as the senders of messages, may
+    /// have no kind of robots.
+    #[inline]
+    pub(crate) fn kind_of(&self, robot: RobotId) -> &Kind {
+        &self.kinds[usize::from(robot.kind)]
     }
 
     /// What rays meet in a layer.

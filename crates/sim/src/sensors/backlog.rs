@@ -1,10 +1,10 @@
-//! Readings and messages that have not reached the brain of a robot yet.
+//! Readings that have not reached the brain of a robot yet.
 
 use super::pending::PendingQueue;
 use super::{Measure, Sensor};
-use brain::{Contact, Neighbour, Observation, Percept, ReceivedMessage};
+use brain::{Contact, Neighbour, Observation, Percept};
 
-/// Readings and messages that have not reached the brain yet.
+/// Readings that have not reached the brain yet.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Backlog {
     /// By sensor; empty for one without delay.
@@ -12,7 +12,6 @@ pub(crate) struct Backlog {
     pub(crate) observations: PendingQueue<Observation>,
     pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
     pub(crate) neighbours: PendingQueue<Neighbour>,
-    pub(crate) inbox: PendingQueue<ReceivedMessage>,
 }
 
 /// A measurement that the next one replaces.
@@ -79,14 +78,6 @@ impl Backlog {
         self.neighbours.deliver(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
             to.neighbours.push(Neighbour { age_s, ..late.what });
-        });
-        self.deliver_messages(now, step_s, to);
-    }
-
-    pub(crate) fn deliver_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
-        self.inbox.deliver(now, |late| {
-            let age_s = age_s(late.taken, now, step_s);
-            to.inbox.push(ReceivedMessage { age_s, ..late.what });
         });
     }
 }

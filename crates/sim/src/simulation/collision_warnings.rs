@@ -36,7 +36,7 @@ impl Simulation {
     fn goes_at_a_wall(&self, robot: usize) -> bool {
         let (state, scenario) = (self.state(), self.scenario());
         let disc = &state.discs[robot];
-        let layer = scenario.kinds[usize::from(state.ids[robot].kind)].layer;
+        let layer = scenario.kind_of(state.ids[robot]).layer;
         let geometry = scenario.touched(layer);
         let velocity = velocity(&state.body_states[robot], &state.orientations[robot]);
         let way = velocity.times(WITHIN_S);
@@ -56,7 +56,7 @@ impl Simulation {
 
     fn goes_at_a_robot(&self, robot: usize, fastest_m_s: f64) -> bool {
         let (state, scenario) = (self.state(), self.scenario());
-        let kind_of = |robot: usize| &scenario.kinds[usize::from(state.ids[robot].kind)];
+        let kind_of = |robot: usize| scenario.kind_of(state.ids[robot]);
         let disc = &state.discs[robot];
         let own = velocity(&state.body_states[robot], &state.orientations[robot]);
         let meet_m = (own.length() + fastest_m_s) * WITHIN_S;

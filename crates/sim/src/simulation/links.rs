@@ -1,7 +1,7 @@
 //! Radio links between robots, for display only: no brain uses them.
 
 use super::{NoRobot, Simulation};
-use crate::step::view::View;
+use crate::step::communicate::Participants;
 use brain::RobotId;
 
 /// Two robots of which at least one receives the other's messages, unless they are lost by chance.
@@ -24,57 +24,50 @@ impl Simulation {
     /// # Errors
     /// If there is no such robot.
     pub fn links(&mut self, of: Option<RobotId>, most: usize) -> Result<Vec<Link>, NoRobot> {
-        let of = of.map(|id| self.number(id)).transpose()?;
+        of.map(|id| self.number(id)).transpose()?;
         let radios = self.scenario().kinds.iter().filter_map(|kind| kind.radio);
         let Some(reach_m) = radios.map(|radio| radio.range_m).reduce(f64::max) else {
             return Ok(Vec::new());
         };
-        let (view, _) = self.view();
-        let links = |robot: usize| {
-            let about = view.neighbours.about(view.discs[robot].centre, reach_m);
-            let is_included = |other: &u32| {
-                let other = *other as usize;
-                other > robot || (of.is_some() && other != robot)
-            };
+        let (view, agents) = self.view();
+        let participants = Participants::new(&view, agents);
+        let links = |robot: u32| {
+            let centre = view.discs[robot as usize].centre;
+            let about = view.neighbours.about(centre, reach_m);
+            let is_included = |other: &u32| *other > robot || (of.is_some() && *other != robot);
             let mut others: Vec<u32> = about.filter(is_included).collect();
             // Lists of near robots have no particular order.
             others.sort_unstable();
-            let view = &view;
             let links = others.into_iter();
-            links.filter_map(move |other| view.link(robot, other as usize))
+            links.filter_map(move |other| link(&participants, robot, other))
         };
-        let robots = of.map_or(0..view.ids.len(), |robot| robot..robot + 1);
-        Ok(robots.flat_map(links).take(most).collect())
+        let robots = (0..).zip(view.ids);
+        let robots = robots.filter(|(_, id)| of.is_none_or(|of| of == **id));
+        let links = robots.flat_map(|(robot, _)| links(robot));
+        Ok(links.take(most).collect())
     }
 }
 
-impl View<'_> {
-    fn link(&self, robot: usize, other: usize) -> Option<Link> {
-        let (low, high) = (robot.min(other), robot.max(other));
-        let [forth, back] = [[low, high], [high, low]].map(|[from, to]| self.is_received(from, to));
-        let [from, to] = if forth { [low, high] } else { [high, low] };
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "robots have 32-bit numbers"
-        )]
-        let link = Link {
-            from: from as u32,
-            to: to as u32,
-            is_mutual: forth && back,
-        };
-        (forth || back).then_some(link)
-    }
+fn link(participants: &Participants, robot: u32, other: u32) -> Option<Link> {
+    let (low, high) = (robot.min(other), robot.max(other));
+    let [forth, back] =
+        [[low, high], [high, low]].map(|[from, to]| is_received(participants, from, to));
+    let [from, to] = if forth { [low, high] } else { [high, low] };
+    let link = Link {
+        from,
+        to,
+        is_mutual: forth && back,
+    };
+    (forth || back).then_some(link)
+}
 
-    /// Whether messages of a robot reach another, if it sends any.
-    fn is_received(&self, from: usize, to: usize) -> bool {
-        let radio = self.kind(from).radio.as_ref();
-        let radio = radio.filter(|radio| self.is_on_air(from) && radio.loss_probability < 1.0);
-        radio.is_some_and(|radio| self.is_on_air(to) && self.reaches(from, to, radio))
-    }
-
-    /// Whether its radio is on, and sends and receives anything.
-    fn is_on_air(&self, robot: usize) -> bool {
-        let radio = self.kind(robot).radio;
-        self.is_listening(robot) && radio.is_some_and(|radio| radio.messages_per_step > 0)
-    }
+/// Whether messages of a participant reach another, if it sends any.
+fn is_received(participants: &Participants, from: u32, to: u32) -> bool {
+    let on_air = |number| {
+        let participant = participants.get(number);
+        participant.filter(|each| participants.is_on_air(each))
+    };
+    let sender = on_air(from).filter(|sender| sender.radio.loss_probability < 1.0);
+    let both = sender.zip(on_air(to));
+    both.is_some_and(|(sender, receiver)| participants.reaches(sender, receiver))
 }

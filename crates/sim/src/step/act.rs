@@ -75,7 +75,7 @@ fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -
         let mut moved = Moved::default();
         let bodies = discs.iter_mut().zip(orientations).zip(body_states);
         for ((plan, id), ((disc, course), body_state)) in plans.iter().zip(ids).zip(bodies) {
-            let kind = &scenario.kinds[usize::from(id.kind)];
+            let kind = scenario.kind_of(*id);
             moved.add(body_state.go(plan, kind, scenario.step_s, *tick));
             plan.carry_out(scenario, kind, disc, course);
         }

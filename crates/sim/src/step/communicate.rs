@@ -1,18 +1,27 @@
-//! Communication: messages are sent by radio, and wait for the brains of their receivers.
+//! Communication: messages are sent by radio, and wait for the agents of their receivers.
 
 use super::decide::WorkerScratch;
 use super::neighbours::Neighbours;
 use super::view::View;
-use crate::bodies::body_state::Status;
-use crate::radio::Radio;
+use crate::bodies::Layer;
 use crate::radio::channel::Outgoing;
+use crate::run::agent::Agent;
+use crate::run::participant::{Participant, Place};
 use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
+use base::geometry::Point;
 use base::noise::share;
 use brain::ReceivedMessage;
 
-/// Sends the messages of all robots, each to the robots that receive it.
+/// The participants of a run at the beginning of a step.
+#[derive(Clone, Copy)]
+pub(crate) struct Participants<'a> {
+    view: &'a View<'a>,
+    agents: &'a [Agent],
+}
+
+/// Sends the messages of all participants, each to those that receive it.
 pub(crate) fn send(
     scenario: &Scenario,
     state: &mut State,
@@ -23,70 +32,215 @@ pub(crate) fn send(
         return;
     }
     let mut channel = std::mem::take(&mut state.channel);
-    let (view, _) = state.view(scenario, neighbours);
+    let (view, agents) = state.view(scenario, neighbours);
+    let participants = Participants::new(&view, agents);
     for outgoing in workers.iter().flat_map(|worker| &worker.outbox) {
-        let from = outgoing.from as usize;
-        if let Some(radio) = &view.kind(from).radio {
+        if let Some(sender) = participants.get(outgoing.from) {
             let message = ReceivedMessage {
-                from: view.ids[from],
+                from: sender.id,
                 age_s: 0.0,
                 message: outgoing.message,
             };
-            let receivers = view.receivers(outgoing, radio);
-            channel.send(message, (view.tick, radio.delay_steps), receivers);
+            let receivers = participants.receivers(outgoing, sender);
+            channel.send(message, (view.tick, sender.radio.delay_steps), receivers);
         }
     }
     state.channel = channel;
 }
 
 /// Delivers the messages that arrive now.
-pub(crate) fn deliver(scenario: &Scenario, state: &mut State) {
+pub(crate) fn deliver(state: &mut State) {
     let arrived = state.channel.arrive();
     for sent in &arrived {
-        let robot = sent.to as usize;
-        let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
-        let is_active = state.body_states[robot].status == Status::Active;
-        if let Some(radio) = kind.radio.filter(|_| is_active) {
-            state.agents[robot].receive(sent, state.tick, radio.messages_per_step);
+        let robots = state.agents.len();
+        let receiver = match state.agents.get_mut(sent.to as usize) {
+            Some(agent) => agent.inputs.participant.as_deref_mut(),
+            None => state.stations.get_mut(sent.to as usize - robots),
+        };
+        let is_working = |receiver: &&mut Participant| receiver.is_working(&state.body_states);
+        if let Some(receiver) = receiver.filter(is_working) {
+            receiver.receive(sent, state.tick);
         }
     }
     state.channel.reuse(arrived);
 }
 
-impl View<'_> {
-    /// The robots that receive a message, in no particular order.
-    fn receivers(&self, outgoing: &Outgoing, radio: &Radio) -> impl Iterator<Item = u32> {
-        let from = outgoing.from as usize;
-        let near = self
-            .neighbours
-            .about(self.discs[from].centre, radio.range_m);
-        near.filter(move |to| {
-            let to = *to as usize;
-            to != from && self.reaches(from, to, radio) && !self.is_lost(outgoing, to, radio)
+impl<'a> Participants<'a> {
+    pub(crate) fn new(view: &'a View<'a>, agents: &'a [Agent]) -> Self {
+        Self { view, agents }
+    }
+
+    /// The participant of a number; `None` for a robot without a radio.
+    #[inline]
+    pub(crate) fn get(&self, number: u32) -> Option<&'a Participant> {
+        let number = number as usize;
+        match self.agents.get(number) {
+            Some(agent) => agent.inputs.participant.as_deref(),
+            None => self.view.stations.get(number - self.agents.len()),
+        }
+    }
+
+    /// The participants that receive a message, in no particular order.
+    fn receivers(
+        &self,
+        outgoing: &'a Outgoing,
+        sender: &'a Participant,
+    ) -> impl Iterator<Item = u32> + 'a {
+        let participants = *self;
+        let (here, _) = participants.place(sender);
+        let view = participants.view;
+        let robots = view.neighbours.about(here, sender.radio.range_m);
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "participants have 32-bit numbers"
+        )]
+        let stations = (view.ids.len() as u32..).take(view.stations.len());
+        robots.chain(stations).filter(move |to| {
+            let receiver = participants.get(*to).filter(|_| *to != outgoing.from);
+            receiver.is_some_and(|receiver| {
+                participants.reaches(sender, receiver)
+                    && !is_lost(outgoing, sender, receiver, view.tick)
+            })
         })
     }
 
-    /// Whether a message from one robot reaches another, unless it is lost by chance.
-    pub(crate) fn reaches(&self, from: usize, to: usize, radio: &Radio) -> bool {
-        let here = self.discs[from].centre;
-        let there = self.scenario.image(here, self.discs[to].centre);
-        if !self.is_listening(to) || here.to(there).length_squared() > radio.range_m * radio.range_m
+    /// Whether a message of one participant reaches another, unless it is lost by chance.
+    pub(crate) fn reaches(&self, from: &Participant, to: &Participant) -> bool {
+        let (scenario, range_m) = (self.view.scenario, from.radio.range_m);
+        let [(here, layer), (there, its_layer)] = [from, to].map(|each| self.place(each));
+        let there = scenario.image(here, there);
+        if !to.is_working(self.view.body_states)
+            || here.to(there).length_squared() > range_m * range_m
         {
             return false;
         }
-        let layers = [from, to].map(|robot| self.kind(robot).layer);
-        !radio.needs_line_of_sight || self.scenario.hiding(layers).is_open(here, there)
+        let layers = [layer, its_layer];
+        !from.radio.needs_line_of_sight || scenario.hiding(layers).is_open(here, there)
     }
 
-    fn is_lost(&self, outgoing: &Outgoing, to: usize, radio: &Radio) -> bool {
-        if radio.loss_probability <= 0.0 {
-            return false;
+    /// Whether its radio is on, and sends and receives anything.
+    pub(crate) fn is_on_air(&self, participant: &Participant) -> bool {
+        participant.radio.messages_per_step > 0 && participant.is_working(self.view.body_states)
+    }
+
+    fn place(&self, participant: &Participant) -> (Point, Layer) {
+        match participant.place {
+            Place::Aboard(robot) => {
+                let robot = robot as usize;
+                (self.view.discs[robot].centre, self.view.kind(robot).layer)
+            }
+            Place::Fixed(at, layer) => (at, layer),
         }
-        let sender = self.scenario.entity(self.ids[outgoing.from as usize]);
-        let used = NoisePurpose::Radio as u32 | outgoing.number << 16;
-        // Steps are at most 1e8: the kind of the sender is in the unused half of their number.
-        let time = u64::from(sender.kind) << 32 | self.tick;
-        let words = self.noises[to].words(used, time, sender.index);
-        share(words[0]) < radio.loss_probability
+    }
+}
+
+/// Whether a message is lost on the way to one receiver, in the step `now`.
+fn is_lost(outgoing: &Outgoing, sender: &Participant, receiver: &Participant, now: u64) -> bool {
+    let probability = sender.radio.loss_probability;
+    if probability <= 0.0 {
+        return false;
+    }
+    let used = NoisePurpose::Radio as u32 | outgoing.number << 16;
+    // Steps are at most 1e8: the kind of the sender is in the unused half of their number.
+    let time = u64::from(sender.key.kind) << 32 | now;
+    let words = receiver.noise.words(used, time, sender.key.index);
+    share(words[0]) < probability
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::ScenarioSpec;
+    use crate::simulation::Simulation;
+    use base::document::Document;
+    use base::random::Entity;
+    use brain::{About, Command, Message, Provenance, RobotId};
+    use std::sync::Arc;
+
+    const ONE: &str = "
+clock = { time_limit_s = 100 }
+world = { size_m = [40, 20], obstacles = [{ polygon_m = [[20, 0], [21, 0], [21, 20], [20, 20]] }] }
+[robots.rover]
+count = 1
+radius_m = 0.2
+start = { kind = \"fixed\", at_m = [[10, 10]] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+radio = { range_m = 15, needs_line_of_sight = true }
+";
+
+    const ROVER: RobotId = RobotId { kind: 0, index: 0 };
+    const STATION: RobotId = RobotId { kind: 1, index: 0 };
+
+    /// A run with one robot at [10, 10], and a station with the same radio.
+    fn with_station(place: Place) -> Simulation {
+        let document = Document::parse("t", ONE).unwrap();
+        let scenario = ScenarioSpec::read(&document).unwrap().scenario;
+        let radio = scenario.kind_of(ROVER).radio.unwrap();
+        let mut simulation = Simulation::new(Arc::new(scenario), 1, 0).unwrap();
+        let key = Entity { kind: 7, index: 0 };
+        let noise = base::noise::Noise::of(1, 0, key);
+        let station = Participant::new(STATION, place, radio, (key, noise));
+        simulation.state.stations.push(station);
+        simulation
+    }
+
+    fn message() -> Message {
+        Message {
+            about: About::Item {
+                kind: 0,
+                at: Point::default(),
+                provenance: Provenance::default(),
+            },
+            confidence: 1.0,
+        }
+    }
+
+    /// The senders of the messages that the station has after the robot has sent one.
+    fn received_at(place: Place) -> Vec<RobotId> {
+        let mut simulation = with_station(place);
+        let command = Command {
+            outbox: vec![message()],
+            ..Command::default()
+        };
+        let commands = [(ROVER, command)].into();
+        simulation.step_with([].into(), commands).unwrap();
+        let inbox = &simulation.state.stations[0].inbox.entries;
+        inbox.iter().map(|late| late.what.from).collect()
+    }
+
+    fn fixed(x: f64, layer: Layer) -> Place {
+        Place::Fixed(Point { x, y: 10.0 }, layer)
+    }
+
+    #[test]
+    fn a_station_receives_from_robots_in_range_and_in_sight() {
+        assert_eq!(received_at(fixed(15.0, Layer::Ground)), [ROVER]);
+        assert_eq!(received_at(fixed(24.0, Layer::Ground)), []);
+        assert_eq!(received_at(fixed(26.0, Layer::Ground)), []);
+    }
+
+    #[test]
+    fn a_station_aboard_a_robot_receives_from_it() {
+        assert_eq!(received_at(Place::Aboard(0)), [ROVER]);
+    }
+
+    #[test]
+    fn a_robot_receives_from_a_station() {
+        let mut simulation = with_station(fixed(15.0, Layer::Ground));
+        let mut worker = WorkerScratch::default();
+        worker.outbox.push(Outgoing {
+            from: 1,
+            number: 0,
+            message: message(),
+        });
+        let scenario = Arc::clone(simulation.scenario());
+        simulation.refresh();
+        let mut neighbours = Neighbours::new(&scenario);
+        let State { ids, discs, .. } = &simulation.state;
+        neighbours.refresh(&scenario, ids, discs, false);
+        send(&scenario, &mut simulation.state, &neighbours, &[worker]);
+        deliver(&mut simulation.state);
+        let percept = simulation.percept(ROVER).unwrap().unwrap();
+        assert_eq!(percept.inbox[0].from, STATION);
     }
 }

@@ -76,7 +76,7 @@ impl WorkerScratch {
                 let hash = decision_hash(robot, Some(&self.percept), &self.command);
                 self.decisions.push(hash);
             }
-            self.obey(view, robot, agent);
+            self.obey(robot, agent);
         }
     }
 
@@ -94,7 +94,9 @@ impl WorkerScratch {
             Some(&decision.percept)
         } else if let Some(percept) = external.percepts.get(&robot) {
             self.percept.clone_from(percept);
-            agent.deliver_messages(view.tick, view.scenario.step_s, &mut self.percept);
+            agent
+                .inputs
+                .deliver_messages(view.tick, view.scenario.step_s, &mut self.percept);
             self.recognise(view, robot);
             agent.brain.step_into(&self.percept, &mut self.command);
             self.external_commands.push((robot, self.command.clone()));
@@ -117,7 +119,7 @@ impl WorkerScratch {
             let hash = decision_hash(robot, percept, &self.command);
             self.decisions.push(hash);
         }
-        self.obey(view, robot, agent);
+        self.obey(robot, agent);
     }
 
     /// Takes over a decision that was made elsewhere.
@@ -201,15 +203,13 @@ impl WorkerScratch {
 
     /// Applies the command to the agent.
     #[inline]
-    fn obey(&mut self, view: &View, robot: usize, agent: &mut Agent) {
+    fn obey(&mut self, robot: usize, agent: &mut Agent) {
         agent.setpoint = self.command.motion;
         for request in &self.command.requests {
             agent.switch(*request);
         }
-        let most = view
-            .kind(robot)
-            .radio
-            .map_or(0, |radio| radio.messages_per_step);
+        let participant = agent.inputs.participant.as_ref();
+        let most = participant.map_or(0, |each| each.radio.messages_per_step);
         let messages = self.command.outbox.iter().take(most);
         #[expect(
             clippy::cast_possible_truncation,

@@ -43,7 +43,7 @@ pub(super) fn add_decisions<'a>(state: &mut State, hashes: impl Iterator<Item = 
 pub(super) fn add_setpoints(scenario: &Scenario, state: &mut State) {
     if let Some(before) = state.decisions {
         let flocks = |robot: &usize| {
-            let kind = &scenario.kinds[usize::from(state.ids[*robot].kind)];
+            let kind = scenario.kind_of(state.ids[*robot]);
             kind.flocking.is_some() && !state.body_states[*robot].is_external()
         };
         let robots = (0..state.robots()).filter(flocks);

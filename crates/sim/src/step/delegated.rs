@@ -1,7 +1,7 @@
 //! Decisions made outside brains, in two halves of a step.
 //!
 //! In the first half these robots sense, which changes nothing: their percepts come from copies of their
-//! backlogs. Only the second half takes the step, so that the run is unchanged if no decision comes.
+//! inputs. Only the second half takes the step, so that the run is unchanged if no decision comes.
 
 use super::decide::WorkerScratch;
 use super::external::ExternalInputs;
@@ -67,7 +67,7 @@ type Chunk<'a, 'm> = (
 );
 
 impl WorkerScratch {
-    /// Lets one robot sense whose brain steps now, and leaves its backlog as it is.
+    /// Lets one robot sense whose brain steps now, and leaves its inputs as they are.
     fn request_decision(
         &mut self,
         view: &View,
@@ -75,9 +75,9 @@ impl WorkerScratch {
         agent: &mut Agent,
         decision: &mut PendingDecision,
     ) {
-        let before = agent.backlog.clone();
+        let before = agent.inputs.clone();
         self.perceive(view, robot, agent);
-        decision.backlog = std::mem::replace(&mut agent.backlog, before);
+        decision.inputs = std::mem::replace(&mut agent.inputs, before);
         std::mem::swap(&mut decision.percept, &mut self.percept);
         (decision.number, decision.robot) = (robot, view.ids[robot]);
         decision.command.motion = Motion::default();

@@ -107,8 +107,8 @@ radio = { range_m = 5 }
     }
 
     fn waiting(simulation: &Simulation) -> usize {
-        let backlog = simulation.state().agents[1].backlog.as_ref().unwrap();
-        backlog.inbox.entries.len()
+        let inputs = &simulation.state().agents[1].inputs;
+        inputs.participant.as_ref().unwrap().inbox.entries.len()
     }
 
     #[test]

@@ -75,7 +75,7 @@ fn flock_step_some(
         if place % AT_ONCE == 0 {
             flocks.turn_rates_from(first + place, &mut turn_rates);
         }
-        let kind = &scenario.kinds[usize::from(id.kind)];
+        let kind = scenario.kind_of(*id);
         if body_state.status != Status::Active {
             agent.setpoint = Motion::default();
         } else if let Some(flocking) = kind.flocking.as_ref().filter(|_| !body_state.is_external())

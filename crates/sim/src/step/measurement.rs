@@ -176,7 +176,7 @@ impl Measurement<'_> {
             ..self.frame
         };
         let place = view.scenario.image(frame.at, view.discs[other].centre);
-        let entity = view.scenario.entity(view.ids[other]);
+        let entity = view.kind(other).entity(view.ids[other].index);
         let (range_m, bearing_rad) = polar(detector.measure(&frame, place, entity)?);
         let [own_rad, its_rad] =
             [self.robot, other].map(|robot| view.orientations[robot].heading_rad);

@@ -191,14 +191,12 @@ impl Piece {
         robot: usize,
     ) {
         let (id, centre) = (ids[robot], discs[robot].centre);
-        let kind = &scenario.kinds[usize::from(id.kind)];
+        let kind = scenario.kind_of(id);
         let skin_m = scenario.skin_m;
         let reach_m = reach_m[usize::from(id.kind)] + skin_m;
         let is_one_layer = scenario.is_one_layer();
-        let is_in_layer = |other: u32| {
-            let other_kind = usize::from(ids[other as usize].kind);
-            is_one_layer || scenario.kinds[other_kind].layer == kind.layer
-        };
+        let is_in_layer =
+            |other: u32| is_one_layer || scenario.kind_of(ids[other as usize]).layer == kind.layer;
         let near = buckets.near(centre, reach_m);
         let contact_m = scenario.contact_m + skin_m;
         let near = near.map(|(place, other)| (centre.to(*place).length_squared(), *other));

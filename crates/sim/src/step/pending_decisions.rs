@@ -1,8 +1,7 @@
 //! Robots whose decisions are made outside their brains: what they perceive, and what is decided.
 
 use crate::judge::detections::Detections;
-use crate::run::agent::Agent;
-use crate::sensors::backlog::Backlog;
+use crate::run::agent::{Agent, Inputs};
 use brain::{Command, Percept, RobotId};
 
 /// A robot whose brain would step now, and whose decision is made elsewhere.
@@ -16,7 +15,7 @@ pub struct PendingDecision {
     pub command: Command,
     pub(super) number: usize,
     /// What waits for it after this percept.
-    pub(super) backlog: Option<Box<Backlog>>,
+    pub(super) inputs: Inputs,
 }
 
 /// All decisions of one step that are made elsewhere, and what the judge counts of these percepts.
@@ -34,11 +33,11 @@ impl PendingDecisions {
         Some(&self.robots[place.ok()?])
     }
 
-    /// Removes from the backlogs of these robots what their percepts contained.
+    /// Removes from the inputs of these robots what their percepts contained.
     pub(crate) fn settle(&mut self, agents: &mut [Agent]) {
         for robot in &mut self.robots {
             if let Some(agent) = agents.get_mut(robot.number) {
-                agent.backlog = robot.backlog.take();
+                agent.inputs = std::mem::take(&mut robot.inputs);
             }
         }
     }

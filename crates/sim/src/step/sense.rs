@@ -29,7 +29,7 @@ pub(crate) fn sense(
 ) {
     scratch.buffers.begin_robot();
     for measurement in due(view, robot, agent.sensors_off) {
-        let destination = match &mut agent.backlog {
+        let destination = match &mut agent.inputs.backlog {
             Some(backlog) if !measurement.sensor.delivers_at_once() => measurement.later(backlog),
             // Kinds without backlog have only sensors that deliver at once.
             _ => Destination::Percept {
@@ -39,9 +39,12 @@ pub(crate) fn sense(
         };
         measurement.take(&mut scratch.buffers, destination);
     }
-    if let Some(backlog) = &mut agent.backlog {
+    if let Some(backlog) = &mut agent.inputs.backlog {
         deliver(view, robot, backlog, scratch, percept);
     }
+    agent
+        .inputs
+        .deliver_messages(view.tick, view.scenario.step_s, percept);
 }
 
 /// Takes the measurements of a robot between two steps of its brain; they wait in its backlog.
@@ -51,7 +54,7 @@ pub(crate) fn sense_between_steps(
     agent: &mut Agent,
     scratch: &mut SensingScratch,
 ) {
-    let Some(backlog) = &mut agent.backlog else {
+    let Some(backlog) = &mut agent.inputs.backlog else {
         return;
     };
     backlog.forget_detections(view.tick);

@@ -86,7 +86,7 @@ impl StepScratch {
         };
         state.note_completion(scenario, is_counted);
         state.tick += 1;
-        communicate::deliver(scenario, state);
+        communicate::deliver(state);
     }
 
     fn is_shared(&self, state: &State) -> bool {
@@ -175,10 +175,10 @@ impl StepScratch {
             return None;
         }
         let agent = &mut agents[robot];
-        let backlog = agent.backlog.clone();
+        let inputs = agent.inputs.clone();
         let mut worker = WorkerScratch::default();
         worker.perceive(&view, robot, agent);
-        agent.backlog = backlog;
+        agent.inputs = inputs;
         Some(worker.percept)
     }
 

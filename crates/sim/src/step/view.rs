@@ -6,6 +6,7 @@ use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;
 use crate::bodies::path::Orientation;
 use crate::run::agent::Agent;
+use crate::run::participant::Participant;
 use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::SensorFrame;
@@ -25,6 +26,7 @@ pub(crate) struct View<'a> {
     pub(crate) body_states: &'a [BodyState],
     pub(crate) noises: &'a [Noise],
     pub(crate) items: &'a Items,
+    pub(crate) stations: &'a [Participant],
     pub(crate) neighbours: &'a Neighbours,
     pub(crate) has_external_bodies: bool,
 }
@@ -32,7 +34,7 @@ pub(crate) struct View<'a> {
 impl<'a> View<'a> {
     #[inline]
     pub(crate) fn kind(&self, robot: usize) -> &'a Kind {
-        &self.scenario.kinds[usize::from(self.ids[robot].kind)]
+        self.scenario.kind_of(self.ids[robot])
     }
 
     /// Where one sensor of a robot measures from, and the random numbers of one measurement.
@@ -68,12 +70,6 @@ impl<'a> View<'a> {
         self.is_simulated(robot) && self.kind(robot).schedule.due(self.tick).is_some()
     }
 
-    /// Whether it can receive messages at all.
-    pub(crate) fn is_listening(&self, robot: usize) -> bool {
-        let body_state = &self.body_states[robot];
-        body_state.status == Status::Active && self.kind(robot).radio.is_some()
-    }
-
     #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
     pub(crate) fn time_s(&self) -> f64 {
         self.tick as f64 * self.scenario.step_s
@@ -96,6 +92,7 @@ impl State {
             body_states: &self.body_states,
             noises: &self.noises,
             items: &self.items,
+            stations: &self.stations,
             neighbours,
             has_external_bodies: self.body_states.iter().any(BodyState::is_external),
         };

@@ -3,8 +3,9 @@
 It is `python -m agent_economy.server.live`. On its standard input it reads JSON, one object a line:
 
 * `{"type": "start", "fleet", "scenario": {"file", "text", "files"}, "seed", "external", "origin",
-  "fences_m", "warden": {"port", "token"}, "port"}`, once. `files` are those that the scenario refers to, in
-  base 64. `port` is where to serve the page: that of the server that it replaces, or null.
+  "fences_m", "warden": {"port", "token"}, "port"}`, once. `files` are those that the scenario
+  refers to, in base 64. `port` is where to serve the page: that of the server that it replaces, or
+  null.
 * `{"type": "input", "tick", "inputs"}` for each step, from the first one on: the percepts of the
   robots whose brains step in it.
 

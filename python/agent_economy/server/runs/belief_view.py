@@ -14,38 +14,53 @@ from agent_economy.types.page import Inspection, MapPart
 
 
 class Selected:
-    """The selected robot, and what the page has been sent of its belief map.
+    """The selected robot, its last decision, and what the page has been sent of its belief map.
 
-    A map has up to 65,000 cells, and a step changes few of them: the page is sent the smallest
-    rectangle that contains all changes.
+    A run inspects one robot at a time. While other pages have selected other robots, the decision
+    is the last one that was found. A map has up to 65,000 cells, and a step changes few of them:
+    the page is sent the smallest rectangle that contains all changes.
     """
 
     def __init__(self) -> None:
         """Begin with no robot selected."""
         self._robot: str | None = None
         self._map: BelievedMap | None = None
+        self._decision: dict[str, Any] | None = None
+        # Whether another page has ended the inspection, and the brain has not stepped since.
+        self._is_reset = False
 
     def choose(self, robot: str | None) -> None:
         """Select a robot, or none; of a robot that does not exist nothing is sent."""
         self._robot, self._map = robot, None
+        self._decision, self._is_reset = None, False
 
     def inspection(self, simulation: Simulation) -> Inspection | None:
-        """Return what the robot perceives, decides and believes."""
-        robot = self._select(simulation)
+        """Return what the robot perceives, decides and believes; None if it does not exist now."""
+        robot, is_other = self._robot, simulation._inspected != self._robot  # noqa: SLF001  (ours)
+        try:
+            simulation.inspect(robot)
+        except InputError:
+            return None
         if robot is None:
             return None
-        inspection: Any = simulation.inspection()
-        if inspection is None:
-            inspection = dict.fromkeys(brain.Inspection.__annotations__)
-            inspection["belief_state"] = simulation.belief_state(robot)
-        return cast("Inspection", {**inspection, "robot": robot})
+        found: Any = simulation.inspection()
+        self._is_reset = found is None and (self._is_reset or is_other)
+        if not (self._is_reset and is_active(simulation, robot)):
+            self._decision = found
+        if found is None:
+            found = self._decision or dict.fromkeys(brain.Inspection.__annotations__)
+            found = {**found, "belief_state": simulation.belief_state(robot)}
+        return cast("Inspection", {**found, "robot": robot})
 
     def map(self, simulation: Simulation) -> MapPart | None:
         """Return the changes of the robot's map since the last call; None if there are none."""
-        robot = self._select(simulation)
+        robot = self._robot
         if robot is None:
             return None
-        before, now = self._map, simulation.believed_map(robot)
+        try:
+            before, now = self._map, simulation.believed_map(robot)
+        except InputError:
+            return None
         self._map = now
         if now is None:
             return None
@@ -69,13 +84,10 @@ class Selected:
     def details(self, simulation: Simulation) -> None:
         """Return None: the inspection contains everything."""
 
-    def _select(self, simulation: Simulation) -> str | None:
-        """Select the robot for inspection, and return its name; None if it does not exist now."""
-        try:
-            simulation.inspect(self._robot)
-        except InputError:
-            return None
-        return self._robot
+
+def is_active(simulation: Simulation, robot: str) -> bool:
+    """Return whether a robot can decide anything."""
+    return bool(simulation.status[simulation.robots.index(robot)] == "active")
 
 
 Span = tuple[int, int]

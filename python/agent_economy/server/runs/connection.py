@@ -129,7 +129,7 @@ class PageConnection:
             path = message.path if isinstance(message, page.Change) else None
             self.post(messages.refused(messages.type_of(message), error, path))
         else:
-            # A page requests the series after each state: a state in return would never end.
+            # The page requests the series after each state: another state would follow without end.
             if not isinstance(message, page.RequestSeries):
                 self._display.refresh()
 

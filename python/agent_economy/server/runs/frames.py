@@ -41,6 +41,7 @@ def setting(run: Run, generation: int) -> Setting:
         "step_s": simulation.step_s,
         "document": _core.read_filled(simulation.scenario.source),
         "robots": simulation.robots,
+        "external": simulation.declared_external,
         "changes": simulation.changes,
         "log": None if run.is_recorded else log,
     }

@@ -72,13 +72,21 @@ def by_line(error: Error) -> list[Error]:
     if error["path"]:
         return [error]
     lines = str(error["message"]).splitlines()
-    return [{**error, "message": line, "path": path_of(line)} for line in lines]
+    parts = map(path_and_message, lines)
+    return [{**error, "path": path, "message": message} for path, message in parts]
 
 
-def path_of(line: str) -> str:
-    """Return the path of "delta = -1: must be ..."; empty if a line does not begin with one."""
-    path, equals, _ = line.partition(" = ")
-    return path if equals and " " not in path else ""
+def path_and_message(line: str) -> tuple[str, str]:
+    """Return path and message of "delta = -1: must be ...", without a file and line before it.
+
+    The path is empty if the line has none.
+    """
+    before, equals, _ = line.partition(" = ")
+    origin, colon, path = before.rpartition(": ")
+    is_path = bool(equals) and " " not in path
+    if not is_path:
+        return "", line
+    return path, line.removeprefix(origin + colon)
 
 
 def plan(request: Any, workspace: Workspace) -> Plan:

@@ -15,6 +15,7 @@ from agent_economy.study.answer.side_statements import Omission, SideStatements
 from agent_economy.study.answer.verdict import Verdict, as_html, verdict
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Best
+from agent_economy.study.store.ledger import Answered
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class Answer:
     efforts: tuple[Effort, ...]
     published: tuple[PublishedResult, ...]
     omissions: tuple[Omission, ...] = ()
-    questions: tuple[str, ...] = ()
+    questions: tuple[Answered, ...] = ()
 
     def __repr__(self) -> str:
         """Return the verdict and the number of runs."""

@@ -13,6 +13,7 @@ from functools import cached_property
 from agent_economy import _core
 from agent_economy.study.arguments import Floats
 from agent_economy.study.equality import EqualByValue
+from agent_economy.study.teams import rounded
 
 Limits = tuple[float, float]
 
@@ -43,7 +44,8 @@ class Sample(EqualByValue):
     Attributes:
         values: Values of the varied factors, by path.
         columns: By name, shape (runs,): the quantities of the question, such as those of
-            `QUANTITIES`, "robots", and "price" if the simulator has prices.
+            `QUANTITIES`, "robots", and "price" if the simulator has prices. About a requirement,
+            "quarantined" is 1 in a quarantined run; in other columns, it has the greatest value.
         limits: By name, the range of a column.
         quarantined: Number of runs without a finite merit, which count as the worst.
     """
@@ -68,8 +70,8 @@ class Sample(EqualByValue):
         """Price of its robots; 0 if the simulator has no prices."""
         if "price" not in self.columns:
             return 0.0
-        # Every run has the same one, which is a sum: equal prices must not differ by rounding.
-        return float(f"{self.columns['price'][0]:.12g}")
+        # Every run has the same one.
+        return rounded(float(self.columns["price"][0]))
 
     def mean(self, name: str) -> float:
         """Return the mean of a column."""

@@ -9,6 +9,7 @@ import numpy as np
 from agent_economy import _core
 from agent_economy.scenario.requirement import of_success
 from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.arguments import Floats
 
 SHARES = (0.5, 0.9, 0.95)
 """The median and two high quantiles: a mean with a time limit hides the runs that take long."""
@@ -16,24 +17,26 @@ SHARES = (0.5, 0.9, 0.95)
 
 @dataclass(frozen=True)
 class Quantile:
-    """A quantile with its bounds; None stands for infinity, such as a time that is never reached.
+    """A quantile with its bounds; infinite numbers stand for what is never reached.
 
     Attributes:
         share: The share of runs at or below it.
         value: The quantile of the runs.
-        low: Its lower bound.
-        high: Its upper bound.
+        low: Its lower bound; None if too few runs are known for one.
+        high: Its upper bound; infinite also if too few runs are known for one.
     """
 
     share: float
-    value: float | None
+    value: float
     low: float | None
-    high: float | None
+    high: float
 
 
 @dataclass(frozen=True)
 class Quantiles:
     """The quantiles of one column of a configuration.
+
+    A quarantined run never succeeds; columns other than times leave it out.
 
     The quantiles of all configurations and columns of an answer hold simultaneously, as a statement
     of their own with the confidence of the answer.
@@ -57,27 +60,35 @@ def quantiles_of(
         return ()
     sides = 2 * len(SHARES) * len(columns) * len(evidence.samples)
     alpha = (1 - evidence.confidence) / sides
-    return tuple(quantiles(sample, column, alpha) for column in columns)
+    found = ((column, observed(sample, column)) for column in columns)
+    return tuple(quantiles(column, values, alpha) for column, values in found if len(values))
 
 
-def quantiles(sample: Sample, column: str, alpha: float) -> Quantiles:
+def observed(sample: Sample, column: str) -> Floats:
+    """Return the values of a column that have a distribution, in ascending order.
+
+    In a quarantined run, a time is infinite; another column has no value.
+    """
+    values = of_success(sample.columns, column)
+    if not column.endswith("_s"):
+        values = values[sample.columns["quarantined"] == 0]
+    return np.sort(values)
+
+
+def quantiles(column: str, ordered: Floats, alpha: float) -> Quantiles:
     """Return the quantiles of a column; each bound is wrong with a probability of `alpha`."""
-    ordered = np.sort(of_success(sample.columns, column))
     return Quantiles(
         column=column,
         quantiles=tuple(
             Quantile(
                 share,
                 # The smallest value at or below which this share of the runs lies.
-                finite(float(ordered[max(0, math.ceil(share * len(ordered) - 1e-9) - 1)])),
-                *map(finite, _core.quantile_bounds(ordered, share, alpha)),
+                float(ordered[max(0, math.ceil(share * len(ordered) - 1e-9) - 1)]),
+                None if low == -math.inf else low,
+                high,
             )
             for share in SHARES
+            for low, high in [_core.quantile_bounds(ordered, share, alpha)]
         ),
         never=float(np.isinf(ordered).mean()),
     )
-
-
-def finite(number: float) -> float | None:
-    """Return a number; None if it is infinite."""
-    return number if math.isfinite(number) else None

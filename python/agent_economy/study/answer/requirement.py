@@ -17,6 +17,7 @@ from agent_economy.study.answer.requirement_words import (
 from agent_economy.study.answer.verdict import Verdict, as_html
 from agent_economy.study.plan import Plan
 from agent_economy.study.question import Cheapest
+from agent_economy.study.store.ledger import Answered
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ class RequirementAnswer:
     cost: str
     selected: int | None
     results: tuple[RequirementResult, ...]
-    questions: tuple[str, ...] = ()
+    questions: tuple[Answered, ...] = ()
 
     def __repr__(self) -> str:
         """Return the verdict and the number of runs."""
@@ -82,8 +83,12 @@ def conclude_requirement(
     return RequirementAnswer(
         scenario=plan.scenario,
         seed=plan.seed,
-        verdict=requirement_verdict(question, found, plan.confidence),
-        sentence=sentence(question, found, plan.confidence, ending.obstacle),
+        verdict=requirement_verdict(
+            question, found, plan.confidence, ending.obstacle, is_over=ending.is_over
+        ),
+        sentence=sentence(
+            question, found, plan.confidence, ending.obstacle, is_over=ending.is_over
+        ),
         guarantee=guarantee(question, found, plan.confidence, is_over=ending.is_over),
         is_guaranteed=ending.is_over,
         confidence=plan.confidence,

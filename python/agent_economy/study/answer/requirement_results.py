@@ -1,6 +1,7 @@
 """The results of each configuration of a study of a requirement."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from agent_economy.scenario import Requirement, Value
@@ -9,6 +10,7 @@ from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
 from agent_economy.study.plan import Plan
 from agent_economy.study.selection import Elimination
+from agent_economy.study.teams import rounded
 
 Status = Literal["selected", "certified", "refuted", "open", "not needed", "impossible"]
 
@@ -31,6 +33,11 @@ class RequirementEnding:
     is_over: bool
     obstacle: str = ""
 
+    @cached_property
+    def refuted(self) -> frozenset[int]:
+        """The refuted configurations."""
+        return frozenset(each.configuration for each in self.eliminations)
+
 
 @dataclass(frozen=True)
 class RequirementResult:
@@ -46,11 +53,11 @@ class RequirementResult:
         status: "selected": the cheapest certified one. "certified": it meets the requirement.
             "refuted": its share is below probability + tolerance. "open": neither is shown. "not
             needed": neither is shown either, but one that is not dearer is certified.
-            "impossible": it cannot be run.
+            "impossible": all its runs are quarantined, so that it is refuted or will be.
         met: The share of runs that meet the requirement; the intervals of all configurations hold
             simultaneously. None without runs.
-        failing: The share of runs in which each condition does not hold, in their order; empty
-            without runs.
+        failing: The share of runs in which each condition does not hold, in their order;
+            quarantined runs included. Empty without runs.
         quantiles: Quantiles of the columns of the conditions.
     """
 
@@ -99,10 +106,10 @@ def status(plan: Plan, evidence: Evidence, ending: RequirementEnding, index: int
         return "selected"
     if index in ending.certified:
         return "certified"
-    if any(index == each.configuration for each in ending.eliminations):
-        return "refuted"
     if sample.runs and not sample.is_possible:
         return "impossible"
+    if index in ending.refuted:
+        return "refuted"
     is_cheaper = ending.selected is None or plan.costs[index] < plan.costs[ending.selected]
     return "open" if is_cheaper else "not needed"
 
@@ -116,7 +123,8 @@ def failing(sample: Sample, requirement: Requirement) -> tuple[float, ...]:
     """Return the share of runs in which each condition does not hold; empty without runs."""
     if not sample.runs:
         return ()
-    holds = (condition.holds(sample.columns) for condition in requirement.conditions)
+    is_outcome = sample.columns["quarantined"] == 0
+    holds = (condition.holds(sample.columns) & is_outcome for condition in requirement.conditions)
     return tuple(float(1 - each.mean()) for each in holds)
 
 
@@ -124,6 +132,5 @@ def price(sample: Sample) -> float:
     """Return the price of a configuration's team; without prices, its number of robots."""
     low, high = sample.limits.get("price", (0.0, 0.0))
     if low == high != 0:
-        # A sum: equal prices must not differ by rounding.
-        return float(f"{low:.12g}")
+        return rounded(low)
     return float(sample.limits["robots"][1])

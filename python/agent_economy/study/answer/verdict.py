@@ -8,12 +8,16 @@ from agent_economy.scenario import Scenario
 from agent_economy.study.answer.labels import alternatives, listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.selection import percentage
+from agent_economy.study.store.ledger import Answered
 
 MAX_NAMED = 4
 """Configurations that a line names individually."""
 
 OFTEN = 0.1
 """Of a configuration whose runs fail more often than this, the failures are stated first."""
+
+MAX_IN_RUNS = 10**9
+"""Failures are counted in at most this many runs."""
 
 Verdict = tuple[str, str, str, str]
 """What to send, how it does, what does as well, and what was not looked for."""
@@ -56,18 +60,34 @@ def upper(words: str) -> str:
 def failures(result: Result) -> str:
     """Return how often runs fail: "about 2 in 100 runs fail (1 to 4)", "none of 37 runs failed"."""
     failed = result.failed
-    value, low, high = (100 * each for each in (failed.value, failed.low, failed.high))
-    if value == 0:
-        return f"none of {result.runs:,} runs failed (up to {two_figures(high)} in 100 may)"
+    if failed.value == 0:
+        return f"none of {result.runs:,} runs failed (up to {in_runs(failed.high)} may)"
     if failed.value == 1:
         return f"all of {result.runs:,} runs failed"
-    between = f"{two_figures(low)} to {two_figures(high)}"
-    return f"about {two_figures(value)} in 100 runs fail ({between})"
+    runs = runs_with_one(failed.value)
+    between = f"{two_figures(runs * failed.low)} to {two_figures(runs * failed.high)}"
+    return f"about {two_figures(runs * failed.value)} in {runs:,} runs fail ({between})"
+
+
+def in_runs(share: float) -> str:
+    """Return a share of runs: "2.6 in 1,000"."""
+    runs = runs_with_one(share)
+    return f"{two_figures(runs * share)} in {runs:,}"
+
+
+def runs_with_one(share: float) -> int:
+    """Return 100 runs, or as many times ten more as have at least one of a share, up to 10^9."""
+    runs = 100
+    while runs * share < 1 and runs < MAX_IN_RUNS:
+        runs *= 10
+    return runs
 
 
 def two_figures(number: float) -> str:
-    """Return a number as people round it: whole from 10 on, else with two figures."""
-    return f"{number:.0f}" if number >= 10 else f"{number:.2g}"  # noqa: PLR2004
+    """Return a number as people round it: whole from 10 on, else with two figures, or zero."""
+    if number >= 10:  # noqa: PLR2004
+        return f"{number:,.0f}"
+    return f"{number:.2g}" if number >= 0.01 else "0"  # noqa: PLR2004
 
 
 def others(chosen: Result, results: Sequence[Result]) -> str:
@@ -111,13 +131,17 @@ def precision(scenario: Scenario, delta: float, confidence: float) -> str:
     )
 
 
-def repeated(questions: int, confidence: float) -> str:
-    """Return what several questions about the same runs do to the error rate."""
-    error = min(1.0, questions * (1 - confidence))
+def repeated(questions: Sequence[Answered]) -> str:
+    """Return what several questions about the same runs do to the error rate.
+
+    Each promise is wrong with its own probability; together these add up at most.
+    """
+    error = min(1.0, sum(1 - each.confidence for each in questions))
     together = percentage(round(1 - error, 12))
     return (
-        f"{questions} questions were answered from these runs. Each promise holds by itself; all "
-        f"hold together with a probability of at least {together} only."
+        f"{len(questions)} questions were answered from these runs. Where an answer makes a "
+        "promise, it holds with its own confidence; all promises together hold with a probability "
+        f"of at least {together} only."
     )
 
 

@@ -47,8 +47,8 @@ def requirement_assumptions(view: RequirementView) -> Iterator[tuple[str, str]]:
 def questions(answer: AnyAnswer) -> Iterator[tuple[str, str]]:
     """Return the questions that were answered from the same runs, if there are several."""
     if len(answer.questions) > 1:
-        yield "questions", "; ".join(answer.questions)
-        yield "their promises", repeated(len(answer.questions), answer.confidence)
+        yield "questions", "; ".join(each.words for each in answer.questions)
+        yield "their promises", repeated(answer.questions)
 
 
 def scenario(answer: AnyAnswer) -> Iterator[tuple[str, str]]:

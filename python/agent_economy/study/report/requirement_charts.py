@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from agent_economy.scenario.requirement import of_success
 from agent_economy.study.answer.evidence import Sample
+from agent_economy.study.answer.quantiles import observed
 from agent_economy.study.report.chart_parts import (
     BLUE,
     GREY,
@@ -172,7 +172,7 @@ def distribution_rows(view: RequirementView, index: int) -> Rows:
 
 def ordered_values(sample: Sample, column: str) -> NDArray[np.float64]:
     """Return the values of a column in ascending order; without success, a time is infinite."""
-    return np.sort(of_success(sample.columns, column))
+    return observed(sample, column)
 
 
 def band_half_width(runs: int, alpha: float) -> float:

@@ -1,11 +1,12 @@
 """The tables of a report: the numbers of its charts, as text."""
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.labels import word
-from agent_economy.study.answer.quantiles import Quantiles
+from agent_economy.study.answer.quantiles import Quantile, Quantiles
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
@@ -263,14 +264,24 @@ QUANTILE_HEADS = ("median", "90%", "95%", "never")
 
 def quantile_cells(found: Quantiles, decimals: int) -> Iterable[Cell]:
     """Yield the cells of quantiles, and of the share of runs in which the column is infinite."""
-
-    def written(number: float | None) -> str:
-        return INFINITE if number is None else decimal(number, decimals)
-
     for each in found.quantiles:
-        low = "0" if each.low is None else decimal(each.low, decimals)
-        yield Cell(written(each.value), f"{low} to {written(each.high)}")
+        bounds = bounds_of(each, decimals)
+        yield Cell(number_or_never(each.value, decimals), bounds)
     yield Cell(percent(found.never, 1))
+
+
+def bounds_of(quantile: Quantile, decimals: int) -> str:
+    """Return the bounds of a quantile: "40 to never", "up to 60", "unknown"."""
+    low, high = quantile.low, number_or_never(quantile.high, decimals)
+    if low is None:
+        return UNKNOWN if high == INFINITE else f"up to {high}"
+    first = number_or_never(low, decimals)
+    return first if first == high == INFINITE else f"{first} to {high}"
+
+
+def number_or_never(number: float, decimals: int) -> str:
+    """Return a number; "never" if it is infinite."""
+    return INFINITE if number == math.inf else decimal(number, decimals)
 
 
 def published(view: View) -> Table:

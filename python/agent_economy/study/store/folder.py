@@ -1,7 +1,6 @@
 """A study's folder: its lock, files that are written atomically, and errors with paths."""
 
 import contextlib
-import difflib
 import errno
 import fcntl
 import os
@@ -15,6 +14,7 @@ from agent_economy._core import InputError
 from agent_economy.regular_file import IrregularFileError, descriptor_of, open_regular
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
+from agent_economy.study.store.differences import differences
 
 QUESTION = "study.toml"
 BLOCKS = "blocks"
@@ -33,9 +33,6 @@ MAX_BYTES = 2**30
 ATTEMPTS = 5
 RETRY_S = 0.02
 """Attempts at locking a folder, and the pause between two."""
-
-MAX_SHOWN = 6
-"""Maximum number of differing lines in an error."""
 
 
 @contextmanager
@@ -250,12 +247,3 @@ def read_bytes(path: Path) -> bytes | None:
             return None
     message = f"{path}: cannot be read: it is larger than the limit of {MAX_BYTES:,} bytes"
     raise StoreError(message)
-
-
-def differences(existing: str, requested: str) -> str:
-    """Return the first lines in which an existing study.toml differs from the requested one."""
-    diff = difflib.ndiff(existing.splitlines(), requested.splitlines())
-    words = {"- ": "existing", "+ ": "requested"}
-    lines = [f"  {words[line[:2]]}: {line[2:]}" for line in diff if line[:2] in words]
-    more = [f"  and {len(lines) - MAX_SHOWN} more lines"] if len(lines) > MAX_SHOWN else []
-    return "\n".join([*lines[:MAX_SHOWN], *more]) or "  they differ in line endings"

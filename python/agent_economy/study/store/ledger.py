@@ -35,10 +35,25 @@ CREATE TABLE block (
 CREATE TABLE decision (round INTEGER PRIMARY KEY, facts TEXT NOT NULL);
 """
 
-QUESTIONS = """
-CREATE TABLE IF NOT EXISTS question (number INTEGER PRIMARY KEY, words TEXT NOT NULL UNIQUE)
+ANSWERED = """
+CREATE TABLE IF NOT EXISTS answered (
+  number INTEGER PRIMARY KEY, words TEXT NOT NULL UNIQUE, confidence REAL NOT NULL
+)
 """
 """The questions that were answered from the runs; ledgers of earlier versions lack the table."""
+
+
+@dataclass(frozen=True)
+class Answered:
+    """A question that was answered from the runs.
+
+    Attributes:
+        words: The question in words; others differ from it.
+        confidence: The confidence of its promise.
+    """
+
+    words: str
+    confidence: float
 
 
 @dataclass(frozen=True)
@@ -202,24 +217,25 @@ class Ledger:
                     self._connection.execute("ROLLBACK")
                 self._connection.execute("PRAGMA synchronous = FULL")
 
-    def answered(self, question: str) -> tuple[str, ...]:
+    def answered(self, question: Answered) -> tuple[Answered, ...]:
         """Record that a question was answered; return all that were, in their order.
 
         Raises:
             StoreError: If it cannot be written.
         """
         with disk_errors(self.path):
-            self._connection.execute(QUESTIONS)
-            query = "INSERT OR IGNORE INTO question (words) VALUES (?)"
-            self._connection.execute(query, (question,))
+            self._connection.execute(ANSWERED)
+            query = "INSERT OR IGNORE INTO answered (words, confidence) VALUES (?, ?)"
+            self._connection.execute(query, (question.words, question.confidence))
         return self.questions()
 
-    def questions(self) -> tuple[str, ...]:
+    def questions(self) -> tuple[Answered, ...]:
         """Return the questions that were answered, in their order."""
-        query = "SELECT count(*) FROM sqlite_master WHERE name = 'question'"
+        query = "SELECT count(*) FROM sqlite_master WHERE name = 'answered'"
         if self._rows(query) == [(0,)]:
             return ()
-        return tuple(words for (words,) in self._rows("SELECT words FROM question ORDER BY number"))
+        rows = self._rows("SELECT words, confidence FROM answered ORDER BY number")
+        return tuple(Answered(*row) for row in rows)
 
     def _rows(self, query: str, *values: object) -> list[tuple[Any, ...]]:
         with disk_errors(self.path, "read as a ledger"):
@@ -302,7 +318,7 @@ def snapshot(path: Path) -> tuple[tuple[Column, ...], list[BlockFile], list[Deci
         return ledger.columns(), ledger.block_files(), ledger.decisions()
 
 
-def questions(path: Path) -> tuple[str, ...]:
+def questions(path: Path) -> tuple[Answered, ...]:
     """Return the questions that were answered from the runs of a ledger, in their order.
 
     Raises:

@@ -17,7 +17,7 @@ from agent_economy.study.run_block import Columns, Compute, Gathered, RunBlock
 from agent_economy.study.store import folder as files
 from agent_economy.study.store.columns import Column
 from agent_economy.study.store.coverage import Coverage, split
-from agent_economy.study.store.ledger import BlockFile, Decision, questions, snapshot
+from agent_economy.study.store.ledger import Answered, BlockFile, Decision, questions, snapshot
 from agent_economy.study.store.staging import staged_rows
 from agent_economy.study.store.writing import check_files, read_block
 
@@ -121,7 +121,7 @@ class StoredRuns:
     folder: Path
     columns: tuple[Column, ...]
     coverage: Coverage
-    questions: tuple[str, ...] = ()
+    questions: tuple[Answered, ...] = ()
     computed: int = 0
     pending: int = 0
 
@@ -142,7 +142,7 @@ class StoredRuns:
                 gathered.put(file.block, data, configurations)
         return gathered.columns
 
-    def answered(self, question: str) -> tuple[str, ...]:  # noqa: ARG002  (as Store's)
+    def answered(self, question: Answered) -> tuple[Answered, ...]:  # noqa: ARG002  (as Store's)
         """Record nothing; return the questions that were answered."""
         return self.questions
 

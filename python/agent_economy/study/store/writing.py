@@ -25,7 +25,7 @@ from agent_economy.study.store import folder as files
 from agent_economy.study.store import parquet
 from agent_economy.study.store.columns import Column, check_names
 from agent_economy.study.store.coverage import Coverage, split
-from agent_economy.study.store.ledger import BlockFile, Decision, Ledger
+from agent_economy.study.store.ledger import Answered, BlockFile, Decision, Ledger
 from agent_economy.study.store.staging import Staging
 
 
@@ -114,7 +114,7 @@ class Store:
         """Close it; then another process may open it."""
         self._opened.close()
 
-    def answered(self, question: str) -> tuple[str, ...]:
+    def answered(self, question: Answered) -> tuple[Answered, ...]:
         """Record that a question was answered from the runs; return all that were, in order."""
         return self._ledger.answered(question)
 

@@ -544,6 +544,8 @@ export interface Setting {
   document: Record<string, Json>;
   /** The names of the robots, in the order of frames. */
   robots: string[];
+  /** The names of the robots that had external bodies from the start, such as real robots. */
+  external: string[];
   /** The changes up to now. */
   changes: LoggedChange[];
   /** The changes up to the latest tick; null if they are those of the recording. */

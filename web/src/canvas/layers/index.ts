@@ -2,6 +2,7 @@ import { beliefMap, unseen } from "./belief_map";
 import { beliefs } from "./beliefs";
 import { border, ground } from "./border";
 import { contact } from "./contact";
+import { external } from "./external";
 import { footprints } from "./footprints";
 import { grid } from "./grid";
 import { headings } from "./headings";
@@ -34,6 +35,7 @@ export const layers: Layer[] = [
   trails,
   headings,
   beliefs,
+  external,
   selection,
   preview,
 ];

@@ -11,7 +11,7 @@ export type Phase =
   | { name: "refused"; errors: InputError[] }
   | { name: "ended"; ended: Ended };
 
-/** The phase after the connection is lost; null if it is not to be restored. */
+/** The phase after the connection is lost; null if it is not to be restored. Without `state`, nothing is resumed. */
 export function lostPhase(phase: Phase, state: State | null, retry_ms: number): Phase | null {
   const { name } = phase;
   if (name === "refused" || name === "ended") return null;

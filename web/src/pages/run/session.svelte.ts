@@ -23,6 +23,7 @@ import type { Link } from "../../shared/link";
 import { Throttle } from "../../shared/throttle";
 import { Exports } from "./exports";
 import { lostPhase, type Phase } from "./phase";
+import { SentChanges } from "./sent_changes";
 import { Series } from "./series";
 
 /** The run of an address, with its text unpacked. */
@@ -59,6 +60,8 @@ export class Session implements Listener {
   saved = $state.raw<{ recording: RecordingEntry; changes: string } | null>(null);
   /** Changes that were made while the server was away, by path: they are sent when it is back. */
   unsent = $state.raw<Record<string, PendingChange>>({});
+  /** Paths of changes that were sent before the connection was lost, and not confirmed: they are lost. */
+  lostChanges = $state.raw<string[]>([]);
   /** A change of a run that is over, until the user has decided about it. */
   afterEnd = $state.raw<{ path: string; value: Json } | null>(null);
   /** Incremented when `series` changes. */
@@ -80,6 +83,7 @@ export class Session implements Listener {
   private drawnAt_ms = 0;
   private stateAt_ms = 0;
   private savedChanges = "";
+  private readonly sentChanges = new SentChanges();
   private readonly exports = new Exports();
   /** Whether the answer to a request for the series has yet to arrive. */
   private awaitsSeries = false;
@@ -126,22 +130,27 @@ export class Session implements Listener {
     return this.opened?.scenario.engine === "classic";
   }
 
+  /** Whether real robots drive it: it can be neither moved nor changed. */
+  get isLive(): boolean {
+    return this.source.live;
+  }
+
   // Commands.
 
   play(speed: Speed): void {
-    this.send({ type: "play", speed });
+    this.control({ type: "play", speed });
   }
 
   pause(): void {
-    this.send({ type: "pause" });
+    this.control({ type: "pause" });
   }
 
   step(steps: number): void {
-    this.send({ type: "step", steps });
+    this.control({ type: "step", steps });
   }
 
   go(tick: number): void {
-    this.send({ type: "seek", tick });
+    this.control({ type: "seek", tick });
   }
 
   /**
@@ -149,6 +158,7 @@ export class Session implements Listener {
    * over would have no effect: the user decides about it.
    */
   change(path: string, value: Json, replaces_last = false): void {
+    if (this.isLive) return;
     if (this.state?.is_over && this.state.tick > 0) this.afterEnd = { path, value };
     else this.changes.put(path, { value, replaces_last });
   }
@@ -163,7 +173,8 @@ export class Session implements Listener {
   }
 
   undo(): void {
-    this.send({ type: "undo" });
+    this.sentChanges.forget();
+    this.control({ type: "undo" });
   }
 
   /** Saves a recording of the run, unless one is being saved. */
@@ -214,7 +225,8 @@ export class Session implements Listener {
   }
 
   lost(retry_ms: number): void {
-    const phase = lostPhase(this.phase, this.state, retry_ms);
+    const phase = lostPhase(this.phase, this.isLive ? null : this.state, retry_ms);
+    this.lostChanges = [...this.lostChanges, ...this.sentChanges.takeUnconfirmed()];
     this.awaitsSeries = false;
     this.exports.fail();
     if (!phase) {
@@ -267,6 +279,7 @@ export class Session implements Listener {
   private receiveSetting(setting: Setting): void {
     this.series.renew(setting.step_s);
     this.setting = setting;
+    this.sentChanges.confirm(setting);
     this.refusals = {};
     this.onFrame();
   }
@@ -306,6 +319,7 @@ export class Session implements Listener {
 
   private receiveRefusal({ about, path, errors }: Refused): void {
     const text = errors.map((error) => error.message).join(" ");
+    if (about === "change") this.sentChanges.forget(path);
     if (about === "save") this.saving = null;
     if (about === "export") this.exports.fail(text);
     if (about === "open") {
@@ -324,6 +338,7 @@ export class Session implements Listener {
 
   /** Opens the run at its current state, so that it continues after reconnecting. */
   private opening(): PageMessage {
+    if (this.isLive) return { type: "open", live: true };
     const { scenario, text, study, recording, seed, run } = this.source;
     const changes: Change[] | null = this.setting ? this.setting.log : this.source.changes;
     const { tick } = this;
@@ -333,8 +348,19 @@ export class Session implements Listener {
 
   /** Sends a change, or keeps it until the server is back. */
   private sendChange(path: string, change: PendingChange): void {
-    if (this.phase.name !== "lost" && this.send({ type: "change", path, ...change })) return;
+    this.lostChanges = this.lostChanges.filter((lost) => lost !== path);
+    if (this.phase.name !== "lost" && this.send({ type: "change", path, ...change })) {
+      this.sentChanges.sent(path, change.value);
+      // A value that is set already changes nothing, and no setting follows.
+      if (this.setting) this.sentChanges.confirm(this.setting);
+      return;
+    }
     this.unsent = { ...this.unsent, [path]: { ...change, replaces_last: false } };
+  }
+
+  /** Sends a command that moves or changes the run. */
+  private control(command: PageMessage): void {
+    if (!this.isLive) this.send(command);
   }
 
   private send(command: PageMessage): boolean {

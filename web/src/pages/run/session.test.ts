@@ -1,7 +1,7 @@
-import { beforeEach, expect, test } from "vitest";
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { Socket } from "../../api/connection";
-import type { ServerMessage, State } from "../../api/protocol";
-import { emptyLink } from "../../shared/link";
+import type { Change, ServerMessage, State } from "../../api/protocol";
+import { emptyLink, type Link } from "../../shared/link";
 import { Session } from "./session.svelte";
 
 let sockets: (Socket & { sent: Record<string, unknown>[] })[];
@@ -29,10 +29,20 @@ function showState(rest: Partial<State>): void {
   });
 }
 
+function showSetting(log: Change[]): void {
+  receive({ type: "setting", generation: 1, step_s: 0.1, document: {}, robots: [], changes: log, log });
+}
+
 beforeEach(() => {
+  vi.useFakeTimers();
+  start({ ...emptyLink, scenario: "search" });
+});
+afterEach(() => void vi.useRealTimers());
+
+function start(link: Link): void {
   sockets = [];
   session = new Session(
-    { ...emptyLink, scenario: "search", text: null },
+    { ...link, text: null },
     {
       connect: () => {
         const sent: Record<string, unknown>[] = [];
@@ -48,7 +58,7 @@ beforeEach(() => {
     },
   );
   session.start();
-});
+}
 
 test("a run is open once the server confirms it, and lost until it does again", () => {
   expect(session.phase).toEqual({ name: "opening" });
@@ -84,6 +94,62 @@ test("changes made while the server is away are sent once, when the run is open 
   const change = { type: "change", path: "robots.rover.count", value: 6, replaces_last: false };
   expect(sent("change")).toEqual([change]);
   expect(session.unsent).toEqual({});
+});
+
+test("a change that was sent and not confirmed is lost with the connection, unless it is made again", () => {
+  connect();
+  showSetting([]);
+  session.change("robots.rover.count", 6);
+  showSetting([[9, "robots.rover.count", 6]]);
+  last().onclose?.();
+  expect(session.lostChanges).toEqual([]);
+  retry();
+  connect();
+  vi.advanceTimersByTime(1000);
+  session.change("robots.rover.count", 7);
+  last().onclose?.();
+  expect(session.lostChanges).toEqual(["robots.rover.count"]);
+  retry();
+  connect();
+  expect(sent("change")).toEqual([]);
+  expect(session.lostChanges).toEqual(["robots.rover.count"]);
+  vi.advanceTimersByTime(1000);
+  session.change("robots.rover.count", 7);
+  expect(session.lostChanges).toEqual([]);
+});
+
+test("a change that was refused or undone is not lost", () => {
+  connect();
+  session.change("robots.rover.count", -1);
+  receive({ type: "refused", about: "change", path: "robots.rover.count", errors: [{ message: "No." }] });
+  last().onclose?.();
+  expect(session.lostChanges).toEqual([]);
+  retry();
+  connect();
+  session.change("robots.rover.count", 5);
+  session.undo();
+  last().onclose?.();
+  expect(session.lostChanges).toEqual([]);
+});
+
+test("a live run is joined, also again, and nothing that moves or changes it is sent", () => {
+  start({ ...emptyLink, live: true, seed: null, robot: "bender/0" });
+  connect();
+  showSetting([]);
+  showState({ is_playing: true, speed: 1 });
+  session.play(1);
+  session.pause();
+  session.step(1);
+  session.go(3);
+  session.undo();
+  session.change("robots.bender.count", 6);
+  expect(last().sent.map(({ type }) => type)).toEqual(["open", "select", "request_series"]);
+  expect(sent("open")).toEqual([{ type: "open", live: true }]);
+  last().onclose?.();
+  retry();
+  connect();
+  expect(last().sent.map(({ type }) => type)).toEqual(["open", "select"]);
+  expect(sent("open")).toEqual([{ type: "open", live: true }]);
 });
 
 test("an export is refused while the server is away, and when the connection is lost", async () => {

@@ -63,14 +63,15 @@ export class Viewer implements Host {
     if (runs) this.label = runs.label;
   }
 
-  /** The seed; null until the server has sent the study's seed. */
+  /** The seed; null until the server has sent that of a study or of the live run. */
   get seed(): string | null {
     return this.session.opened?.seed ?? this.link.seed;
   }
 
   /** Seed and run number; for a study, the run number is in the title. */
   get subtitle(): string {
-    const { study, recording } = this.link;
+    const { study, recording, live } = this.link;
+    if (live) return this.session.opened ? `live, seed ${this.seed}` : "live";
     const { run } = this.session.opened ?? this.link;
     return `seed ${this.seed ?? "…"}${study ? "" : `, run ${run}`}${recording === null ? "" : ", recorded"}`;
   }

@@ -1,0 +1,86 @@
+//! Participants: what sends and receives messages, and can be addressed.
+//!
+//! Participants are numbered: first all robots, also those without a radio, and then the stations,
+//! which have no body. Radio and delivery use nothing else of a run.
+
+use crate::bodies::Layer;
+use crate::bodies::body_state::{BodyState, Status};
+use crate::radio::Radio;
+use crate::radio::channel::Transmission;
+use crate::sensors::pending::{Pending, PendingQueue};
+use base::geometry::Point;
+use base::noise::Noise;
+use base::random::Entity;
+use brain::{ReceivedMessage, RobotId};
+use std::collections::BTreeMap;
+
+/// A participant in communication: a robot that has a radio, or a station.
+#[derive(Debug, Clone)]
+pub(crate) struct Participant {
+    pub(crate) id: RobotId,
+    pub(crate) place: Place,
+    pub(crate) radio: Radio,
+    /// Its key in the random streams of other participants.
+    pub(crate) key: Entity,
+    pub(crate) noise: Noise,
+    /// Received messages that its agent has not read.
+    pub(crate) inbox: PendingQueue<ReceivedMessage>,
+}
+
+/// Where a participant is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// Aboard the robot of this number: it works only while the robot does.
+    Aboard(u32),
+    /// At a fixed point. Obstacles hide it as they hide robots of the layer.
+    #[cfg_attr(not(test), expect(dead_code, reason = "no scenario has stations yet"))]
+    Fixed(Point, Layer),
+}
+
+impl Participant {
+    /// A participant of a run without any messages; `key` is its key in random streams.
+    pub(crate) fn new(
+        id: RobotId,
+        place: Place,
+        radio: Radio,
+        (key, noise): (Entity, Noise),
+    ) -> Self {
+        Self {
+            id,
+            place,
+            radio,
+            key,
+            noise,
+            inbox: PendingQueue::default(),
+        }
+    }
+
+    /// Whether it can send and receive at all.
+    pub(crate) fn is_working(&self, body_states: &[BodyState]) -> bool {
+        match self.place {
+            Place::Aboard(robot) => body_states[robot as usize].status == Status::Active,
+            Place::Fixed(..) => true,
+        }
+    }
+
+    /// Receives a message that arrives now, unless the radio has received its maximum in this step.
+    pub(crate) fn receive(&mut self, sent: &Transmission, now: u64) {
+        self.inbox.forget(now);
+        let entries = self.inbox.entries.iter().rev();
+        let arrived = entries.take_while(|late| late.due == now).count();
+        if arrived < self.radio.messages_per_step {
+            self.inbox.entries.push(Pending {
+                taken: sent.at,
+                due: now,
+                what: sent.message,
+            });
+        }
+    }
+
+    /// Renumbers the senders of its messages; those of participants that were removed are dropped.
+    pub(crate) fn renumber(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
+        let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
+        let inbox = &mut self.inbox.entries;
+        inbox.retain_mut(|late| renumber(&mut late.what.from));
+    }
+}
