@@ -10,6 +10,7 @@ import sys
 import threading
 from base64 import b64decode
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -49,8 +50,8 @@ def main() -> None:
     server = uvicorn.Server(config)
     threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
     url = f"http://{HOST}:{listening.getsockname()[1]}/#/robots"
-    sys.stdout.write(json.dumps({"type": "ready", "url": url}) + "\n")
-    sys.stdout.flush()
+    with suppress(BrokenPipeError):  # the drive has ended already; so will the input
+        os.write(sys.stdout.fileno(), json.dumps({"type": "ready", "url": url}).encode() + b"\n")
     server.run(sockets=[listening])
 
 
