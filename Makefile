@@ -11,7 +11,7 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection verify-requirement fuzz golden schemas \
 	picture page-pictures bench-page examples replication validation brain-comparison goals web lint quick \
-	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test clean
+	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test drive-browser clean
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -92,6 +92,9 @@ else
 	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent end
 endif
 endif
+
+drive-browser: .venv/installed page-packages ## Test the view Robots with the real warden and an emulated robot
+	cd web && CHROMIUM="$(CHROMIUM)" DRIVE=1 npx playwright test --workers 1 drive.spec.ts
 
 bench: ## Measure both simulators and the brain
 	cargo bench --locked -p agent-economy-benchmarks --bench classic --bench brain
