@@ -21,7 +21,6 @@ from agent_economy.live.program_2002 import (
     Waypoint,
     bearing_deg,
     compare,
-    drive,
 )
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -38,6 +37,18 @@ LINES = st.text(st.characters(codec="latin-1"), max_size=20)
 """Lines as recordings have them."""
 
 Lines = list[tuple[str, str]]
+
+
+def drive(control: Control, lines: Lines) -> Lines:
+    """Return what it writes for lines that come in this order; those of a port wait until read."""
+    waiting: dict[str, list[str]] = {}
+    reads = control.run()
+    port = next(reads)
+    for source, line in lines:
+        waiting.setdefault(source, []).append(line)
+        while waiting.get(port):
+            port = reads.send(waiting[port].pop(0))
+    return control.written
 
 
 def one_pass(sonar: str = CLEAR, compass: str = "10", gps: str = GPS) -> Lines:

@@ -1,3 +1,4 @@
+import type { Page } from "@playwright/test";
 import { altered, asOnPhone, expect, expectAccessible, expectToFit } from "./page";
 import { alterStudy, formAt, post, studyAt, summaryOf, test as base } from "./studies";
 import { hang_ms } from "../dev/real-server.mjs";
@@ -24,15 +25,20 @@ const test = base.extend<object, { required: string }>({
   ],
 });
 
+/** Opens a study as if it had been stopped before its answer. */
+async function openRace(page: Page, address: string): Promise<void> {
+  const stopped = { state: "stopped", message: null } as const;
+  await altered(page, (sent) => (sent.type === "study_progress" ? { ...sent, ...stopped } : sent));
+  await alterStudy(page, { ...stopped, answer: null, is_recommended: null });
+  await page.goto(address);
+}
+
 test("a race with a requirement has the status of each configuration as text", async ({
   page,
   server,
   required,
 }) => {
-  const stopped = { state: "stopped", message: null } as const;
-  await altered(page, (sent) => (sent.type === "study_progress" ? { ...sent, ...stopped } : sent));
-  await alterStudy(page, { ...stopped, answer: null, is_recommended: null });
-  await page.goto(studyAt(server, required));
+  await openRace(page, studyAt(server, required));
   await expect(page.getByText("Share of runs so far with time_s <= 40")).toBeVisible();
   await expect(page.getByRole("listitem").filter({ hasText: "1 wanderer" }).first()).toContainText("refuted");
   await expect(page.getByText("certified", { exact: true }).first()).toBeVisible();
@@ -60,10 +66,7 @@ test("a race is scaled to its contenders, until all teams are selected", async (
   server,
   required,
 }) => {
-  const stopped = { state: "stopped", message: null } as const;
-  await altered(page, (sent) => (sent.type === "study_progress" ? { ...sent, ...stopped } : sent));
-  await alterStudy(page, { ...stopped, answer: null, is_recommended: null });
-  await page.goto(studyAt(server, required));
+  await openRace(page, studyAt(server, required));
   const hopeless = page.getByRole("listitem").filter({ hasText: /^1 wanderer / });
   await expect(hopeless.getByText("←")).toBeVisible();
   await page.getByRole("button", { name: "All teams" }).click();

@@ -9,14 +9,13 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-import uvicorn
 
 from agent_economy._core import InputError
 from agent_economy.cli.errors import BAD_INPUT, error_exits
 from agent_economy.listening import listening_socket
 from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
-from agent_economy.server.request_body import MAX_BYTES
+from agent_economy.server.serving import http_server
 
 ELSEWHERE = {socket.AF_INET: "192.0.2.1", socket.AF_INET6: "2001:db8::1"}
 """An address of another network by family (RFC 5737, RFC 3849)."""
@@ -50,17 +49,8 @@ def ui(
         if not no_browser:
             webbrowser.open(address)
         served = app(Workspace(Path.cwd()), host, token)
-        config = uvicorn.Config(
-            served,
-            log_level="warning",
-            ws="websockets-sansio",
-            ws_max_size=MAX_BYTES,
-            # Frames are floats, which compress badly: with 10,000 robots it took 7 ms each.
-            ws_per_message_deflate=False,
-            lifespan="on",
-        )
         with suppress(KeyboardInterrupt):
-            uvicorn.Server(config).run(sockets=[listening])
+            http_server(served).run(sockets=[listening])
 
 
 def bound(host: str, port: int) -> socket.socket:

@@ -23,8 +23,8 @@ from agent_economy.live.channel import Decoder
 from agent_economy.scenario import Scenario, Source
 from agent_economy.server.app import app
 from agent_economy.server.drive import Drive, RobotOnMap, Sonar
-from agent_economy.server.request_body import MAX_BYTES
 from agent_economy.server.runs.live_run import LiveRun
+from agent_economy.server.serving import http_server
 from agent_economy.server.workspace import Workspace
 
 HOST, PORT = "127.0.0.1", 8765
@@ -39,15 +39,7 @@ def main() -> None:
     live = LiveRun(scenario, start["seed"], start["external"])
     listening = listening_socket_of(start["port"])
     served = app(Workspace(Path.cwd()), HOST, live=live, drive=drive_of(start, scenario))
-    config = uvicorn.Config(
-        served,
-        log_level="warning",
-        ws="websockets-sansio",
-        ws_max_size=MAX_BYTES,
-        ws_per_message_deflate=False,
-        lifespan="on",
-    )
-    server = uvicorn.Server(config)
+    server = http_server(served)
     threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
     url = f"http://{HOST}:{listening.getsockname()[1]}/#/robots"
     with suppress(BrokenPipeError):  # the drive has ended already; so will the input

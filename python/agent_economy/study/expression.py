@@ -11,6 +11,8 @@ from collections.abc import Callable, Mapping
 from difflib import get_close_matches
 
 from agent_economy._core import InputError
+from agent_economy.scenario import Source
+from agent_economy.scenario.origin import with_origin
 
 BINARY: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -46,13 +48,15 @@ NOT_FINITE = "must not divide by zero or overflow for any team"
 class Expression:
     """An expression that has been checked."""
 
-    def __init__(self, path: str, text: str, names: tuple[str, ...]) -> None:
-        """Read an expression; `path` is its key in error messages, after its file and line.
+    def __init__(
+        self, path: str, text: str, names: tuple[str, ...], source: Source | None = None
+    ) -> None:
+        """Read an expression; errors name its `path`, and where that is in the source.
 
         Raises:
             InputError: If it is not an expression of these names.
         """
-        self._path, self._text, self._names = path, text, names
+        self._path, self._text, self._names, self._source = path, text, names, source
         if len(text) > MAX_LENGTH:
             raise self.error(TOO_LONG)
         try:
@@ -114,7 +118,9 @@ class Expression:
 
     def error(self, why: str) -> InputError:
         """Return the error that the expression is wrong, with the reason."""
-        return InputError(f"{self._path} = {shown(self._text)}: {why}")
+        path, source = self._path, self._source
+        place = path if source is None else with_origin(source, *path.split("."))
+        return InputError(f"{place} = {shown(self._text)}: {why}")
 
 
 def shown(text: str) -> str:

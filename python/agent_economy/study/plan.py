@@ -212,16 +212,21 @@ def check_requirement(plan: Plan) -> None:
     """
     if not isinstance(plan.question, Cheapest):
         return
-    found = error_of(lambda: plan.costs) + trivial(plan.scenario, plan.engine)
+    found = error_of(lambda: plan.costs)
+    found += error_of(lambda: check_conditions(plan.scenario, plan.engine))
     if found:
         raise InputError("\n".join(found))
 
 
-def trivial(scenario: Scenario, engine: Engine) -> list[str]:
-    """Return the errors of conditions that decide nothing: alone, or together with another one."""
+def check_conditions(scenario: Scenario, engine: Engine) -> None:
+    """Check that each condition of a requirement decides something, and any two of them together.
+
+    Raises:
+        InputError: If one does not; it lists all.
+    """
     requirement = scenario.requirement
     if requirement is None:
-        return []
+        return
     kinds = {column.name: column.kind for column in engine.columns}
     limits = [engine.limits(each) for each in range(len(engine.configurations))]
     found = []
@@ -233,10 +238,12 @@ def trivial(scenario: Scenario, engine: Engine) -> list[str]:
         other = requirement.conditions[first].text
         found.append((second, f"never holds together with {other!r}: change one of them"))
     texts = [condition.text for condition in requirement.conditions]
-    return [
+    lines = [
         f"{with_origin(scenario.source, 'require', 'all', number)} = {texts[number]!r}: {fault}"
         for number, fault in found
     ]
+    if lines:
+        raise InputError("\n".join(lines))
 
 
 def check_expressions(scenario: Scenario, question: list[str], seed: int) -> None:
@@ -257,17 +264,11 @@ def check_expressions(scenario: Scenario, question: list[str], seed: int) -> Non
         found += error_of(lambda: teams.cost_of(scenario, scenario.cost))
     if found and requirement is not None and is_whole(seed, 0, MAX_SEED):
         configurations = design.points(scenario.factors, scenario.design, seed)
-        found += error_or(lambda: trivial(scenario, Engine(scenario, configurations, seed)))
+        found += error_of(
+            lambda: check_conditions(scenario, Engine(scenario, configurations, seed))
+        )
     if found:
         raise InputError("\n".join(found))
-
-
-def error_or(check: Callable[[], list[str]]) -> list[str]:
-    """Return the errors that a check finds, or the message of the one that it raises."""
-    try:
-        return check()
-    except InputError as error:
-        return [str(error)]
 
 
 def error_of(check: Callable[[], object]) -> list[str]:

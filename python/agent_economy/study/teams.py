@@ -6,7 +6,6 @@ import numpy as np
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario
-from agent_economy.scenario.origin import with_origin
 from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
@@ -52,7 +51,7 @@ def allowed_by(scenario: Scenario, where: str) -> Expression:
     Raises:
         InputError: If the expression is invalid.
     """
-    return Expression(with_origin(scenario.source, "study", "where"), where, names(scenario))
+    return Expression("study.where", where, names(scenario), scenario.source)
 
 
 def cost_of(scenario: Scenario, cost: str) -> Expression:
@@ -61,7 +60,7 @@ def cost_of(scenario: Scenario, cost: str) -> Expression:
     Raises:
         InputError: If the expression is invalid.
     """
-    return Expression(with_origin(scenario.source, "study", "minimize"), cost, names(scenario))
+    return Expression("study.minimize", cost, names(scenario), scenario.source)
 
 
 def names(scenario: Scenario) -> tuple[str, ...]:

@@ -176,16 +176,8 @@ export async function ask<Body>(
   }
 }
 
-/** The reasons in an answer: a list, a list for each robot, or one message. */
-export function reasonsOf(content: unknown): Reason[] {
-  const { reasons, message } = (content ?? {}) as { reasons?: unknown; message?: unknown };
-  const found = typeof reasons === "object" && reasons !== null ? Object.values(reasons).flat() : [];
-  if (found.length > 0) return found.map(asReason);
+/** The reason of a refusal. */
+function reasonsOf(content: unknown): Reason[] {
+  const { message } = (content ?? {}) as { message?: unknown };
   return [{ name: "refused", reason: typeof message === "string" ? message : "The warden gave no reason." }];
-}
-
-function asReason(given: unknown): Reason {
-  if (typeof given === "string") return { name: "refused", reason: given };
-  const { name, reason } = given as Partial<Reason>;
-  return { name: name ?? "refused", reason: reason ?? "" };
 }

@@ -1,7 +1,7 @@
 """The control program that drove Bender in 2002, with its faults, for lines that were recorded."""
 
 from agent_economy.live.program_2002.comparison import Comparison, Course, Row, compare
-from agent_economy.live.program_2002.control import Control, drive
+from agent_economy.live.program_2002.control import Control
 from agent_economy.live.program_2002.inputs import Readings, UncaughtError
 from agent_economy.live.program_2002.navigation import Waypoint, bearing_deg
 
@@ -15,5 +15,4 @@ __all__ = [
     "Waypoint",
     "bearing_deg",
     "compare",
-    "drive",
 ]

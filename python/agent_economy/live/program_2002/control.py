@@ -4,7 +4,7 @@ Every read waited for the next line of a port, for as long as it took. Here the 
 it yields the port that it reads, and is sent the line.
 """
 
-from collections.abc import Generator, Iterable
+from collections.abc import Generator
 from enum import Enum
 
 from agent_economy.live.program_2002.inputs import Readings
@@ -121,21 +121,3 @@ class Control:
 
     def _write(self, *lines: str) -> None:
         self.written += [("motors", line) for line in lines]
-
-
-def drive(control: Control, lines: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
-    """Return what it writes for lines that come in this order, each with its port.
-
-    Lines of a port wait until they are read.
-
-    Raises:
-        UncaughtError: If a line ends the thread.
-    """
-    waiting: dict[str, list[str]] = {}
-    reads = control.run()
-    port = next(reads)
-    for source, line in lines:
-        waiting.setdefault(source, []).append(line)
-        while waiting.get(port):
-            port = reads.send(waiting[port].pop(0))
-    return control.written

@@ -46,6 +46,14 @@ def geographic_of(origin: Origin, x_m: float, y_m: float) -> tuple[float, float]
     return latitude, longitude
 
 
+def world_heading_deg(origin: Origin, magnetic_deg: float) -> float:
+    """Return the heading in the world of a compass bearing, 0 to 360, anticlockwise from x.
+
+    The conversion of headings to bearings is its own inverse.
+    """
+    return magnetic_bearing_deg(origin, math.radians(magnetic_deg))
+
+
 def magnetic_bearing_deg(origin: Origin, heading_rad: float) -> float:
     """Return the compass bearing of a heading in the world, 0 to 360, clockwise."""
     bearing = 90 - math.degrees(heading_rad) + origin.rotation_deg - origin.declination_deg

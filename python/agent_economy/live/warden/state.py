@@ -8,7 +8,7 @@ from agent_economy.live.plan import InputPlan, Origin
 from agent_economy.live.readings import Motion, Quantity
 from agent_economy.live.rules import Decision, Fault, Mode, Setpoint
 from agent_economy.live.rules.faults import MANUAL_LIFETIME_S, MAX_UNACKNOWLEDGED_S
-from agent_economy.live.warden.geometry import geographic_of
+from agent_economy.live.warden.geometry import geographic_of, world_heading_deg
 from agent_economy.live.warden.port_link import PortLink
 from agent_economy.live.warden.robot import Robot
 
@@ -114,9 +114,8 @@ def _heading(robot: Robot, origin: Origin, now_s: float) -> Values | None:
     plan, values, age_s = _read(robot, Quantity.HEADING, now_s)
     if plan is None or not all(map(_is_number, values)):
         return None
-    # In the world: anticlockwise from its x axis.
-    heading_deg = 90 - values[0] + origin.rotation_deg - origin.declination_deg
-    return {"magnetic_deg": values[0], "world_deg": heading_deg % 360, "age_s": age_s}
+    world_deg = world_heading_deg(origin, values[0])
+    return {"magnetic_deg": values[0], "world_deg": world_deg, "age_s": age_s}
 
 
 def _ranges(robot: Robot, origin: Origin, now_s: float) -> Values | None:

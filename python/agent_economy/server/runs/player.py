@@ -13,30 +13,15 @@ from typing import Protocol
 from agent_economy.scenario import TomlValue, validation
 from agent_economy.server.runs.pending import PendingQueue
 from agent_economy.server.runs.playback_clock import PlaybackClock
+from agent_economy.server.runs.run import Progress
 from agent_economy.types.page import Change, PageMessage, Pause, Play, Seek, Step, Undo
 
 FOREVER = 2**53
 """A tick that no run reaches."""
 
 
-class ReversibleRun(Protocol):
+class ReversibleRun(Progress, Protocol):
     """What a player needs of a run that can be moved back and forth; see `Timeline`."""
-
-    @property
-    def tick(self) -> int:
-        """The current tick."""
-
-    @property
-    def latest_tick(self) -> int:
-        """The last tick that was reached or recorded."""
-
-    @property
-    def step_s(self) -> float:
-        """The simulated duration of a step."""
-
-    @property
-    def is_finished(self) -> bool:
-        """Whether the run cannot go beyond the current tick."""
 
     @property
     def has_changes_ahead(self) -> bool:

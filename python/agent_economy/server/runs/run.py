@@ -7,7 +7,27 @@ from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.runs.outcome_series import OutcomeSeries
 
 
-class Run(Protocol):
+class Progress(Protocol):
+    """How far a run is."""
+
+    @property
+    def tick(self) -> int:
+        """The current tick."""
+
+    @property
+    def latest_tick(self) -> int:
+        """The last tick that was reached or recorded, or to which there are inputs."""
+
+    @property
+    def step_s(self) -> float:
+        """The simulated duration of a step."""
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether the run cannot go beyond the current tick."""
+
+
+class Run(Progress, Protocol):
     """A run that pages display: see `Timeline` and `LiveRun`."""
 
     @property
@@ -33,22 +53,6 @@ class Run(Protocol):
     @property
     def history(self) -> RunHistory:
         """Everything that is needed to replay the run."""
-
-    @property
-    def tick(self) -> int:
-        """The current tick."""
-
-    @property
-    def latest_tick(self) -> int:
-        """The last tick that was reached or recorded, or to which there are inputs."""
-
-    @property
-    def step_s(self) -> float:
-        """The simulated duration of a step."""
-
-    @property
-    def is_finished(self) -> bool:
-        """Whether the run cannot go beyond the current tick."""
 
     def seek(self, tick: int, budget_s: float) -> bool:
         """Move towards a tick for about `budget_s` of wall-clock time.

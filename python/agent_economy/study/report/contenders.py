@@ -9,7 +9,7 @@ def contenders(answer: AnyAnswer) -> frozenset[int]:
     """Return the configurations that the answer is about; distant ones would squeeze the scale.
 
     By merit: the selected one, and those that are not proved to be worse. With a requirement: those
-    that are certified or open, and the next cheaper ones than the selected one.
+    that are certified or open, and the next cheaper one than the selected one.
     """
     if isinstance(answer, RequirementAnswer):
         return with_requirement(answer)
