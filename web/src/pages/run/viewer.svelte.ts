@@ -42,7 +42,8 @@ export class Viewer implements Host {
   get studyTitle(): string | null {
     const { study, run } = this.link;
     if (!study) return null;
-    const name = study.id.split("/").at(-1) ?? study.id;
+    // The study is named after its scenario; the folder of a second study of a scenario has another name.
+    const name = this.session.opened?.scenario.name ?? study.id;
     return `Run ${run} of ${name}, ${this.label || `configuration ${study.configuration}`}`;
   }
 
