@@ -28,6 +28,8 @@ describe("the connection", () => {
 
   test("is stale if the warden answers but its time does not advance", () => {
     expect(after(answered(1, 0), answered(1, 400), tick(600))).toBe("stale");
+    expect(after(answered(1, 0), tick(600), answered(1, 600))).toBe("stale");
+    expect(after(answered(1, 0), tick(3001), answered(1, 3001))).toBe("lost");
   });
 
   test("is lost at once if the warden cannot be reached, but not by one late answer", () => {

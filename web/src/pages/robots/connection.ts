@@ -29,8 +29,10 @@ export const lostAfter_ms = 3000;
 
 export function next(connection: Connection, event: ConnectionEvent): Connection {
   switch (event.type) {
-    case "answered":
-      return { phase: "connected", last: received(connection, event.state, event.sent_ms) };
+    case "answered": {
+      const last = received(connection, event.state, event.sent_ms);
+      return aged({ phase: "connected", last }, event.sent_ms);
+    }
     case "refused":
       return { phase: "refused" };
     case "failed":

@@ -1,0 +1,58 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import type { WardenRobot, WardenState } from "../../api/warden";
+import { WardenSession } from "./warden.svelte";
+
+const origin = { latitude_deg: 0, longitude_deg: 0 };
+const drive = { warden: { port: 1, token: "secret" }, fleet: "bender", origin };
+const ahead = { left: 175, right: 175 };
+const isAhead = ({ left }: Record<string, unknown>) => left === ahead.left;
+
+let bodies: Record<string, unknown>[];
+/** The time at which the warden's time no longer advances. */
+let stuckAt_ms: number;
+let session: WardenSession;
+
+function state(): WardenState {
+  const robot = { name: "bender/0", mode: "manual", is_armed: true } as WardenRobot;
+  const time_s = Math.min(performance.now(), stuckAt_ms) / 1000;
+  return { time_s, operator: "you", robots: [robot], events: [] } as unknown as WardenState;
+}
+
+beforeEach(async () => {
+  vi.useFakeTimers();
+  [bodies, stuckAt_ms] = [[], Infinity];
+  vi.stubGlobal("addEventListener", () => undefined);
+  vi.stubGlobal("removeEventListener", () => undefined);
+  vi.stubGlobal("document", { addEventListener: () => undefined, removeEventListener: () => undefined });
+  vi.stubGlobal("fetch", async (url: string, { body }: { body: string }) => {
+    if (url.endsWith("/manual")) bodies.push(JSON.parse(body) as Record<string, unknown>);
+    return { ok: true, status: 200, json: async () => state() };
+  });
+  session = new WardenSession(drive);
+  session.start();
+  await vi.advanceTimersByTimeAsync(0);
+  session.deadman.hold("forward", ahead);
+  await vi.advanceTimersByTimeAsync(1000);
+});
+
+afterEach(() => {
+  session.close();
+  vi.unstubAllGlobals();
+  vi.useRealTimers();
+});
+
+test("motion is sent every 0.1 s while states of the warden arrive, with increasing numbers", () => {
+  expect(bodies.map(({ number }) => number)).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+  expect(bodies.every(isAhead)).toBe(true);
+});
+
+test("motion ends within 0.6 s of the newest state, and does not begin again without a press", async () => {
+  stuckAt_ms = performance.now();
+  await vi.advanceTimersByTimeAsync(600);
+  const { length } = bodies;
+  await vi.advanceTimersByTimeAsync(5000);
+  expect(bodies).toHaveLength(length);
+  stuckAt_ms = Infinity;
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(bodies.slice(length).some(isAhead)).toBe(false);
+});
