@@ -7,7 +7,6 @@ import type { Drive, WardenRobot, WardenState } from "../src/api/warden";
 export interface Received {
   path: string;
   body: Record<string, unknown>;
-  at_ms: number;
 }
 
 export const token = "secret";
@@ -45,6 +44,11 @@ export class FakeWarden {
       .map(({ path, body }) => [path, ...parts.map((part) => body[part])]);
   }
 
+  /** The motor values that were received. */
+  tracks(): Received["body"][] {
+    return this.received.filter(({ path }) => path === "/manual").map(({ body }) => body);
+  }
+
   count(path: string): number {
     return this.received.filter((each) => each.path === path).length;
   }
@@ -65,7 +69,7 @@ export class FakeWarden {
     for await (const part of request) parts.push(part as Buffer);
     const { token: sent, ...body } = JSON.parse(Buffer.concat(parts).toString()) as Received["body"];
     const path = request.url ?? "";
-    this.received.push({ path, body, at_ms: performance.now() });
+    this.received.push({ path, body });
     if (this.mode === "frozen") return;
     const isSimple = request.method === "POST" && request.headers["content-type"] === "text/plain";
     const isAllowed = isSimple && sent === token && this.mode !== "refusing";
