@@ -146,6 +146,7 @@ fn phase(own: RobotId, period_s: f64) -> f64 {
 /// A message with full confidence.
 fn certain(about: About) -> Message {
     Message {
+        to: RobotId::EVERYONE,
         about,
         confidence: 1.0,
     }

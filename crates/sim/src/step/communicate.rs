@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
 use base::noise::share;
-use brain::ReceivedMessage;
+use brain::{Message, ReceivedMessage, RobotId};
 
 /// The participants of a run at the beginning of a step.
 #[derive(Clone, Copy)]
@@ -98,7 +98,8 @@ impl<'a> Participants<'a> {
         robots.chain(stations).filter(move |to| {
             let receiver = participants.get(*to).filter(|_| *to != outgoing.from);
             receiver.is_some_and(|receiver| {
-                participants.reaches(sender, receiver)
+                is_for(&outgoing.message, receiver)
+                    && participants.reaches(sender, receiver)
                     && !is_lost(outgoing, sender, receiver, view.tick)
             })
         })
@@ -132,6 +133,11 @@ impl<'a> Participants<'a> {
             Place::Fixed(at, layer) => (at, layer),
         }
     }
+}
+
+/// Whether a participant is a receiver that a message names.
+fn is_for(message: &Message, receiver: &Participant) -> bool {
+    message.to == RobotId::EVERYONE || message.to == receiver.id
 }
 
 /// Whether a message is lost on the way to one receiver, in the step `now`.
@@ -186,6 +192,7 @@ radio = { range_m = 15, needs_line_of_sight = true }
 
     fn message() -> Message {
         Message {
+            to: RobotId::EVERYONE,
             about: About::Item {
                 kind: 0,
                 at: Point::default(),
@@ -197,9 +204,17 @@ radio = { range_m = 15, needs_line_of_sight = true }
 
     /// The senders of the messages that the station has after the robot has sent one.
     fn received_at(place: Place) -> Vec<RobotId> {
+        received(place, &[message()])
+    }
+
+    fn received_of(sent: &[Message]) -> Vec<RobotId> {
+        received(Place::Aboard(0), sent)
+    }
+
+    fn received(place: Place, sent: &[Message]) -> Vec<RobotId> {
         let mut simulation = with_station(place);
         let command = Command {
-            outbox: vec![message()],
+            outbox: sent.to_vec(),
             ..Command::default()
         };
         let commands = [(ROVER, command)].into();
@@ -217,6 +232,13 @@ radio = { range_m = 15, needs_line_of_sight = true }
         assert_eq!(received_at(fixed(15.0, Layer::Ground)), [ROVER]);
         assert_eq!(received_at(fixed(24.0, Layer::Ground)), []);
         assert_eq!(received_at(fixed(26.0, Layer::Ground)), []);
+    }
+
+    #[test]
+    fn a_message_reaches_only_the_receiver_that_it_names() {
+        for (to, received) in [(STATION, vec![ROVER]), (ROVER, vec![])] {
+            assert_eq!(received_of(&[Message { to, ..message() }]), received);
+        }
     }
 
     #[test]

@@ -67,6 +67,7 @@ fn a_step_of_a_flock_does_not_allocate() {
 /// Commands for all rovers, whose messages are allocated before the step.
 fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
     let message = Message {
+        to: RobotId::EVERYONE,
         about: About::Item {
             kind: 0,
             at: Point::default(),
@@ -165,6 +166,7 @@ fn crowded_percept(step: u32, rays: u32, age_s: f64) -> Percept {
         from: id(number),
         age_s: 0.0,
         message: Message {
+            to: RobotId::EVERYONE,
             about: if number.is_multiple_of(2) {
                 About::Sender {
                     at: place(number),
