@@ -50,19 +50,36 @@ pub(crate) fn send(
 
 /// Delivers the messages that arrive now.
 pub(crate) fn deliver(state: &mut State) {
-    let arrived = state.channel.arrive();
+    let now = state.tick;
+    let mut channel = std::mem::take(&mut state.channel);
+    let arrived = channel.arrive();
     for sent in &arrived {
-        let robots = state.agents.len();
-        let receiver = match state.agents.get_mut(sent.to as usize) {
-            Some(agent) => agent.inputs.participant.as_deref_mut(),
-            None => state.stations.get_mut(sent.to as usize - robots),
-        };
-        let is_working = |receiver: &&mut Participant| receiver.is_working(&state.body_states);
-        if let Some(receiver) = receiver.filter(is_working) {
-            receiver.receive(sent, state.tick);
+        if let Some(receiver) = receiver(state, sent.to) {
+            receiver.receive(sent, now);
+            channel.count(sent.to);
         }
     }
-    state.channel.reuse(arrived);
+    for sent in &arrived {
+        let count = channel.take_count(sent.to);
+        if let Some(receiver) = receiver(state, sent.to).filter(|_| count > 0)
+            && count > receiver.radio.messages_per_step
+        {
+            receiver.drop_excess(now, &mut channel.arrivals);
+        }
+    }
+    channel.reuse(arrived);
+    state.channel = channel;
+}
+
+/// The participant of a number, if it works.
+fn receiver(state: &mut State, number: u32) -> Option<&mut Participant> {
+    let robots = state.agents.len();
+    let number = number as usize;
+    let participant = match state.agents.get_mut(number) {
+        Some(agent) => agent.inputs.participant.as_deref_mut(),
+        None => state.stations.get_mut(number - robots),
+    };
+    participant.filter(|participant| participant.is_working(&state.body_states))
 }
 
 impl<'a> Participants<'a> {
