@@ -51,7 +51,7 @@ python-lint: .venv/installed
 wasm: ## Check that the metric simulator and the brain compile for browsers
 	@if [ -d "$$(rustc --print target-libdir --target $(WASM))" ] || rustup target add $(WASM); then \
 		cargo check --locked --target $(WASM) \
-			-p agent-economy-base -p agent-economy-brain -p agent-economy-sim; \
+			-p agent-economy-base -p agent-economy-brain -p agent-economy-economy -p agent-economy-sim; \
 	else \
 		echo "SKIPPED: the target $(WASM) is missing (rustup target add $(WASM))"; \
 	fi

@@ -33,7 +33,12 @@ CRATE_USES = {
     },
     "agent-economy-protocol": {"agent-economy-base", "agent-economy-brain"},
     "agent-economy-select": {"agent-economy-base"},
-    "agent-economy-sim": {"agent-economy-base", "agent-economy-brain"},
+    "agent-economy-economy": {"agent-economy-base", "agent-economy-brain"},
+    "agent-economy-sim": {
+        "agent-economy-base",
+        "agent-economy-brain",
+        "agent-economy-economy",
+    },
 }
 """Which of our crates each may use; a new crate is added here on purpose."""
 

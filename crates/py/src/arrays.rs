@@ -2,17 +2,20 @@
 
 use base::geometry::Point;
 use brain::{
-    About, CommitmentStatus, GoalId, Motion, Percept, Provenance, Reading, ReceivedMessage,
+    About, CommitmentStatus, Dispatch, GoalId, Motion, Percept, Provenance, Reading,
+    ReceivedMessage,
 };
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sim::step::PendingDecision;
 
-/// Codes in place of an item kind: messages about their sender, about its goal, and orders.
+/// Codes in place of an item kind: messages about their sender, about its goal, orders, and goals of
+/// controllers.
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 const ORDER: i64 = -3;
+const DISPATCH: i64 = -4;
 
 /// Status of a commitment, by its code.
 pub(crate) const STATUSES: [CommitmentStatus; 3] = [
@@ -269,22 +272,23 @@ fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
         About::Sender { .. } => SENDER,
         About::Goal { .. } => GOAL,
         About::Order { .. } => ORDER,
+        About::Dispatch(_) => DISPATCH,
     })?;
     entries.put("heading_rad", |received| match received.message.about {
         About::Sender { heading_rad, .. } => heading_rad,
-        About::Item { .. } | About::Goal { .. } | About::Order { .. } => f64::NAN,
+        _ => f64::NAN,
     })?;
     entries.put("observations", |received| match received.message.about {
         About::Item { provenance, .. } => provenance.observations.into(),
         About::Sender { observations, .. } => observations.into(),
-        About::Goal { .. } | About::Order { .. } => 0_i64,
+        _ => 0_i64,
     })?;
     provenance(&entries)?;
     goal_ids(&entries)?;
     entries.put("status", |received| match received.message.about {
         About::Goal { status, .. } => status as i64,
         About::Order { action, .. } => action as i64,
-        About::Item { .. } | About::Sender { .. } => 0,
+        _ => 0,
     })?;
     let places = entries
         .all
@@ -294,6 +298,7 @@ fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
             | About::Sender { at, .. }
             | About::Goal { at, .. }
             | About::Order { at, .. } => [at.x, at.y],
+            About::Dispatch(Dispatch::Issue(task)) => task.at_m.map(f64::from),
         });
     entries.dict.set_item("at", table(py, places)?)?;
     Ok(entries.dict)

@@ -119,6 +119,7 @@ impl Outbox<'_> {
         });
         let confidences = self.confidence.as_array();
         let messages = abouts.zip(confidences).map(|(about, confidence)| Message {
+            to: RobotId::EVERYONE,
             about,
             confidence: *confidence,
         });

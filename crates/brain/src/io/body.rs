@@ -41,6 +41,12 @@ impl RobotId {
         kind: NO_ROBOT,
         index: 0,
     };
+
+    /// The receiver of a message to all that it reaches.
+    pub const EVERYONE: Self = Self {
+        kind: NO_ROBOT,
+        index: u32::MAX,
+    };
 }
 
 /// What a brain knows of its body, the same for all robots of a kind.
@@ -94,6 +100,9 @@ pub struct Body {
     /// Bodies of all kinds of robots, in the order in which ids count them.
     #[serde(default)]
     pub others: Vec<Other>,
+    /// Numbers of its capabilities, from 1; goals require them by number.
+    #[serde(default)]
+    pub capabilities: Vec<u8>,
     /// The area of its mission; without it, unknown.
     pub field: Option<Rectangle>,
 }

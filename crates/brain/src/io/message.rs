@@ -1,6 +1,7 @@
 //! Messages between robots.
 
 use super::body::RobotId;
+use super::dispatch::Dispatch;
 use super::goal_id::GoalId;
 use base::geometry::Point;
 use base::hash::Hash;
@@ -8,17 +9,59 @@ use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A message from one robot to others.
+/// A message from one robot or controller to others.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Message {
+    /// The only receiver; without it, all that the message reaches.
+    #[serde(default = "everyone", skip_serializing_if = "is_everyone")]
+    pub to: RobotId,
     /// Its content.
     pub about: About,
     /// Confidence of the sender, 0 to 1.
     pub confidence: f64,
 }
 
-base::hashed!(Message { about, confidence });
+impl Message {
+    /// A message to all that it reaches, with full confidence.
+    #[must_use]
+    pub fn to_all(about: About) -> Self {
+        Self::to(RobotId::EVERYONE, about)
+    }
+
+    /// A message to one receiver, with full confidence.
+    #[must_use]
+    pub fn to(to: RobotId, about: About) -> Self {
+        Self {
+            to,
+            about,
+            confidence: 1.0,
+        }
+    }
+}
+
+fn everyone() -> RobotId {
+    RobotId::EVERYONE
+}
+
+fn is_everyone(to: &RobotId) -> bool {
+    *to == RobotId::EVERYONE
+}
+
+impl Hashed for Message {
+    /// A message to everyone has the hash that messages had before they could have a receiver.
+    fn add_to(&self, hash: &mut Hash) {
+        let Self {
+            to,
+            about,
+            confidence,
+        } = self;
+        (*about, *confidence).add_to(hash);
+        if !is_everyone(to) {
+            to.add_to(hash);
+        }
+    }
+}
 
 /// The content of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,6 +106,8 @@ pub enum About {
         /// What to do with it.
         action: OrderAction,
     },
+    /// A goal that a controller owns or awards.
+    Dispatch(Dispatch),
 }
 
 impl Hashed for About {
@@ -80,6 +125,7 @@ impl Hashed for About {
             } => (1_u8, ((*at, *heading_rad), *observations)).add_to(hash),
             Self::Goal { id, at, status } => (2_u8, ((*id, *at), *status)).add_to(hash),
             Self::Order { goal, at, action } => (3_u8, ((*goal, *at), *action)).add_to(hash),
+            Self::Dispatch(dispatch) => (4_u8, *dispatch).add_to(hash),
         }
     }
 }
@@ -130,3 +176,13 @@ pub enum CommitmentStatus {
 }
 
 base::hashed!(enum CommitmentStatus);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_takes_at_most_64_bytes() {
+        assert!(size_of::<Message>() <= 64, "{}", size_of::<Message>());
+    }
+}

@@ -2,6 +2,7 @@
 
 pub(crate) mod body;
 pub(crate) mod command;
+pub(crate) mod dispatch;
 pub(crate) mod goal_id;
 pub(crate) mod infinite;
 pub(crate) mod message;

@@ -1,7 +1,9 @@
 //! Broadcasts: their schedule, their messages, and what the robot sent last.
 
+use super::visits::OwnVisits;
 use crate::goals::proposal::Destination;
 use crate::io::body::RobotId;
+use crate::io::goal_id::GoalPlace;
 use crate::io::message::{About, CommitmentStatus, Message};
 use crate::perception::beliefs::pose::Pose;
 use alloc::vec::Vec;
@@ -37,6 +39,7 @@ pub(crate) struct BroadcastState {
     age_s: Option<f64>,
     /// Broadcasts since the last repeat.
     count: u8,
+    visits: OwnVisits,
 }
 
 base::hashed!(BroadcastState {
@@ -45,7 +48,8 @@ base::hashed!(BroadcastState {
     heading_rad,
     observations,
     age_s,
-    count
+    count,
+    visits
 });
 
 impl BroadcastState {
@@ -98,6 +102,7 @@ impl BroadcastState {
         };
         if let Some(ended) = previous.filter(|_| is_new) {
             if at.to(ended.at).length() <= ended.tolerance_m {
+                self.visits.add(ended.goal());
                 outbox.push(message(ended, CommitmentStatus::Done));
             } else if goal.is_none() {
                 // A new destination implies that the previous one is released.
@@ -106,6 +111,14 @@ impl BroadcastState {
         }
         outbox.extend(goal.map(|destination| message(destination, CommitmentStatus::Active)));
         self.goal = goal;
+    }
+
+    /// Broadcasts one of its own visits again: whoever missed the message about it would go there too.
+    pub(super) fn repeat_visit(&mut self, outbox: &mut Vec<Message>) {
+        outbox.extend(self.visits.next().map(|GoalPlace { id, at }| {
+            let status = CommitmentStatus::Done;
+            certain(About::Goal { id, at, status })
+        }));
     }
 
     /// Broadcasts the pose and the number of observations so far, if that is due or the robot has
@@ -146,6 +159,7 @@ fn phase(own: RobotId, period_s: f64) -> f64 {
 /// A message with full confidence.
 fn certain(about: About) -> Message {
     Message {
+        to: RobotId::EVERYONE,
         about,
         confidence: 1.0,
     }

@@ -11,6 +11,7 @@ mod receive;
 pub(crate) mod reports;
 mod state;
 pub(crate) mod trust;
+mod visits;
 
 pub(crate) use state::Messaging;
 

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 
 /// Maximum number of team mates; the one with the oldest message is dropped first.
-pub(crate) const MAX_PEERS: usize = 32;
+pub(crate) const MAX_PEERS: usize = 64;
 
 /// Maximum number of visited destinations that are remembered; the oldest is dropped first.
 const MAX_VISITS: usize = 64;

@@ -167,6 +167,7 @@ impl Items {
                 left -= 1;
                 let provenance = source.provenance;
                 outbox.push(Message {
+                    to: RobotId::EVERYONE,
                     about: About::Item {
                         kind,
                         at,

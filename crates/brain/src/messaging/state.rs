@@ -70,6 +70,10 @@ impl Messaging {
         };
         let is_due = self.broadcast.is_due(beliefs.id, elapsed_s);
         let is_repeat_due = is_due && self.broadcast.is_repeat();
+        if is_repeat_due {
+            // First: a radio that receives too many messages receives the first of each sender.
+            self.broadcast.repeat_visit(outbox);
+        }
         self.broadcast
             .broadcast_goal(goal, pose.at, is_repeat_due, outbox);
         self.broadcast

@@ -123,7 +123,11 @@ fn received(about: About, confidence: f64) -> ReceivedMessage {
     ReceivedMessage {
         from: MATE,
         age_s: 0.0,
-        message: Message { about, confidence },
+        message: Message {
+            to: RobotId::EVERYONE,
+            about,
+            confidence,
+        },
     }
 }
 

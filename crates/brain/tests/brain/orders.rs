@@ -22,6 +22,7 @@ fn order(number: u32, at: [f64; 2], action: OrderAction) -> ReceivedMessage {
         from: RobotId::OPERATOR,
         age_s: 0.0,
         message: Message {
+            to: RobotId::EVERYONE,
             about: About::Order { goal, at, action },
             confidence: 1.0,
         },
@@ -428,7 +429,11 @@ fn any_order() -> impl Strategy<Value = ReceivedMessage> {
         ReceivedMessage {
             from,
             age_s,
-            message: Message { about, confidence },
+            message: Message {
+                to: RobotId::EVERYONE,
+                about,
+                confidence,
+            },
         }
     })
 }

@@ -177,8 +177,11 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
         at,
         status: stands[status],
     });
-    (prop_oneof![item, sender, goal], number(0.0, 1.0))
-        .prop_map(|(about, confidence)| Message { about, confidence })
+    (prop_oneof![item, sender, goal], number(0.0, 1.0)).prop_map(|(about, confidence)| Message {
+        to: RobotId::EVERYONE,
+        about,
+        confidence,
+    })
 }
 
 /// Ids of existing and of unknown robots.

@@ -92,7 +92,11 @@ fn goes_anywhere(brain: &mut Brain) -> bool {
 }
 
 fn received(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> ReceivedMessage {
-    let message = Message { about, confidence };
+    let message = Message {
+        to: RobotId::EVERYONE,
+        about,
+        confidence,
+    };
     ReceivedMessage {
         from,
         age_s,

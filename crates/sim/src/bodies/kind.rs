@@ -136,6 +136,7 @@ impl Kind {
             }),
             item_kinds: item_kinds.to_vec(),
             others: others(spec.layer, context),
+            capabilities: Vec::new(),
             field: Some(context.field),
         };
         let mut kind = Self {

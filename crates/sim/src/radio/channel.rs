@@ -1,5 +1,6 @@
 //! Messages in transit.
 
+use super::arrivals::Arrivals;
 use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::{Message, ReceivedMessage};
@@ -14,6 +15,10 @@ pub(crate) struct RadioChannel {
     spare: Vec<Vec<Transmission>>,
     /// Receivers of a message; kept so that nothing is allocated.
     receivers: Vec<u32>,
+    /// Of the messages that arrive in a step, how many each participant has received, by its number.
+    received: Vec<usize>,
+    /// Scratch for participants that receive too many.
+    pub(crate) arrivals: Arrivals,
 }
 
 /// A message in transit to one participant.
@@ -40,6 +45,21 @@ impl RadioChannel {
     /// The messages that arrive in this step, in the order in which they were sent.
     pub(crate) fn arrive(&mut self) -> Vec<Transmission> {
         self.due.pop_front().unwrap_or_default()
+    }
+
+    /// Counts a message that a participant receives in this step.
+    pub(crate) fn count(&mut self, to: u32) {
+        let to = to as usize;
+        if self.received.len() <= to {
+            self.received.resize(to + 1, 0);
+        }
+        self.received[to] += 1;
+    }
+
+    /// Takes the count of the messages that a participant has received in this step.
+    pub(crate) fn take_count(&mut self, to: u32) -> usize {
+        let count = self.received.get_mut(to as usize);
+        count.map_or(0, std::mem::take)
     }
 
     /// Takes back a list that `arrive` returned.

@@ -1,5 +1,6 @@
 //! Radios: range, loss and delay.
 
+pub(crate) mod arrivals;
 pub(crate) mod channel;
 
 use crate::schedule::steps_of;
@@ -21,7 +22,7 @@ pub struct RadioSpec {
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub delay_s: f64,
     /// Maximum number of messages that the radio sends in one step, and that it receives in one
-    /// step.
+    /// step. Of more, it receives those to itself first, then one of each sender, in random order.
     #[serde(default = "four")]
     #[schemars(range(max = 1000))]
     pub messages_per_step: u32,

@@ -6,8 +6,10 @@
 use crate::bodies::Layer;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::radio::Radio;
+use crate::radio::arrivals::Arrivals;
 use crate::radio::channel::Transmission;
 use crate::sensors::pending::{Pending, PendingQueue};
+use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
 use base::noise::Noise;
 use base::random::Entity;
@@ -63,18 +65,36 @@ impl Participant {
         }
     }
 
-    /// Receives a message that arrives now, unless the radio has received its maximum in this step.
+    /// Receives a message that arrives now.
     pub(crate) fn receive(&mut self, sent: &Transmission, now: u64) {
         self.inbox.forget(now);
-        let entries = self.inbox.entries.iter().rev();
-        let arrived = entries.take_while(|late| late.due == now).count();
-        if arrived < self.radio.messages_per_step {
-            self.inbox.entries.push(Pending {
-                taken: sent.at,
-                due: now,
-                what: sent.message,
-            });
+        self.inbox.entries.push(Pending {
+            taken: sent.at,
+            due: now,
+            what: sent.message,
+        });
+    }
+
+    /// Drops the messages that arrived in this step beyond the maximum of the radio; `arrivals` is
+    /// scratch.
+    pub(crate) fn drop_excess(&mut self, now: u64, arrivals: &mut Arrivals) {
+        let entries = &mut self.inbox.entries;
+        let earlier = entries.iter().rev().take_while(|late| late.due == now);
+        let first = entries.len() - earlier.count();
+        let selected = arrivals.select(
+            &entries[first..],
+            (self.id, self.radio.messages_per_step),
+            |from| {
+                // Steps are at most 1e8: the kind is in the unused half of their number.
+                let time = u64::from(from.kind) << 32 | now;
+                self.noise
+                    .words(NoisePurpose::Inbox as u32, time, from.index)[0]
+            },
+        );
+        for (place, arrival) in selected.iter().enumerate() {
+            entries[first + place] = entries[first + arrival.place];
         }
+        entries.truncate(first + selected.len());
     }
 
     /// Renumbers the senders of its messages; those of participants that were removed are dropped.

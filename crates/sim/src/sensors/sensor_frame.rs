@@ -28,6 +28,8 @@ pub(crate) enum NoisePurpose {
     EchoPlace = 7,
     /// The error of a measured heading.
     Orientation = 8,
+    /// Which of too many messages are received; not a sensor's.
+    Inbox = 9,
 }
 
 /// Purposes of one sensor are numbered from here.

@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
 use base::noise::share;
-use brain::ReceivedMessage;
+use brain::{Message, ReceivedMessage, RobotId};
 
 /// The participants of a run at the beginning of a step.
 #[derive(Clone, Copy)]
@@ -50,19 +50,36 @@ pub(crate) fn send(
 
 /// Delivers the messages that arrive now.
 pub(crate) fn deliver(state: &mut State) {
-    let arrived = state.channel.arrive();
+    let now = state.tick;
+    let mut channel = std::mem::take(&mut state.channel);
+    let arrived = channel.arrive();
     for sent in &arrived {
-        let robots = state.agents.len();
-        let receiver = match state.agents.get_mut(sent.to as usize) {
-            Some(agent) => agent.inputs.participant.as_deref_mut(),
-            None => state.stations.get_mut(sent.to as usize - robots),
-        };
-        let is_working = |receiver: &&mut Participant| receiver.is_working(&state.body_states);
-        if let Some(receiver) = receiver.filter(is_working) {
-            receiver.receive(sent, state.tick);
+        if let Some(receiver) = receiver(state, sent.to) {
+            receiver.receive(sent, now);
+            channel.count(sent.to);
         }
     }
-    state.channel.reuse(arrived);
+    for sent in &arrived {
+        let count = channel.take_count(sent.to);
+        if let Some(receiver) = receiver(state, sent.to).filter(|_| count > 0)
+            && count > receiver.radio.messages_per_step
+        {
+            receiver.drop_excess(now, &mut channel.arrivals);
+        }
+    }
+    channel.reuse(arrived);
+    state.channel = channel;
+}
+
+/// The participant of a number, if it works.
+fn receiver(state: &mut State, number: u32) -> Option<&mut Participant> {
+    let robots = state.agents.len();
+    let number = number as usize;
+    let participant = match state.agents.get_mut(number) {
+        Some(agent) => agent.inputs.participant.as_deref_mut(),
+        None => state.stations.get_mut(number - robots),
+    };
+    participant.filter(|participant| participant.is_working(&state.body_states))
 }
 
 impl<'a> Participants<'a> {
@@ -98,7 +115,8 @@ impl<'a> Participants<'a> {
         robots.chain(stations).filter(move |to| {
             let receiver = participants.get(*to).filter(|_| *to != outgoing.from);
             receiver.is_some_and(|receiver| {
-                participants.reaches(sender, receiver)
+                is_for(&outgoing.message, receiver)
+                    && participants.reaches(sender, receiver)
                     && !is_lost(outgoing, sender, receiver, view.tick)
             })
         })
@@ -132,6 +150,11 @@ impl<'a> Participants<'a> {
             Place::Fixed(at, layer) => (at, layer),
         }
     }
+}
+
+/// Whether a participant is a receiver that a message names.
+fn is_for(message: &Message, receiver: &Participant) -> bool {
+    message.to == RobotId::EVERYONE || message.to == receiver.id
 }
 
 /// Whether a message is lost on the way to one receiver, in the step `now`.
@@ -186,6 +209,7 @@ radio = { range_m = 15, needs_line_of_sight = true }
 
     fn message() -> Message {
         Message {
+            to: RobotId::EVERYONE,
             about: About::Item {
                 kind: 0,
                 at: Point::default(),
@@ -197,9 +221,17 @@ radio = { range_m = 15, needs_line_of_sight = true }
 
     /// The senders of the messages that the station has after the robot has sent one.
     fn received_at(place: Place) -> Vec<RobotId> {
+        received(place, &[message()])
+    }
+
+    fn received_of(sent: &[Message]) -> Vec<RobotId> {
+        received(Place::Aboard(0), sent)
+    }
+
+    fn received(place: Place, sent: &[Message]) -> Vec<RobotId> {
         let mut simulation = with_station(place);
         let command = Command {
-            outbox: vec![message()],
+            outbox: sent.to_vec(),
             ..Command::default()
         };
         let commands = [(ROVER, command)].into();
@@ -217,6 +249,13 @@ radio = { range_m = 15, needs_line_of_sight = true }
         assert_eq!(received_at(fixed(15.0, Layer::Ground)), [ROVER]);
         assert_eq!(received_at(fixed(24.0, Layer::Ground)), []);
         assert_eq!(received_at(fixed(26.0, Layer::Ground)), []);
+    }
+
+    #[test]
+    fn a_message_reaches_only_the_receiver_that_it_names() {
+        for (to, received) in [(STATION, vec![ROVER]), (ROVER, vec![])] {
+            assert_eq!(received_of(&[Message { to, ..message() }]), received);
+        }
     }
 
     #[test]

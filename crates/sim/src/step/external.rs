@@ -77,6 +77,7 @@ radio = { range_m = 5 }
 
     fn saying(messages: usize) -> Command {
         let message = Message {
+            to: RobotId::EVERYONE,
             about: About::Item {
                 kind: 0,
                 at: Point::default(),

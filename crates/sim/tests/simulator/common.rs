@@ -70,6 +70,7 @@ pub(crate) fn send(messages: &[Message]) -> Command {
 pub(crate) fn message(number: f64) -> Message {
     let at = Point { x: number, y: 0.0 };
     Message {
+        to: RobotId::EVERYONE,
         about: About::Item {
             kind: 0,
             at,

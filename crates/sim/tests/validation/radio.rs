@@ -70,6 +70,7 @@ fn hello() -> Message {
         provenance: Provenance::default(),
     };
     Message {
+        to: RobotId::EVERYONE,
         about,
         confidence: 1.0,
     }

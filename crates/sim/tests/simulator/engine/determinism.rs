@@ -44,6 +44,7 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
         if (number + step).is_multiple_of(7) {
             command.outbox = vec![
                 Message {
+                    to: RobotId::EVERYONE,
                     about: About::Item {
                         kind: 0,
                         at: Point::default(),

@@ -46,6 +46,7 @@ fn command(random: &mut Random) -> Command {
         },
     };
     let message = Message {
+        to: brain::RobotId::EVERYONE,
         about,
         confidence: random.one_of(&values),
     };

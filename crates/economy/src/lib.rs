@@ -1,0 +1,19 @@
+//! Controllers: agents that own goals and award them to robots, by messages only.
+//!
+//! A controller is a pure function from percepts and its memory to commands, as a
+//! [brain](brain::Brain) is: it has no world, no clock and no shared table.
+//!
+//! * [`Settings`]: the controller's part of a scenario;
+//! * [`Controller`]: one controller.
+
+#![cfg_attr(not(test), no_std)]
+
+extern crate alloc;
+
+mod allocation;
+mod controller;
+mod settings;
+
+pub use allocation::Allocation;
+pub use controller::{Controller, OwnedGoal};
+pub use settings::Settings;
