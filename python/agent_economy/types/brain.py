@@ -60,6 +60,51 @@ OrderAction: TypeAlias = Literal["assign", "withdraw"]
 """What a person orders."""
 
 
+Work: TypeAlias = Literal["visit", "search"]
+"""What a goal consists of."""
+
+
+class Task(TypedDict):
+    """A goal as it is described in messages.
+
+    Attributes:
+        id: Its id.
+        at_m: Its position in the world, in metres.
+        radius_m: A robot is there within this distance; of a search, the radius of the area.
+        value: Value of serving it, relative to other goals.
+        service_s: Time that a robot spends there.
+        due_s: Time from sending until its deadline; without one, `f32.MAX`.
+        work: What is to be done there.
+        capability: Number of the capability that a robot needs for it, as in
+            `Body.capabilities`; 0 if it needs none.
+    """
+
+    id: GoalId
+    at_m: Sequence[float]
+    radius_m: float
+    value: float
+    service_s: float
+    due_s: float
+    work: Work
+    capability: int
+
+
+class DispatchIssue(TypedDict):
+    """A goal that its receiver is to own from now on.
+
+    It is accepted only from the operator.
+    """
+
+
+class Dispatch(TypedDict, total=False):
+    """A message about a goal that a controller owns or awards.
+
+    It has one of these keys.
+    """
+
+    issue: DispatchIssue
+
+
 class AboutItem(TypedDict):
     """An item.
 
@@ -119,6 +164,10 @@ class AboutOrder(TypedDict):
     action: OrderAction
 
 
+class AboutDispatch(TypedDict):
+    """A goal that a controller owns or awards."""
+
+
 class About(TypedDict, total=False):
     """The content of a message.
 
@@ -129,6 +178,7 @@ class About(TypedDict, total=False):
     sender: AboutSender
     goal: AboutGoal
     order: AboutOrder
+    dispatch: AboutDispatch
 
 
 OrderVerdict: TypeAlias = Literal["pending", "approaching", "receding", "complete", "impossible"]
@@ -380,6 +430,7 @@ class Body(TypedDict):
             each axis.
         item_kinds: Names of all kinds of items.
         others: Bodies of all kinds of robots, in the order in which ids count them.
+        capabilities: Numbers of its capabilities, from 1; goals require them by number.
         field: The area of its mission; without it, unknown.
     """
 
@@ -397,6 +448,7 @@ class Body(TypedDict):
     neighbour_noise_m: NotRequired[float]
     item_kinds: NotRequired[Sequence[str]]
     others: NotRequired[Sequence[Other]]
+    capabilities: NotRequired[Sequence[int]]
     field: NotRequired[Rectangle | None]
 
 
@@ -425,13 +477,15 @@ class SensorRequest(TypedDict):
 
 
 class Message(TypedDict):
-    """A message from one robot to others.
+    """A message from one robot or controller to others.
 
     Attributes:
+        to: The only receiver; without it, all that the message reaches.
         about: Its content.
         confidence: Confidence of the sender, 0 to 1.
     """
 
+    to: NotRequired[RobotId]
     about: About
     confidence: float
 

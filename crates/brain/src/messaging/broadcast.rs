@@ -113,7 +113,7 @@ impl BroadcastState {
         self.goal = goal;
     }
 
-    /// Broadcasts one of its own visits again: whoever missed the message about it would go there too.
+    /// Broadcasts one of its own visits again: a robot that missed the message would go there too.
     pub(super) fn repeat_visit(&mut self, outbox: &mut Vec<Message>) {
         outbox.extend(self.visits.next().map(|GoalPlace { id, at }| {
             let status = CommitmentStatus::Done;
