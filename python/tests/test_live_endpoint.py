@@ -264,6 +264,7 @@ def test_a_control_with_values_that_no_slider_has_is_refused(
         {"point_m": [0.5, 15]},  # outside the fence
         {"point_m": [50, 15]},
         {"point_m": [1e400, 2]},
+        {"point_m": [10**400, 2]},
         {"point_m": ["a", 2]},
         {"point_m": [2]},
         {},
@@ -280,6 +281,13 @@ def test_a_waypoint_that_is_no_place_of_the_fence_is_refused(
     status, answer = served.ask("/waypoint", client="a", robot="bender/0", **place)
     assert status == 409, answer
     assert not served.orders
+
+
+def test_the_errors_of_latitude_and_longitude_are_reported_together(served: Served) -> None:
+    place = {"latitude": {"degrees": 91, "minutes": 0, "hemisphere": "N"}, "longitude": 5}
+    _, answer = served.ask("/waypoint", client="a", robot="bender/0", **place)
+    assert "latitude must be" in answer["message"]
+    assert "longitude must have" in answer["message"]
 
 
 def test_a_waypoint_may_be_in_degrees_and_minutes(served: Served) -> None:

@@ -2,7 +2,7 @@ import type { WardenLink, WardenRobot } from "../../api/warden";
 import type { Connection } from "./connection";
 
 export function actionOf({ action, requested }: WardenRobot): string {
-  // The rules allow motion, which nobody may have requested.
+  // The rules allow motion; that it is requested is another matter.
   const move = isMotion(requested) ? "moves" : "may move";
   return { move, stop: "stopped", latched_stop: "stopped, latched" }[action];
 }
