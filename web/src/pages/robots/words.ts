@@ -27,7 +27,7 @@ export function motionOf(robot: WardenRobot): [string, string][] {
 function setpoint({ speed_m_s, turn_rate_rad_s, heading_rad }: NonNullable<WardenRobot["requested"]>) {
   const turn =
     heading_rad === null
-      ? `turn ${degrees(turn_rate_rad_s).toFixed(0)}°/s`
+      ? `turn ${Math.round(degrees(turn_rate_rad_s)) || 0}°/s` // no negative zero
       : `to heading ${degrees(heading_rad).toFixed(0)}°`;
   return `${speed_m_s.toFixed(2)} m/s, ${turn}`;
 }
