@@ -103,13 +103,23 @@ def test_many_requests_use_one_connection_and_one_connection_per_request_works_t
     link.close()
 
 
-def test_only_pages_of_the_allowed_origin_may_read_answers(served: Served) -> None:
+def test_pages_of_other_origins_read_no_answers_and_can_only_stop_robots(served: Served) -> None:
     served.endpoint.allow(ORIGIN)
-    for origin, allowed in ((ORIGIN, ORIGIN), ("http://evil.example", None), (None, None)):
+    evil = "http://evil.example"
+    for origin, path, status in (
+        (ORIGIN, "/state", 200),
+        (None, "/state", 200),
+        (evil, "/state", 403),
+        (evil, "/arm", 403),
+        (evil, "/stop", 200),
+        (evil, "/hold", 200),
+    ):
         link = HTTPConnection(*served.endpoint.address, timeout=5)
         fields = {"Content-Type": "text/plain"} | ({"Origin": origin} if origin else {})
-        link.request("POST", "/state", json.dumps({"token": served.endpoint.token}), fields)
+        link.request("POST", path, json.dumps({"token": served.endpoint.token}), fields)
         response = link.getresponse()
+        assert response.status == status
+        allowed = ORIGIN if origin == ORIGIN else None
         assert response.getheader("Access-Control-Allow-Origin") == allowed
         link.close()
 
