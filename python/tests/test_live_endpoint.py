@@ -103,6 +103,15 @@ def test_many_requests_use_one_connection_and_one_connection_per_request_works_t
     link.close()
 
 
+def test_a_stop_and_a_hold_are_in_the_state_from_their_requests_on(served: Served) -> None:
+    for path, key in (("/stop", "is_stopped"), ("/hold", "is_held")):
+        assert not served.ask("/state")[1][key]
+        served.ask(path)
+        assert served.ask("/state")[1][key]
+        served.turn()
+        assert served.ask("/state")[1][key]
+
+
 def test_pages_of_other_origins_read_no_answers_and_can_only_stop_robots(served: Served) -> None:
     served.endpoint.allow(ORIGIN)
     evil = "http://evil.example"

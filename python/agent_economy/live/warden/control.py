@@ -102,13 +102,15 @@ class Control:
             raise ValueError(message)  # noqa: TRY004  (of the request)
         now, warden = now_s(), self._warden
         decisions = warden.outputs.robots
+        # What has been requested since the last turn is certain to be the case in the next one.
+        is_stopped = any(EMERGENCY_STOP in each.latched for each in decisions.values())
         return {
             "time_s": self._events.time_s,
             "fleet": self._drive.fleet,
             "recording": self._drive.recording,
             "is_ending": warden.is_ending,
-            "is_held": warden.outputs.is_held,
-            "is_stopped": any(EMERGENCY_STOP in each.latched for each in decisions.values()),
+            "is_held": warden.operator.hold or warden.outputs.is_held,
+            "is_stopped": warden.operator.stop or is_stopped,
             "operator": self._authority.role(body.get("client"), now),
             "robots": [
                 robot_state(
