@@ -74,11 +74,16 @@ def test_a_drive_that_waits_for_its_robots_leaves_the_processor_free(
     bench: Bench, tmp_path: Path
 ) -> None:
     fleet = fleet_of(bench, tmp_path)
+    text = fleet.read_text()
+    for robot in bench.robots:
+        text = text.replace(f"motors = {robot['motors']}", f"motors = {refused_port()}")
+    fleet.write_text(text)
     with driving(fleet) as drive:
         drive.wait_for(lambda each: each["type"] == "event")
         before_s = processor_s(drive.process.pid)
         time.sleep(3)
-        assert processor_s(drive.process.pid) - before_s < 1.5
+        # A loop without a pause uses as much as it gets: a second at least.
+        assert processor_s(drive.process.pid) - before_s < 0.6
 
 
 @repeated_if_late

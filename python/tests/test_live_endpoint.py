@@ -103,13 +103,32 @@ def test_many_requests_use_one_connection_and_one_connection_per_request_works_t
     link.close()
 
 
-def test_only_pages_of_the_allowed_origin_may_read_answers(served: Served) -> None:
+def test_a_stop_and_a_hold_are_in_the_state_from_their_requests_on(served: Served) -> None:
+    for path, key in (("/stop", "is_stopped"), ("/hold", "is_held")):
+        assert not served.ask("/state")[1][key]
+        served.ask(path)
+        assert served.ask("/state")[1][key]
+        served.turn()
+        assert served.ask("/state")[1][key]
+
+
+def test_pages_of_other_origins_read_no_answers_and_can_only_stop_robots(served: Served) -> None:
     served.endpoint.allow(ORIGIN)
-    for origin, allowed in ((ORIGIN, ORIGIN), ("http://evil.example", None), (None, None)):
+    evil = "http://evil.example"
+    for origin, path, status in (
+        (ORIGIN, "/state", 200),
+        (None, "/state", 200),
+        (evil, "/state", 403),
+        (evil, "/arm", 403),
+        (evil, "/stop", 200),
+        (evil, "/hold", 200),
+    ):
         link = HTTPConnection(*served.endpoint.address, timeout=5)
         fields = {"Content-Type": "text/plain"} | ({"Origin": origin} if origin else {})
-        link.request("POST", "/state", json.dumps({"token": served.endpoint.token}), fields)
+        link.request("POST", path, json.dumps({"token": served.endpoint.token}), fields)
         response = link.getresponse()
+        assert response.status == status
+        allowed = ORIGIN if origin == ORIGIN else None
         assert response.getheader("Access-Control-Allow-Origin") == allowed
         link.close()
 
@@ -264,6 +283,7 @@ def test_a_control_with_values_that_no_slider_has_is_refused(
         {"point_m": [0.5, 15]},  # outside the fence
         {"point_m": [50, 15]},
         {"point_m": [1e400, 2]},
+        {"point_m": [10**400, 2]},
         {"point_m": ["a", 2]},
         {"point_m": [2]},
         {},
@@ -280,6 +300,13 @@ def test_a_waypoint_that_is_no_place_of_the_fence_is_refused(
     status, answer = served.ask("/waypoint", client="a", robot="bender/0", **place)
     assert status == 409, answer
     assert not served.orders
+
+
+def test_the_errors_of_latitude_and_longitude_are_reported_together(served: Served) -> None:
+    place = {"latitude": {"degrees": 91, "minutes": 0, "hemisphere": "N"}, "longitude": 5}
+    _, answer = served.ask("/waypoint", client="a", robot="bender/0", **place)
+    assert "latitude must be" in answer["message"]
+    assert "longitude must have" in answer["message"]
 
 
 def test_a_waypoint_may_be_in_degrees_and_minutes(served: Served) -> None:

@@ -6,6 +6,7 @@ import pytest
 from fleet_files import FLEET, SCENARIO, errors, load, swapped, with_key
 
 from agent_economy import InputError
+from agent_economy.live import fleet
 
 
 @pytest.fixture
@@ -379,6 +380,17 @@ def test_a_fence_is_an_area_of_the_world_with_its_robot_and_its_waypoints(
     assert len(found) == 1, found
     assert found[0].startswith('fleet.toml:5: robots."crawler/0".fence_m')
     assert all(part in found[0] for part in parts), found
+
+
+def test_waypoints_for_a_brain_that_takes_no_orders_are_an_error() -> None:
+    text = """scenario = "bender-team"
+[robots."bender/0"]
+driver = "bender"
+host = "127.0.0.1"
+waypoints_m = [[10, 10]]
+"""
+    with pytest.raises(InputError, match="must be omitted, because the brain of bender has no"):
+        fleet.loads(text)
 
 
 def test_waypoints_are_in_the_world_and_in_the_fence(folder: Path) -> None:

@@ -111,6 +111,23 @@ def test_a_verdict_that_could_not_be_sent_is_reported_again(plan: FleetPlan) -> 
     assert not list(team.new_verdicts())
 
 
+def test_a_waypoint_is_pending_from_the_order_on_also_before_the_brain_steps(
+    plan: FleetPlan,
+) -> None:
+    simulation = Simulation("bender", external=["bender/0"])
+    team = Team(plan, simulation, {"bender/0": [[30.0, 10.0]]}, seed=0, start_s=START_S)
+    team.add({"type": "order", "robot": "bender/0", "at_m": [20.0, 5.0]})
+    before = list(team.new_verdicts())
+    assert [each["at_m"] for each in before] == [[25, 15], [34, 20], [30, 10], [20, 5]]
+    assert {each["verdict"] for each in before} == {"pending"}
+    team.add({"type": "event", "robot": "bender/0", "is_armed": True, "action": "stop"})
+    team.add({"type": "line", "robot": "bender/0", "port": "compass", "line": "95.5", "t": START_S})
+    simulation.step(percepts=team.percepts(0, START_S))
+    known = [[*goal["at"]] for goal in simulation.assigned_goals("bender/0")]
+    assert known == [each["at_m"] for each in before]
+    assert not list(team.new_verdicts())
+
+
 def test_late_steps_are_counted_and_never_made_up_for() -> None:
     pacer = Pacer(0.1, due_s=10.0)
     assert pacer.tick(10.0) == 0.0

@@ -17,7 +17,7 @@ from live_bench import Drive, driving, emulated, fleet_text
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden import page_process
-from agent_economy.live.warden.page_process import MAX_FAILURES, PageProcess
+from agent_economy.live.warden.page_process import MAX_FAILURES, PageProcess, origins
 
 READER = """
 import json, os, sys
@@ -72,6 +72,11 @@ async def until(holds: Callable[[], bool], timeout_s: float = 20) -> None:
 
 def inputs(tick: int) -> dict[str, Any]:
     return {"bender/0": {"time_s": 0.1 * tick, "random_words": [tick] * 40}}
+
+
+def test_a_page_may_be_opened_by_both_names_of_this_machine() -> None:
+    expected = ("http://127.0.0.1:8765", "http://localhost:8765")
+    assert origins("http://127.0.0.1:8765/#/robots") == expected
 
 
 def test_a_server_that_replaces_a_killed_one_gets_the_whole_run_and_the_same_port(

@@ -63,10 +63,41 @@ def test_a_claim_ends_when_it_is_released_or_its_robot_is_silent() -> None:
     team.add("bender/1", [goal(1, "active")], 0.0)
     team.add("bender/0", [goal(0, "released")], 1.0)
     assert verdicts(team, 1.0) == [("pending", None), ("approaching", "bender/1")]
-    team.add("bender/0", [pose()], MAX_AGE_S)
+    for robot in ("bender/0", "bender/2"):
+        team.add(robot, [pose()], MAX_AGE_S)
     assert team.silent(MAX_AGE_S) == set()
     assert team.silent(MAX_AGE_S + 0.1) == {"bender/1"}
     assert verdicts(team, MAX_AGE_S + 0.1) == [("pending", None)] * 2
+
+
+def test_a_waypoint_that_every_robot_has_given_up_is_impossible_until_one_reaches_it() -> None:
+    team = shared()
+    for robot in range(3):
+        name, at_s = f"bender/{robot}", float(robot)
+        team.add(name, [goal(0, "active")], at_s)
+        assert verdicts(team, at_s)[0] == ("approaching", name)
+        status = "released" if robot else "active"  # a new destination releases the one before
+        team.add(name, [goal(0 if robot else 1, status)], at_s)
+    assert verdicts(team, 3.0)[0] == ("impossible", None)
+    team.add("bender/1", [goal(0, "active")], 3.0)
+    assert verdicts(team, 3.0)[0] == ("impossible", None)
+    team.add("bender/1", [goal(0, "done")], 4.0)
+    assert verdicts(team, 4.0)[0] == ("complete", "bender/1")
+
+
+def test_a_robot_that_leaves_a_waypoint_to_another_has_not_given_it_up() -> None:
+    team = shared()
+    for robot in ("bender/1", "bender/0"):
+        team.add(robot, [goal(0, "active")], 0.0)
+    team.add("bender/1", [goal(1, "active")], 0.2)
+    team.add("bender/0", [goal(0, "released")], 1.0)
+    assert verdicts(team, 1.0) == [("pending", None), ("approaching", "bender/1")]
+
+
+def test_a_waypoint_that_a_simulated_robot_may_reach_is_not_impossible() -> None:
+    team = SharedWaypoints(WAYPOINTS_M, ("bender/0",), is_whole=False)
+    team.add("bender/0", [goal(0, "active"), goal(0, "released")], 0.0)
+    assert verdicts(team, 0.0)[0] == ("pending", None)
 
 
 def test_a_goal_at_another_place_or_beyond_the_list_is_none_of_the_shared_waypoints() -> None:

@@ -197,12 +197,12 @@ def test_the_endpoint_takes_requests_with_its_token_only() -> None:
     assert len(taken) == 1
 
 
-@pytest.mark.parametrize("robots", [["other/0"], [["bender/0"]], "bender/0", [{}], None])
+@pytest.mark.parametrize("robots", [["other/0"], [["bender/0"]], "bender/0", [{}], [], None])
 def test_what_is_no_list_of_robots_is_refused(robots: Any) -> None:
     warden = Warden(lambda _: None, is_headless=False)
     drive = Drive(fleet.load("bender").plan, "bender", "bender.mcap")
     arm = Control(warden, drive, EventLog()).actions()["/arm"]
-    with pytest.raises(ValueError, match="robots must be a list of bender/0"):
+    with pytest.raises(ValueError, match="robots must be a list of one or more of bender/0"):
         arm({"robots": robots})
 
 

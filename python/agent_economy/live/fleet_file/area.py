@@ -12,6 +12,9 @@ from agent_economy.live.plan import Point
 
 def check_area(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:
     """Report a fence that is no area of the world, and places that are outside of it."""
+    if entry.waypoints_m and not kind.takes_orders:
+        allowed = f"omitted, because the brain of {kind.name} has no behaviour correct"
+        findings.error(fleet, (*entry.path, "waypoints_m"), allowed)
     for index, point in enumerate(entry.waypoints_m or ()):
         if not kind.of.contains(point):
             at: Path = (*entry.path, "waypoints_m", index)

@@ -55,6 +55,6 @@ def _robot(entry: Entry, kind: ScenarioKind) -> RobotPlan:
         min_battery=entry.min_battery,
         fence_m=entry.fence_m,
         deadman_s=deadman_s,
-        takes_orders=any(each["kind"] == "correct" for _, each in kind.behaviours()),
+        takes_orders=kind.takes_orders,
         repeat_s=REPEAT_S if deadman_s is None else min(REPEAT_S, deadman_s / LINES_PER_DEADMAN),
     )

@@ -107,6 +107,11 @@ class ScenarioKind:
         for index, each in enumerate(behaviours):
             yield self.path("brain", "behaviours", index), each
 
+    @property
+    def takes_orders(self) -> bool:
+        """Whether its brain visits waypoints that an operator orders."""
+        return any(each["kind"] == "correct" for _, each in self.behaviours())
+
     def waypoints_m(self) -> list[Point]:
         """Return the waypoints of its brain."""
         found = [

@@ -27,12 +27,15 @@ class SharedWaypoints:
     Attributes:
         waypoints_m: The waypoints.
         robots: The names of the team's real robots, by index.
+        is_whole: Whether they are the whole team. Messages of simulated robots are not seen here.
     """
 
     waypoints_m: list[list[float]]
     robots: tuple[str, ...]
+    is_whole: bool = True
     _claims: dict[str, Claim] = field(default_factory=dict)
     _served: dict[int, str] = field(default_factory=dict)
+    _given_up: dict[int, set[str]] = field(default_factory=dict)
     _sent_s: dict[str, float] = field(default_factory=dict)
 
     def add(self, robot: str, outbox: Iterable[Mapping[str, Any]], now_s: float) -> None:
@@ -44,16 +47,18 @@ class SharedWaypoints:
                 self._note(robot, about["id"]["number"], about["status"], now_s)
 
     def verdicts(self, now_s: float) -> Iterator[dict[str, Any]]:
-        """Yield the place, the verdict and the robot of each waypoint, in order."""
-        claims = {
-            claim.goal: robot
-            for robot, claim in sorted(self._claims.items(), reverse=True)
-            if now_s - claim.at_s <= MAX_AGE_S
-        }
+        """Yield the place, the verdict and the robot of each waypoint, in order.
+
+        One that every robot has given up is impossible, also while one tries it again.
+        """
+        claims = self._valid_claims(now_s)
+        senders = self._sent_s.keys() - self.silent(now_s)
         for number, place in enumerate(self.waypoints_m):
             verdict, robot = "pending", None
             if number in self._served:
                 verdict, robot = "complete", self._served[number]
+            elif self.is_whole and senders and senders <= self._given_up.get(number, set()):
+                verdict = "impossible"
             elif number in claims:
                 verdict, robot = "approaching", claims[number]
             yield {"at_m": place, "verdict": verdict, "served_by": robot}
@@ -66,14 +71,26 @@ class SharedWaypoints:
         number = about["id"]["number"]
         return number < len(self.waypoints_m) and list(about["at"]) == self.waypoints_m[number]
 
+    def _valid_claims(self, now_s: float) -> dict[int, str]:
+        """Return the robot that goes to each claimed waypoint: of several, the first."""
+        return {
+            claim.goal: robot
+            for robot, claim in sorted(self._claims.items(), reverse=True)
+            if now_s - claim.at_s <= MAX_AGE_S
+        }
+
     def _note(self, robot: str, goal: int, status: str, now_s: float) -> None:
         claim = self._claims.get(robot)
-        if status == "active":
-            self._claims[robot] = Claim(goal, now_s)
-        elif claim is not None and claim.goal == goal:
-            del self._claims[robot]
         if status == "done":
             self._served.setdefault(goal, robot)
+        # A new destination implies that the one before is released.
+        if claim is not None and (claim.goal == goal) != (status == "active"):
+            del self._claims[robot]
+            # A robot also releases a waypoint that another one goes to: it has not failed.
+            if claim.goal not in self._valid_claims(now_s):
+                self._given_up.setdefault(claim.goal, set()).add(robot)
+        if status == "active":
+            self._claims[robot] = Claim(goal, now_s)
 
 
 def shared_by(scenario: Mapping[str, Any], robots: Iterable[str]) -> Iterator[SharedWaypoints]:
@@ -85,4 +102,4 @@ def shared_by(scenario: Mapping[str, Any], robots: Iterable[str]) -> Iterator[Sh
             is_shared = behaviour.get("assignment") == "shared"
             if own and behaviour["kind"] == "navigate" and is_shared:
                 places = [[float(x), float(y)] for x, y in behaviour.get("waypoints_m", [])]
-                yield SharedWaypoints(places, own)
+                yield SharedWaypoints(places, own, is_whole=len(own) == table["count"])

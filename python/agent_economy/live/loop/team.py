@@ -55,7 +55,9 @@ class Team:
         self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
         self._ordered = {name: len(waypoints_m.get(name, ())) for name in self._robots}
         self._motions = dict.fromkeys(self._robots, STOP)
-        self._shared = tuple(shared_by(simulation.scenario.to_dict(), self._robots))
+        scenario = simulation.scenario.to_dict()
+        self._waypoints = {name: waypoints_of(scenario, name) for name in self._robots}
+        self._shared = tuple(shared_by(scenario, self._robots))
         self._now_s = start_s
         self._verdicts: dict[tuple[str, str], tuple[str, str | None]] = {}
         self._silent: set[str] = set()
@@ -127,14 +129,30 @@ class Team:
             self._silent ^= {name}
 
     def _own_goals(self, name: str) -> Iterator[dict[str, Any]]:
-        for goal in self._simulation.assigned_goals(name):
+        """Yield the goals that the brain knows, and those that it will know when it steps."""
+        for goal in self._simulation.assigned_goals(name) or self._waypoints[name]:
             served_by = name if goal["verdict"] == "complete" else None
             yield {"at_m": goal["at"], "verdict": goal["verdict"], "served_by": served_by}
+        for sent in self._orders[name]:
+            about = sent["message"]["about"]["order"]
+            if about["action"] == "assign":
+                yield {"at_m": about["at"], "verdict": "pending", "served_by": None}
 
     def _shared_goals(self, name: str) -> Iterator[dict[str, Any]]:
         for waypoints in self._shared:
             if name in waypoints.robots:
                 yield from waypoints.verdicts(self._now_s)
+
+
+def waypoints_of(scenario: Mapping[str, Any], robot: str) -> list[dict[str, Any]]:
+    """Return the goals that the scenario gives to the brain of a robot, before it steps."""
+    brain = scenario["robots"][robot.rpartition("/")[0]].get("brain", {})
+    return [
+        {"at": [float(x), float(y)], "verdict": "pending"}
+        for behaviour in brain.get("behaviours", [])
+        if behaviour["kind"] == "correct"
+        for x, y in behaviour.get("waypoints_m", [])
+    ]
 
 
 def orders(waypoints_m: Any) -> list[Any]:

@@ -41,7 +41,9 @@ def loop(plan: FleetPlan, time_s: float, known: LoopInputs) -> Iterator[Fault]:
     """Yield the faults of the loop and of its recording."""
     silent_s = math.inf if known.last_message_s is None else age_s(time_s, known.last_message_s)
     if not known.is_alive:
-        yield LOOP_DEAD.because("the process of the loop has ended")
+        yield LOOP_DEAD.because(
+            "the process of the loop has ended: nothing stops the robots if the warden ends too"
+        )
     if silent_s > MAX_SILENCE_S:
         yield LOOP_SILENT.because(f"no message for {silent_s:.2f} s (limit {MAX_SILENCE_S} s)")
     if not known.lateness_s <= plan.max_lateness_s:

@@ -1,8 +1,9 @@
 """What the endpoint does for each path: see docs/live.md, "Another program"."""
 
-import math
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from agent_economy.live.clock import now_s
@@ -101,13 +102,15 @@ class Control:
             raise ValueError(message)  # noqa: TRY004  (of the request)
         now, warden = now_s(), self._warden
         decisions = warden.outputs.robots
+        # What has been requested since the last turn is certain to be the case in the next one.
+        is_stopped = any(EMERGENCY_STOP in each.latched for each in decisions.values())
         return {
             "time_s": self._events.time_s,
             "fleet": self._drive.fleet,
             "recording": self._drive.recording,
             "is_ending": warden.is_ending,
-            "is_held": warden.outputs.is_held,
-            "is_stopped": any(EMERGENCY_STOP in each.latched for each in decisions.values()),
+            "is_held": warden.operator.hold or warden.outputs.is_held,
+            "is_stopped": warden.operator.stop or is_stopped,
             "operator": self._authority.role(body.get("client"), now),
             "robots": [
                 robot_state(
@@ -175,8 +178,8 @@ class Control:
     def _arm(self, body: Body) -> Answer:
         names = list(self._plans)
         robots = body.get("robots", names)
-        if not isinstance(robots, list) or not all(each in names for each in robots):
-            message = f"robots must be a list of {', '.join(names)}"
+        if not isinstance(robots, list) or not robots or not all(each in names for each in robots):
+            message = f"robots must be a list of one or more of {', '.join(names)}"
             raise ValueError(message)
         return self._note(self._warden.arm(robots))
 
@@ -245,10 +248,25 @@ def _point(body: Body, plan: FleetPlan) -> Point:
         if not isinstance(given, list) or len(given) != 2:  # noqa: PLR2004
             message = "point_m must be two numbers"
             raise ValueError(message)
-        return _number(given[0], "point_m[0]"), _number(given[1], "point_m[1]")
-    latitude_deg = _degrees(body, "latitude", "NS")
-    longitude_deg = _degrees(body, "longitude", "EW")
-    return world_of(plan.origin, latitude_deg, longitude_deg)
+        return _pair(*(partial(_number, each, f"point_m[{i}]") for i, each in enumerate(given)))
+    latitude, longitude = (
+        partial(_degrees, body, key, letters)
+        for key, letters in (("latitude", "NS"), ("longitude", "EW"))
+    )
+    return world_of(plan.origin, *_pair(latitude, longitude))
+
+
+def _pair(*reads: Callable[[], float]) -> Point:
+    """Return two values, or the errors of both."""
+    values, errors = [], []
+    for read in reads:
+        try:
+            values.append(read())
+        except ValueError as error:
+            errors.append(str(error))
+    if errors:
+        raise ValueError("; ".join(errors))
+    return values[0], values[1]
 
 
 def _degrees(body: Body, key: str, letters: str) -> float:
@@ -268,7 +286,11 @@ def _degrees(body: Body, key: str, letters: str) -> float:
 
 
 def _number(value: object, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        message = f"{name} must be a number"
-        raise ValueError(message)
-    return float(value)
+    match value:
+        case bool():
+            pass
+        # A whole number may be larger than any float; NaN compares as false.
+        case int() | float() if abs(value) <= sys.float_info.max:
+            return float(value)
+    message = f"{name} must be a number"
+    raise ValueError(message)

@@ -25,6 +25,9 @@ IDLE_S = 60.0
 MAX_CONNECTIONS = 200
 """With more, the oldest is closed: new ones must always be accepted."""
 
+STOPS = ("/stop", "/hold")
+"""Requests of these paths need the token only; others of a page also its origin."""
+
 NO_REQUEST = (
     OSError,  # Also a time-out.
     ValueError,
@@ -56,6 +59,11 @@ class Request:
     body: bytes
 
     @property
+    def origin(self) -> str:
+        """The origin of the page that sends it; empty for other programs."""
+        return self.fields.get("origin", "").strip()
+
+    @property
     def is_last(self) -> bool:
         """Whether the connection ends after it."""
         return self.fields.get("connection", "").strip().lower() == "close"
@@ -84,7 +92,7 @@ class Endpoint:
         self.address = (host, port)
 
     def allow(self, origin: str) -> None:
-        """Let pages of an origin, such as `http://127.0.0.1:8000`, read answers in a browser."""
+        """Let pages of an origin, such as `http://127.0.0.1:80`, send requests and read answers."""
         self._origins.add(origin)
 
     def close(self) -> None:
@@ -127,7 +135,7 @@ class Endpoint:
             text = "not a request that this endpoint takes"
             status, answer = HTTPStatus.BAD_REQUEST, {"message": text}
         is_last = request is None or request.is_last
-        origin = "" if request is None else request.fields.get("origin", "").strip()
+        origin = "" if request is None else request.origin
         async with asyncio.timeout(READ_TIMEOUT_S):
             writer.write(self._response(status, answer, origin, is_last=is_last))
             await writer.drain()
@@ -159,6 +167,10 @@ class Endpoint:
             raise ValueError  # noqa: TRY004  (of the request, not of the program)
         if not hmac.compare_digest(str(body.get("token")).encode(), self.token.encode()):
             return HTTPStatus.FORBIDDEN, {"message": "the token is missing or wrong"}
+        is_known = request.origin in ("", *self._origins)
+        if not is_known and request.path not in STOPS:
+            text = f"pages of {request.origin} are not allowed"
+            return HTTPStatus.FORBIDDEN, {"message": text}
         try:
             return HTTPStatus.OK, action(body)
         except ValueError as error:

@@ -239,6 +239,15 @@ class PageProcess:
                     stream.close()
 
 
+def origins(url: str) -> tuple[str, str]:
+    """Return the origins of the pages at an address: this machine has two names."""
+    parts = urlsplit(url)
+    first, second = (
+        f"{parts.scheme}://{each}:{parts.port}" for each in (parts.hostname, "localhost")
+    )
+    return first, second
+
+
 def start_page(
     run: Mapping[str, Any], endpoint: Endpoint, report: Callable[[Mapping[str, Any]], None]
 ) -> PageProcess:
@@ -252,8 +261,8 @@ def start_page(
     warden = {"port": endpoint.address[1], "token": endpoint.token}
 
     def ready(url: str) -> None:
-        parts = urlsplit(url)
-        endpoint.allow(f"{parts.scheme}://{parts.netloc}")
+        for origin in origins(url):
+            endpoint.allow(origin)
         report({"type": "message", "message": f"The page is at {url}"})
 
     def failed() -> None:

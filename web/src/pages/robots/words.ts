@@ -1,8 +1,16 @@
 import type { WardenLink, WardenRobot } from "../../api/warden";
 import type { Connection } from "./connection";
 
-export function actionOf({ action }: WardenRobot): string {
-  return { move: "moves", stop: "stopped", latched_stop: "stopped, latched" }[action];
+export function actionOf({ action, requested }: WardenRobot): string {
+  // The rules allow motion; that it is requested is another matter.
+  const move = isMotion(requested) ? "moves" : "may move";
+  return { move, stop: "stopped", latched_stop: "stopped, latched" }[action];
+}
+
+function isMotion(requested: WardenRobot["requested"]): boolean {
+  if (!requested) return false;
+  const { speed_m_s, turn_rate_rad_s, heading_rad } = requested;
+  return speed_m_s !== 0 || turn_rate_rad_s !== 0 || heading_rad !== null;
 }
 
 /** What is known of a robot's motion, from the request to the evidence. */
@@ -19,7 +27,7 @@ export function motionOf(robot: WardenRobot): [string, string][] {
 function setpoint({ speed_m_s, turn_rate_rad_s, heading_rad }: NonNullable<WardenRobot["requested"]>) {
   const turn =
     heading_rad === null
-      ? `turn ${degrees(turn_rate_rad_s).toFixed(0)}°/s`
+      ? `turn ${Math.round(degrees(turn_rate_rad_s)) || 0}°/s` // no negative zero
       : `to heading ${degrees(heading_rad).toFixed(0)}°`;
   return `${speed_m_s.toFixed(2)} m/s, ${turn}`;
 }

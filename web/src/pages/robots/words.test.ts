@@ -1,0 +1,16 @@
+import { expect, test } from "vitest";
+import type { WardenRobot } from "../../api/warden";
+import { actionOf, motionOf } from "./words";
+
+const robot = (speed_m_s: number, turn_rate_rad_s: number, heading_rad: number | null = null) =>
+  ({ action: "move", requested: { speed_m_s, turn_rate_rad_s, heading_rad } }) as WardenRobot;
+
+test("a robot of which no motion is requested is not shown as moving", () => {
+  expect(actionOf(robot(0, 0))).toBe("may move");
+  expect(actionOf({ ...robot(0, 0), requested: null })).toBe("may move");
+  for (const moving of [robot(0.4, 0), robot(0, -1), robot(0, 0, 0)]) expect(actionOf(moving)).toBe("moves");
+});
+
+test("a turn that rounds to zero has no sign", () => {
+  expect(motionOf({ ...robot(0.6, -0.001), written: null })[0]).toEqual(["Requested", "0.60 m/s, turn 0°/s"]);
+});

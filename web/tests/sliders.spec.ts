@@ -1,0 +1,40 @@
+import { expect, test as base } from "./page";
+import { FakeWarden } from "./warden";
+
+const test = base.extend<{ warden: FakeWarden }>({
+  bypassCSP: true,
+  warden: async ({ page }, use) => {
+    const warden = new FakeWarden();
+    await warden.start();
+    await warden.attach(page);
+    await use(warden);
+    await warden.kill();
+  },
+});
+
+test("a slider that jumps when it is pressed never sends what it showed before", async ({
+  page,
+  server,
+  warden,
+}) => {
+  Object.assign(warden.robot, { mode: "manual", is_armed: true, action: "move" });
+  await page.goto(`${server.url}/#/robots`);
+  await page.getByRole("button", { name: "Take control" }).click();
+  await page.getByRole("tab", { name: "Manual" }).click();
+  const both = page.getByRole("slider", { name: "Both tracks" });
+  await expect(both).toBeEnabled();
+  await both.press("End");
+  await expect(both).toHaveValue("200");
+  const sent = () => new Set(warden.requests("left", "right").map(String));
+
+  warden.received.length = 0;
+  await both.hover({ position: { x: 2, y: 16 } });
+  await page.mouse.down();
+  await expect.poll(sent).toEqual(new Set(["/manual,100,100"]));
+  await page.mouse.up();
+
+  warden.received.length = 0;
+  await page.keyboard.down("End");
+  await expect.poll(sent).toEqual(new Set(["/manual,200,200"]));
+  await page.keyboard.up("End");
+});
