@@ -118,19 +118,19 @@ def test_every_robot_of_the_team_lists_every_shared_waypoint() -> None:
 
 
 def visits(record: Path, scenario: Path, names: list[str]) -> Counter[int]:
-    """Return how often robots announced to have reached each waypoint."""
+    """Return by how many robots each waypoint was reached; a robot may announce it repeatedly."""
     drive = read_drive(record)
     assert drive is not None
     given = {each["tick"]: each["percepts"] for topic, each in drive.messages if topic == INPUT}
     simulation = Simulation(ae.Scenario.load(scenario), external=names)
-    found: Counter[int] = Counter()
+    found: set[tuple[int, str]] = set()
     for tick in range(max(given) + 1):
-        for command in simulation.step(percepts=given.get(tick, {})).values():
+        for robot, command in simulation.step(percepts=given.get(tick, {})).items():
             for sent in command["outbox"]:
                 about = sent["about"].get("goal", {})
                 if about.get("status") == "done":
-                    found[about["id"]["number"]] += 1
-    return found
+                    found.add((about["id"]["number"], robot))
+    return Counter(waypoint for waypoint, _ in found)
 
 
 FAST: dict[str, Any] = {"forward_m_s_per_unit": 0.03, "reverse_m_s_per_unit": 0.03}
