@@ -53,7 +53,7 @@ pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, 
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
 pub use io::dispatch::{Dispatch, Task, Work};
-pub use io::goal_id::GoalId;
+pub use io::goal_id::{GoalId, issuer_of};
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;

@@ -35,6 +35,15 @@ impl Controller {
         }
     }
 
+    /// The controller with the settings of another, which was just switched on.
+    #[must_use]
+    pub fn with_settings_of(&self, other: &Self) -> Self {
+        Self {
+            settings: other.settings.clone(),
+            ..self.clone()
+        }
+    }
+
     /// The command for a percept, of which it uses time, id, position, neighbours and inbox.
     pub fn step_into(&mut self, percept: &Percept, command: &mut Command) {
         command.outbox.clear();

@@ -1,10 +1,11 @@
 //! Everything that changes in a run.
 
 use super::agent::Agent;
-use super::participant::Participant;
+use super::controller::ControllerAgent;
 use crate::bodies::Layer;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
+use crate::goals::placed::{Goal, Goals};
 use crate::judge::Outcome;
 use crate::judge::moment::Moment;
 use crate::judge::tally::Tally;
@@ -17,7 +18,7 @@ use base::placement::{
     EntityClass, Group, PlacementContext, PlacementError, TeamPlacementError, team,
 };
 use base::random::Entity;
-use brain::RobotId;
+use brain::{GoalId, RobotId};
 
 /// One run, between two steps.
 #[derive(Debug, Clone)]
@@ -34,8 +35,9 @@ pub struct State {
     pub(crate) body_states: Vec<BodyState>,
     pub(crate) noises: Vec<Noise>,
     pub(crate) agents: Vec<Agent>,
-    /// The participants in communication without a body.
-    pub(crate) stations: Vec<Participant>,
+    /// Controllers in the order of their kinds and indices.
+    pub(crate) controllers: Vec<ControllerAgent>,
+    pub(crate) goals: Goals,
     pub(crate) items: Items,
     pub(crate) channel: RadioChannel,
     pub(crate) tally: Tally,
@@ -43,7 +45,7 @@ pub struct State {
     pub(crate) decisions: Option<u64>,
 }
 
-/// A robot or an item for which a run has no room.
+/// An item, goal, robot or controller for which a run has no room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoRoom {
     /// An item.
@@ -56,6 +58,24 @@ pub enum NoRoom {
         /// The reason.
         why: PlacementError,
     },
+    /// A goal.
+    #[error("goal {index} of kind {kind}: {why}")]
+    Goal {
+        /// Number of its kind.
+        kind: u8,
+        /// Its index within the kind.
+        index: u32,
+        /// The reason.
+        why: PlacementError,
+    },
+    /// A controller.
+    #[error("controller {} of kind {}: {why}", .id.index, .id.kind)]
+    Controller {
+        /// Its id.
+        id: RobotId,
+        /// The reason.
+        why: PlacementError,
+    },
     /// A robot.
     #[error(transparent)]
     Robot(#[from] TeamPlacementError),
@@ -65,9 +85,10 @@ impl State {
     /// A new run.
     ///
     /// # Errors
-    /// If there is no room for an item or a robot.
+    /// If there is no room for an item, a goal, a robot or a controller.
     pub fn new(scenario: &Scenario, seed: u64, run: u64) -> Result<Self, NoRoom> {
         let items = place_items(scenario, seed, run)?;
+        let goals = place_goals(scenario, seed, run)?;
         let mut state = Self {
             seed,
             run,
@@ -78,13 +99,15 @@ impl State {
             body_states: Vec::new(),
             noises: Vec::new(),
             agents: Vec::new(),
-            stations: Vec::new(),
+            controllers: Vec::new(),
             tally: Tally::new(scenario, &items),
+            goals,
             items,
             channel: RadioChannel::default(),
             decisions: None,
         };
         state.place_robots(scenario)?;
+        state.place_controllers(scenario)?;
         Ok(state)
     }
 
@@ -157,6 +180,12 @@ impl State {
             scenario,
             tick: self.tick,
             items: &self.items,
+            goals: &self.goals,
+            goals_refused: self
+                .controllers
+                .iter()
+                .map(|agent| agent.controller.refused())
+                .sum(),
             tally: &self.tally,
             discs: &self.discs,
             orientations: &self.orientations,
@@ -236,4 +265,31 @@ fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom
     }
     let world = (scenario.world.size(), scenario.torus);
     Ok(Items::new(&items, world, scenario.items_reach_m()))
+}
+
+fn place_goals(scenario: &Scenario, seed: u64, run: u64) -> Result<Goals, NoRoom> {
+    let draws = draws(scenario, seed, run, EntityClass::Goals);
+    let is_free = |place| scenario.is_free(place, 0.0, Layer::Ground);
+    let mut goals = Vec::new();
+    for (number, kind) in (0..).zip(&scenario.goals) {
+        for index in 0..kind.count {
+            let place = kind.placement.place(&draws, kind.entity(index), is_free);
+            let place = place.map_err(|why| NoRoom::Goal {
+                kind: number,
+                index,
+                why,
+            })?;
+            goals.push(Goal {
+                id: GoalId {
+                    issuer: kind.issuer,
+                    number: index,
+                },
+                kind: number,
+                index,
+                at: scenario.home(place),
+                arrives_at: kind.arrives_at(index, scenario.step_s),
+            });
+        }
+    }
+    Ok(Goals::new(goals))
 }

@@ -28,6 +28,10 @@ pub(crate) enum NoisePurpose {
     EchoPlace = 7,
     /// The error of a measured heading.
     Orientation = 8,
+    /// The clock of a robot or controller; not a sensor's.
+    Clock = 9,
+    /// Whether a robot or controller fails; not a sensor's.
+    Failure = 10,
 }
 
 /// Purposes of one sensor are numbered from here.
