@@ -50,7 +50,7 @@ fn is_everyone(to: &RobotId) -> bool {
 }
 
 impl Hashed for Message {
-    /// A message to everyone has the hash that messages had before they could have a receiver.
+    /// A message to all has the hash that messages had before they could have a receiver.
     fn add_to(&self, hash: &mut Hash) {
         let Self {
             to,

@@ -14,7 +14,7 @@ pub struct ControllerSpec {
     /// Number of controllers of this kind. They count as no robots.
     #[schemars(range(max = 1000))]
     pub count: u32,
-    /// Where the controllers are, on the ground; by default anywhere. They do not move and are in nobody's way.
+    /// Where the controllers are, on the ground; by default anywhere. They do not move, and no robot collides with them.
     pub start: Option<Placement>,
     /// A kind of robots that carries the controllers, instead of `start`: the first controller is aboard its
     /// first robot, and so on. A controller works only while its robot does.

@@ -124,7 +124,7 @@ fn issuer(name: &str, placement: &Placement) -> RobotId {
         Placement::Fixed { at_m, .. } => issuer_of(at_m),
         _ => RobotId {
             kind: NO_ROBOT,
-            // 0 is the index of the operator, and the highest one is that of everyone.
+            // 0 is the index of the operator, and the highest one that of a message to all.
             index: kind_key(name).clamp(1, u32::MAX - 1),
         },
     }

@@ -1,16 +1,14 @@
 //! The outcome columns, each defined in one place.
 
 use super::find_times::{find_time, find_times};
-use super::goal_columns;
+use super::goal_columns::{self, Column};
 use super::outcome::Outcome;
 use super::unseen::unseen;
 use crate::scenario::{Scenario, ScenarioSpec};
 use base::document::Document;
 use base::engine::ColumnKind::{Flag, Real, Whole};
-use base::engine::{Bounds, OutcomeColumn, OutcomeColumns};
+use base::engine::{Bounds, OutcomeColumns};
 use base::scenario::condition::{ConditionColumns, TimesUntil};
-
-pub(super) type Column = OutcomeColumn<Scenario, Outcome>;
 
 /// The outcome columns of scenarios with these kinds of items, each with the largest number of items in any
 /// configuration of the study: all configurations have the same columns. With kinds of goals, there are those of goals.

@@ -1,11 +1,12 @@
 //! The outcome columns of scenarios with goals.
 
-use super::columns::Column;
 use super::goal_outcome::GoalOutcome;
 use super::outcome::Outcome;
 use crate::scenario::Scenario;
-use base::engine::Bounds;
 use base::engine::ColumnKind::{Real, Whole};
+use base::engine::{Bounds, OutcomeColumn};
+
+pub(super) type Column = OutcomeColumn<Scenario, Outcome>;
 
 /// Columns of the counts of goals, of the times of those that were served, and of messages.
 pub(super) fn columns() -> Vec<Column> {

@@ -1,6 +1,7 @@
 //! The outcome of the goals of a run.
 
-use super::goal_tally::{GoalTally, Service, is_late};
+use super::goal_tally::{GoalTally, is_late};
+use super::journey::Service;
 use super::moment::Moment;
 
 /// The outcome of the goals of a run, named like the columns of results.
@@ -10,14 +11,14 @@ pub struct GoalOutcome {
     pub served: u32,
     /// Goals that several robots served.
     pub served_twice: u32,
-    /// Goals that nobody served before their deadline.
+    /// Goals that no robot served before their deadline.
     pub expired: u32,
     /// Time from the issue of a goal until its robot sets out for the last time, in the mean over the goals served; 0
     /// if there are none.
     pub waiting_s: f64,
     /// Time from there to the arrival, except for that in which the robot stood, in the mean.
     pub travel_s: f64,
-    /// Time in which the robot stood on its way, in the mean.
+    /// Time in which the robot stood under way, in the mean.
     pub blocked_s: f64,
     /// Time from the arrival until the goal was served, in the mean.
     pub service_s: f64,

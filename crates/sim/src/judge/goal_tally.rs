@@ -1,6 +1,6 @@
-//! What is counted of goals: when each was issued and served, and by whom.
+//! What is counted of goals: when each was issued and served, and the robot that served it.
 
-use super::journey::Journey;
+use super::journey::{Journey, Service};
 use crate::bodies::body_state::{BodyState, Status};
 use crate::goals::placed::{Goal, Goals};
 use crate::radio::channel::Outgoing;
@@ -46,27 +46,6 @@ base::hashed!(GoalRecord {
     pursued_at,
     served,
     is_served_twice
-});
-
-/// The service of a goal, in steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Service {
-    /// The robot; `None` if it was removed.
-    pub(crate) by: Option<RobotId>,
-    /// When the robot set out for it, for the last time.
-    pub(crate) began_at: u64,
-    pub(crate) arrived_at: u64,
-    pub(crate) at: u64,
-    /// Steps in which the robot stood on its way.
-    pub(crate) blocked: u64,
-}
-
-base::hashed!(Service {
-    by,
-    began_at,
-    arrived_at,
-    at,
-    blocked
 });
 
 /// A step of a run, as the judge of goals sees it: what robots decided, and where they decided it.

@@ -1,6 +1,5 @@
 //! The way of a robot to a goal.
 
-use super::goal_tally::Service;
 use crate::bodies::body_state::BodyState;
 use brain::RobotId;
 
@@ -12,7 +11,7 @@ pub(crate) struct Journey {
     began_at: u64,
     /// Since when it is there.
     arrived_at: Option<u64>,
-    /// Steps in which it stood on its way.
+    /// Steps in which it stood under way.
     blocked: u64,
 }
 
@@ -20,6 +19,27 @@ base::hashed!(Journey {
     goal,
     began_at,
     arrived_at,
+    blocked
+});
+
+/// The service of a goal, in steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Service {
+    /// The robot; `None` if it was removed.
+    pub(crate) by: Option<RobotId>,
+    /// When the robot set out for it, for the last time.
+    pub(crate) began_at: u64,
+    pub(crate) arrived_at: u64,
+    pub(crate) at: u64,
+    /// Steps in which the robot stood under way.
+    pub(crate) blocked: u64,
+}
+
+base::hashed!(Service {
+    by,
+    began_at,
+    arrived_at,
+    at,
     blocked
 });
 

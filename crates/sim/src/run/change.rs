@@ -4,7 +4,8 @@ use super::carry_over::{
     is_same_team, new_controller_ids, new_ids, previous_controllers, previous_numbers, removed,
     renumber_message,
 };
-use super::state::{NoRoom, State, draws};
+use super::placing::{NoRoom, draws};
+use super::state::State;
 use crate::bodies::Layer;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;

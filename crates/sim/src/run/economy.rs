@@ -30,13 +30,13 @@ pub struct Goal {
     pub arrived_s: Option<f64>,
     /// When it was served.
     pub served_s: Option<f64>,
-    /// Time in which that robot stood on its way.
+    /// Time in which that robot stood under way.
     pub blocked_s: Option<f64>,
     /// The robot that served it; `None` also if it was removed.
     pub served_by: Option<RobotId>,
     /// Whether several robots served it.
     pub is_served_twice: bool,
-    /// Whether its deadline is over and nobody served it.
+    /// Whether its deadline is over and no robot served it.
     pub has_expired: bool,
 }
 

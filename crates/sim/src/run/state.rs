@@ -2,10 +2,12 @@
 
 use super::agent::Agent;
 use super::controller::ControllerAgent;
-use crate::bodies::Layer;
+use super::placing::{
+    NoRoom, draws, groups, place_controllers, place_goals, place_items, start_places,
+};
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
-use crate::goals::placed::{Goal, Goals};
+use crate::goals::placed::Goals;
 use crate::judge::Outcome;
 use crate::judge::moment::Moment;
 use crate::judge::tally::Tally;
@@ -14,11 +16,9 @@ use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::geometry::{Disc, Point};
 use base::noise::Noise;
-use base::placement::{
-    EntityClass, Group, PlacementContext, PlacementError, TeamPlacementError, team,
-};
+use base::placement::EntityClass;
 use base::random::Entity;
-use brain::{GoalId, RobotId};
+use brain::RobotId;
 
 /// One run, between two steps.
 #[derive(Debug, Clone)]
@@ -43,42 +43,6 @@ pub struct State {
     pub(crate) tally: Tally,
     /// A hash of all decisions since it was switched on; `None` while it is off.
     pub(crate) decisions: Option<u64>,
-}
-
-/// An item, goal, robot or controller for which a run has no room.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum NoRoom {
-    /// An item.
-    #[error("item {index} of kind {kind}: {why}")]
-    Item {
-        /// Number of its kind.
-        kind: u8,
-        /// Its index within the kind.
-        index: u32,
-        /// The reason.
-        why: PlacementError,
-    },
-    /// A goal.
-    #[error("goal {index} of kind {kind}: {why}")]
-    Goal {
-        /// Number of its kind.
-        kind: u8,
-        /// Its index within the kind.
-        index: u32,
-        /// The reason.
-        why: PlacementError,
-    },
-    /// A controller.
-    #[error("controller {} of kind {}: {why}", .id.index, .id.kind)]
-    Controller {
-        /// Its id.
-        id: RobotId,
-        /// The reason.
-        why: PlacementError,
-    },
-    /// A robot.
-    #[error(transparent)]
-    Robot(#[from] TeamPlacementError),
 }
 
 impl State {
@@ -107,7 +71,7 @@ impl State {
             decisions: None,
         };
         state.place_robots(scenario)?;
-        state.place_controllers(scenario)?;
+        state.controllers = place_controllers(scenario, (seed, run), &state.ids)?;
         Ok(state)
     }
 
@@ -198,98 +162,4 @@ impl State {
     pub fn robots(&self) -> usize {
         self.ids.len()
     }
-}
-
-fn groups(scenario: &Scenario) -> Vec<Group<'_>> {
-    let kinds = (0..).zip(&scenario.kinds);
-    let groups = kinds.map(|(number, kind)| Group {
-        kind: number,
-        key: kind.key,
-        count: kind.count,
-        radius_m: kind.radius_m,
-        layer: kind.layer as u8,
-        placement: &kind.start,
-    });
-    groups.collect()
-}
-
-/// The places where the robots of a run start, by kind.
-///
-/// # Errors
-/// The first robot for which no place is found.
-pub(crate) fn start_places(
-    scenario: &Scenario,
-    seed: u64,
-    run: u64,
-) -> Result<Vec<Vec<Point>>, TeamPlacementError> {
-    let draws = draws(scenario, seed, run, EntityClass::Robots);
-    team(&draws, &groups(scenario), |group, place| {
-        let layer = scenario.kinds[usize::from(group.kind)].layer;
-        scenario.is_free(place, group.radius_m, layer)
-    })
-}
-
-pub(super) fn draws(
-    scenario: &Scenario,
-    seed: u64,
-    run: u64,
-    things: EntityClass,
-) -> PlacementContext {
-    PlacementContext {
-        seed,
-        run,
-        world: scenario.world,
-        torus: scenario.torus,
-        things,
-    }
-}
-
-fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom> {
-    let draws = draws(scenario, seed, run, EntityClass::Items);
-    let mut items = Vec::new();
-    for (number, kind) in (0..).zip(&scenario.items) {
-        for index in 0..kind.count {
-            let thing = Entity {
-                kind: kind.key,
-                index,
-            };
-            let is_free = |place| scenario.is_free(place, 0.0, Layer::Ground);
-            let place = kind.placement.place(&draws, thing, is_free);
-            let place = place.map_err(|why| NoRoom::Item {
-                kind: number,
-                index,
-                why,
-            })?;
-            items.push((thing, u16::from(number), scenario.home(place)));
-        }
-    }
-    let world = (scenario.world.size(), scenario.torus);
-    Ok(Items::new(&items, world, scenario.items_reach_m()))
-}
-
-fn place_goals(scenario: &Scenario, seed: u64, run: u64) -> Result<Goals, NoRoom> {
-    let draws = draws(scenario, seed, run, EntityClass::Goals);
-    let is_free = |place| scenario.is_free(place, 0.0, Layer::Ground);
-    let mut goals = Vec::new();
-    for (number, kind) in (0..).zip(&scenario.goals) {
-        for index in 0..kind.count {
-            let place = kind.placement.place(&draws, kind.entity(index), is_free);
-            let place = place.map_err(|why| NoRoom::Goal {
-                kind: number,
-                index,
-                why,
-            })?;
-            goals.push(Goal {
-                id: GoalId {
-                    issuer: kind.issuer,
-                    number: index,
-                },
-                kind: number,
-                index,
-                at: scenario.home(place),
-                arrives_at: kind.arrives_at(index, scenario.step_s),
-            });
-        }
-    }
-    Ok(Goals::new(goals))
 }

@@ -79,12 +79,12 @@ fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
         ("owner_lease_s", kind.owner_lease_s, 0.0, ""),
     ];
     let errors = leases.into_iter().zip(trips_s).filter_map(|((key, lease_s, auction_s, auction), trip_s)| {
-        let least_s = (1.0 + drift) * (auction_s + trip_s);
+        let min_lease_s = (1.0 + drift) * (auction_s + trip_s);
         let allowed = format!(
-            "at least {least_s:.3}: it must outlast {auction}a round trip of {trip_s:.3} s over the \
+            "at least {min_lease_s:.3}: it must outlast {auction}a round trip of {trip_s:.3} s over the \
              radio, on clocks that drift by at most {drift}"
         );
-        (lease_s < least_s).then(|| at.key(key).error(allowed))
+        (lease_s < min_lease_s).then(|| at.key(key).error(allowed))
     });
     errors.collect()
 }

@@ -1,4 +1,4 @@
-//! Checks of goals: who owns them, who can serve them, and when they arrive.
+//! Checks of goals: their owners, the robots that can serve them, and their timetables.
 
 use super::controllers::unknown;
 use crate::bodies::RobotSpec;

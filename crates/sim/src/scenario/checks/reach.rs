@@ -35,7 +35,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
             let targets = Targets {
                 placement: &kind.placement,
                 count: kind.count,
-                whose: "robot with a sensor for it",
+                robots: "robot with a sensor for it",
             };
             errors.extend(out_of_reach(checked, &targets, &finders, &at));
             errors.extend(all_out_of_reach(checked, &targets, &finders, &at));
@@ -58,7 +58,7 @@ fn of_goals(checked: &Checked, at: &Place) -> Vec<InputError> {
         let targets = Targets {
             placement: &kind.placement,
             count: kind.count,
-            whose: "robot that can serve it",
+            robots: "robot that can serve it",
         };
         let mut errors = out_of_reach(checked, &targets, &servers, &at);
         errors.extend(all_out_of_reach(checked, &targets, &servers, &at));
@@ -72,7 +72,7 @@ struct Targets<'s> {
     placement: &'s Placement,
     count: u32,
     /// The robots that have to come near.
-    whose: &'static str,
+    robots: &'static str,
 }
 
 /// A kind of robot that detects an item at this distance.
@@ -125,7 +125,7 @@ fn out_of_reach(
     places
         .filter(|(_, place)| !is_found(**place))
         .map(|(index, _)| {
-            let allowed = format!("a place that a {} can reach within range", kind.whose);
+            let allowed = format!("a place that a {} can reach within range", kind.robots);
             at.item(index).error(allowed)
         })
         .collect()
@@ -160,7 +160,7 @@ fn all_out_of_reach(
     };
     let allowed = format!(
         "an area with a free place that a {} can reach within range: it has none",
-        kind.whose
+        kind.robots
     );
     (!is_fine).then(|| at.error(allowed))
 }
