@@ -52,7 +52,9 @@ pub use goals::orders::{AssignedGoal, OrderVerdict};
 pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, HeadingOptions};
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
-pub use io::dispatch::{Dispatch, Task, Work};
+pub use io::dispatch::{
+    Award, Bid, Claim, Dispatch, Fitness, Reason, Refusal, Renewal, Report, Seen, Task, Work,
+};
 pub use io::goal_id::GoalId;
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};

@@ -44,12 +44,13 @@ fn everyone() -> RobotId {
     RobotId::EVERYONE
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_everyone(to: &RobotId) -> bool {
     *to == RobotId::EVERYONE
 }
 
 impl Hashed for Message {
-    /// A message to everyone has the hash that messages had before they could have a receiver.
+    /// A message to all has the hash that messages had before they could have a receiver.
     fn add_to(&self, hash: &mut Hash) {
         let Self {
             to,
