@@ -39,6 +39,7 @@ mod io;
 mod messaging;
 mod navigation;
 mod perception;
+mod service;
 mod situation;
 mod spec;
 #[cfg(test)]
@@ -62,4 +63,8 @@ pub use io::random_words::RandomWords;
 pub use perception::beliefs::pose::Pose;
 pub use perception::beliefs::{BeliefsSpec, TrustSpec};
 pub use perception::believed::{BelievedItem, BelievedRobot};
+pub use service::grantor::{Grant, Grantor, wait_s};
+pub use service::holder::{Holder, Lease};
+pub use service::numbers::{Numbers, is_since};
+pub use service::served::ServedGoal;
 pub use spec::BrainSpec;

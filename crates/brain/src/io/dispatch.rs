@@ -69,7 +69,7 @@ dispatch! {
     6 Bid(Bid),
     /// From the owner to a bidder: it is to serve the goal.
     7 Award(Award),
-    /// From the receiver of an award: it serves the goal. From an owner to its heir: it accepts it.
+    /// From the receiver of an award: it serves the goal.
     8 Commit(Claim),
     /// From a robot: it does not serve the goal, and no award or call of this number changes that.
     9 Refuse(Refusal),
@@ -96,14 +96,19 @@ dispatch! {
     19 Seen(Seen),
     /// From an owner to another controller: it is to be the heir of a goal.
     20 Entrust(Task),
-    /// The answer to it: it is ready to be the heir.
-    21 Entrusted(Claim),
+    /// The answer to it, and to a binding: it is ready to be the heir, and grants owner leases of this
+    /// duration.
+    21 Entrusted(Award),
     /// From an owner to its heir: a request to be the heir no longer.
     22 Relieve(Claim),
     /// The answer to it: it is no longer the heir.
     23 Relieved(Claim),
     /// From an heir that owns a goal to the previous owner: it can have it back.
     24 Return(Task),
+    /// From an owner to its heir: from now on, it owns the goal only while the heir renews its lease.
+    /// The number is that of the answer to which it refers, the duration that of its longest service
+    /// lease.
+    25 Bind(Award),
 }
 
 impl Dispatch {
@@ -259,15 +264,15 @@ base::hashed!(Bid {
     call
 });
 
-/// The award of a goal to a robot.
+/// The award of a goal, or the grant of its ownership.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Award {
     /// The goal.
     pub goal: GoalId,
-    /// The number of the bid.
+    /// The number of the bid or request.
     pub number: u32,
-    /// Duration of the lease, from sending the bid, on the robot's clock.
+    /// Duration of the lease, from sending the bid or request, on the holder's clock.
     pub lease_s: f32,
 }
 
