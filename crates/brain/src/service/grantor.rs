@@ -117,6 +117,11 @@ impl Grantor {
         }
     }
 
+    /// Ends the lease of a goal that its holder does not need any more.
+    pub fn end(&mut self, goal: GoalId) {
+        self.remove(|grant| grant.goal == goal);
+    }
+
     /// Takes the release of a lease by its holder; one from before the grant has no effect.
     pub fn release(&mut self, from: RobotId, claim: Claim) -> Option<Grant> {
         self.remove(|grant| {

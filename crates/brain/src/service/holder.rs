@@ -144,6 +144,12 @@ impl Holder {
         self.answered(from, number, None).is_some()
     }
 
+    /// Whether a message answers a request for a goal.
+    pub fn is_answer(&mut self, from: RobotId, claim: Claim) -> bool {
+        self.answered(from, claim.number, Some(claim.goal))
+            .is_some()
+    }
+
     /// Ends a lease; no grant that answers an earlier request has an effect from now on.
     pub fn release(&mut self, goal: GoalId) -> Option<Lease> {
         self.requests.retain(|request| request.goal != Some(goal));
