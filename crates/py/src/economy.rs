@@ -11,10 +11,11 @@ use sim::scenario::Scenario;
 type NumberOf = fn(&Goal) -> f64;
 
 /// The numbers of a goal, by name; NaN for a time of what has not happened.
-const NUMBERS: [(&str, NumberOf); 8] = [
+const NUMBERS: [(&str, NumberOf); 9] = [
     ("x_m", |goal| goal.at.x),
     ("y_m", |goal| goal.at.y),
     ("issued_s", |goal| goal.issued_s.unwrap_or(f64::NAN)),
+    ("awarded_s", |goal| goal.awarded_s.unwrap_or(f64::NAN)),
     ("pursued_s", |goal| goal.pursued_s.unwrap_or(f64::NAN)),
     ("began_s", |goal| goal.began_s.unwrap_or(f64::NAN)),
     ("arrived_s", |goal| goal.arrived_s.unwrap_or(f64::NAN)),
@@ -91,6 +92,8 @@ fn dict_of<'py>(
         let assignee = owned.assignee.map(|(id, _)| name_of(scenario, id));
         dict.set_item("assignee", assignee)?;
         dict.set_item("lease_s", owned.assignee.map(|(_, lease_s)| lease_s))?;
+        let heir = owned.heir.map(|(id, _)| name_of(scenario, id));
+        dict.set_item("heir", heir)?;
         Ok(dict)
     });
     dict.set_item("goals", owned.collect::<PyResult<Vec<_>>>()?)?;

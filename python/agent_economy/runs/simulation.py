@@ -421,9 +421,9 @@ class Simulation(Stepped):
         """One row per goal, with times in seconds, null for what has not happened.
 
         The columns are `name` (KIND/INDEX), `issuer` and `number` of its id in messages, `x_m`,
-        `y_m`, `issued_s`, `pursued_s` (a robot first drove there), `began_s` and `arrived_s` (the
-        robot that served it set out for the last time, and arrived), `served_s`, `blocked_s` (time
-        for which it stood under way), `served_by`, `served_twice` and `expired`.
+        `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
+        `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
+        `blocked_s` (time for which it stood under way), `served_by`, `served_twice` and `expired`.
         """
         goals: dict[str, Any] = _core.goals(self._run)
         return arrow.table(
@@ -440,8 +440,8 @@ class Simulation(Stepped):
         Each has `name` (KIND/INDEX), `x_m`, `y_m`, `aboard` (a robot, or None), `range_m`,
         `working`, `refused` (the number of goals refused), and `goals`, each with `goal`
         (KIND/INDEX, or None for a goal that is not of the scenario), `x_m`, `y_m`, `assignee` (the
-        robot that it is awarded to, or None) and `lease_s` (the remaining time of that robot's
-        lease, or None).
+        robot that it is awarded to, or None), `lease_s` (the remaining time of that robot's
+        lease, or None) and `heir` (a controller, or None).
         """
         return _core.controllers(self._run)
 

@@ -33,9 +33,10 @@ impl ControllerKind {
     /// The kind that `spec` describes, where robots have these kinds.
     pub(crate) fn new<'r>(
         (name, spec): (&String, &ControllerSpec),
-        mut robots: impl Iterator<Item = &'r String>,
+        mut robots: impl ExactSizeIterator<Item = &'r String>,
         (step_s, max_drift): (f64, f64),
     ) -> Self {
+        let robot_kinds = u8::try_from(robots.len()).unwrap_or(u8::MAX);
         let carrier = spec.aboard.as_ref();
         let carrier = carrier.and_then(|kind| robots.position(|known| known == kind));
         let carrier = carrier.and_then(|number| u8::try_from(number).ok());
@@ -48,7 +49,7 @@ impl ControllerKind {
             radio: Radio::new(&spec.radio, step_s),
             price: spec.price,
             mean_time_between_failures_s: spec.mean_time_between_failures_s,
-            settings: Arc::new(spec.settings(max_drift)),
+            settings: Arc::new(spec.settings(max_drift, robot_kinds)),
         }
     }
 

@@ -51,7 +51,7 @@ pub struct ControllerSpec {
 
 impl ControllerSpec {
     /// Its settings, where clocks drift by at most `max_drift`.
-    pub(crate) fn settings(&self, max_drift: f64) -> Settings {
+    pub(crate) fn settings(&self, max_drift: f64, robot_kinds: u8) -> Settings {
         Settings {
             allocation: self.allocation,
             service_lease_s: self.service_lease_s,
@@ -59,6 +59,7 @@ impl ControllerSpec {
             auction_s: self.auction_s,
             max_goals: self.max_goals,
             max_drift,
+            robot_kinds,
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::goals::placed::{Goal, Goals};
 use crate::radio::channel::Outgoing;
 use crate::scenario::Scenario;
 use base::geometry::Disc;
-use brain::{About, CommitmentStatus, GoalId, RobotId};
+use brain::{About, CommitmentStatus, Dispatch, GoalId, RobotId};
 
 /// Counts of the goals of a run, and of its messages.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -33,6 +33,8 @@ pub(crate) struct GoalRecord {
     pub(crate) issued_at: Option<u64>,
     /// The controller that it was issued to.
     pub(crate) issued_to: Option<RobotId>,
+    /// When it was first awarded to a robot.
+    pub(crate) awarded_at: Option<u64>,
     /// When a robot first drove there.
     pub(crate) pursued_at: Option<u64>,
     pub(crate) served: Option<Service>,
@@ -43,6 +45,7 @@ pub(crate) struct GoalRecord {
 base::hashed!(GoalRecord {
     issued_at,
     issued_to,
+    awarded_at,
     pursued_at,
     served,
     is_served_twice
@@ -104,8 +107,15 @@ impl GoalTally {
     }
 
     fn note_commitment(&mut self, moment: &GoalMoment, outgoing: &Outgoing) {
-        let About::Goal { id, status, .. } = outgoing.message.about else {
-            return;
+        let (id, status) = match outgoing.message.about {
+            About::Goal { id, status, .. } => (id, status),
+            About::Dispatch(Dispatch::Award(award)) => {
+                if let Some(goal) = moment.goals.number(award.goal) {
+                    self.records[goal].awarded_at.get_or_insert(moment.tick);
+                }
+                return;
+            }
+            _ => return,
         };
         let (robot, goal) = (outgoing.from as usize, moment.goals.number(id));
         let Some(journey) = self.journeys.get_mut(robot) else {
@@ -207,6 +217,7 @@ fn done(outgoing: &Outgoing) -> Option<GoalId> {
             status: CommitmentStatus::Done,
             ..
         } => Some(id),
+        About::Dispatch(Dispatch::Done(claim)) => Some(claim.goal),
         _ => None,
     }
 }

@@ -91,10 +91,14 @@ pub(super) fn renumber_message(
     let Some(sender) = ids.get(&message.from) else {
         return false;
     };
-    message.from = *sender;
-    if let Some(receiver) = ids.get(&message.message.to) {
-        message.message.to = *receiver;
+    let receiver = ids.get(&message.message.to).unwrap_or(&RobotId::EVERYONE);
+    let is_dispatch = matches!(message.message.about, About::Dispatch(_));
+    if is_dispatch && (*sender, *receiver) != (message.from, message.message.to) {
+        // It belongs to leases between agents that had other ids.
+        return false;
     }
+    message.from = *sender;
+    message.message.to = *receiver;
     let About::Item {
         kind, provenance, ..
     } = &mut message.message.about

@@ -50,7 +50,7 @@ impl State {
         for agent in &mut next.agents {
             agent.renumber_robots(&ids);
         }
-        next.keep_controllers(self, &old_controllers, &ids);
+        next.keep_controllers(self, to, &old_controllers, &ids);
         next.make_room(to, &starts)?;
         let kept = next.keep_items(self, from, to)?;
         let removed = removed(self, &old);
@@ -72,12 +72,15 @@ impl State {
     fn keep_controllers(
         &mut self,
         before: &Self,
+        to: &Scenario,
         old: &[Option<usize>],
         ids: &BTreeMap<RobotId, RobotId>,
     ) {
+        let has_same_ids = ids.iter().all(|(was, now)| was == now);
         for (agent, was) in self.controllers.iter_mut().zip(old) {
             if let Some(was) = was {
-                agent.take_over(&before.controllers[*was]);
+                let settings = &to.controller_kind_of(agent.participant.id).settings;
+                agent.take_over(&before.controllers[*was], settings, has_same_ids);
                 agent.participant.renumber(ids);
             }
         }

@@ -1,7 +1,8 @@
 //! A controller of a run.
 
 use super::participant::{Participant, Place};
-use economy::Controller;
+use economy::{Controller, Settings};
+use std::sync::Arc;
 
 /// A controller as a participant in communication.
 #[derive(Debug, Clone)]
@@ -11,9 +12,19 @@ pub(crate) struct ControllerAgent {
 }
 
 impl ControllerAgent {
-    /// Takes over memory, messages and place of a controller; radio and settings stay its own.
-    pub(super) fn take_over(&mut self, before: &Self) {
-        self.controller = before.controller.with_settings_of(&self.controller);
+    /// Takes over memory, messages and place of a controller; radio and settings stay its own. Its memory names
+    /// others by their ids: when these have changed, it restarts.
+    pub(super) fn take_over(
+        &mut self,
+        before: &Self,
+        settings: &Arc<Settings>,
+        has_same_ids: bool,
+    ) {
+        self.controller = if has_same_ids {
+            before.controller.with_settings_of(&self.controller)
+        } else {
+            Controller::restarted(settings.clone())
+        };
         let (now, was) = (&mut self.participant, &before.participant);
         now.inbox.clone_from(&was.inbox);
         now.has_failed = was.has_failed;

@@ -22,6 +22,8 @@ pub struct Goal {
     pub at: Point,
     /// When it arrived.
     pub issued_s: Option<f64>,
+    /// When it was first awarded to a robot.
+    pub awarded_s: Option<f64>,
     /// When a robot first drove there.
     pub pursued_s: Option<f64>,
     /// When the robot that served it set out for the last time.
@@ -75,6 +77,7 @@ impl State {
                 index: goal.index,
                 at: goal.at,
                 issued_s: time_s(record.issued_at),
+                awarded_s: time_s(record.awarded_at),
                 pursued_s: time_s(record.pursued_at),
                 began_s: time_s(served.map(|served| served.began_at)),
                 arrived_s: time_s(served.map(|served| served.arrived_at)),

@@ -122,7 +122,8 @@ impl GoalTally {
         for (was, now) in numbers {
             let record = &mut self.records[*now];
             *record = before.records[*was];
-            record.issued_to = record.issued_to.and_then(new_id);
+            // A controller with another id has restarted.
+            record.issued_to = record.issued_to.filter(|id| new_id(*id) == Some(*id));
             if let Some(served) = &mut record.served {
                 served.by = served.by.and_then(new_id);
             }

@@ -213,17 +213,29 @@ fn a_run_is_complete_when_all_goals_are_served() {
 
 #[test]
 fn messages_that_a_receiver_has_no_room_for_are_counted() {
-    let text = TWO.replace("range_m = 50 }", "range_m = 50, messages_per_step = 1 }");
+    let text = replaced(
+        TWO,
+        &[("range_m = 50 }", "range_m = 50, messages_per_step = 3 }")],
+    );
     let text = replaced(
         &text,
         &[(
-            "radio = { range_m = 50, messages_per_step = 1 }",
-            "radio = { range_m = 50, messages_per_step = 3 }",
+            "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
+            "count = 0\nstart = { kind = \"fixed\", at_m = [[5",
         )],
     );
-    let mut simulation = start(&text);
+    let slow = replaced(
+        &text,
+        &[(
+            "[controllers.base]",
+            "[robots.slow]\ncount = 1\nradius_m = 0.2\n\
+        start = { kind = \"fixed\", at_m = [[3, 3]] }\ndrive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n\
+        radio = { range_m = 50, messages_per_step = 1 }\nbrain = { behaviours = [] }\n[controllers.base]",
+        )],
+    );
+    let mut simulation = start(&slow);
     drive(&mut simulation, 0.0, &[active(0), active(1), active(2)]);
     let outcome = outcome(&simulation);
-    // The other robot receives all, and each of the two controllers one.
-    assert_eq!((outcome.messages_sent, outcome.messages_dropped), (3, 4));
+    // The other rover receives all, and the slow robot one.
+    assert_eq!((outcome.messages_sent, outcome.messages_dropped), (3, 2));
 }
