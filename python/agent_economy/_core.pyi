@@ -27,12 +27,14 @@ __all__ = [
     "body",
     "check_page_message",
     "classic_world",
+    "controllers",
     "drawn_footprints",
     "drawn_links",
     "equal_allocation",
     "exhaust",
     "footprints",
     "frame",
+    "goals",
     "inspect",
     "inspection",
     "links",
@@ -297,6 +299,8 @@ class Simulation(CompiledRun):
     def restore(self, snapshot: Snapshot) -> None: ...
 
 def frame(simulation: Simulation) -> bytes: ...
+def goals(simulation: Simulation) -> dict[str, Any]: ...
+def controllers(simulation: Simulation) -> list[dict[str, Any]]: ...
 def links(simulation: Simulation, robot: str | None) -> NDArray[np.uint32]: ...
 def footprints(
     simulation: Simulation, robot: str

@@ -80,11 +80,11 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
         not), `complete` (whether all targets were found, or the condition of the scenario's end was
         met), the other columns of the engine, and `merit`. The metric engine has `robots`, `price`,
         `found` and `missed` (of the targets), `false_alarms`, `collisions`, `energy_j` (null if no
-        robot has a battery), `distance_m`, `robots_stopped`, for each item kind `found_KIND` and
-        `missed_KIND`, and `found_KIND_1_s`, `found_KIND_2_s` and so on: the times of its first
-        finds, at most 64. Counts are int64, `complete` is a bool. In a quarantined run (see
-        `Outcome.status`), all columns but `run` are null; a time of something that never happened
-        is null.
+        robot has a battery), `distance_m`, `robots_stopped`, in scenarios with goals those of goals
+        and messages, for each item kind `found_KIND` and `missed_KIND`, and `found_KIND_1_s`,
+        `found_KIND_2_s` and so on: the times of its first finds, at most 64. Counts are int64,
+        `complete` is a bool. In a quarantined run (see `Outcome.status`), all columns but `run` are
+        null; a time of something that never happened is null.
 
     Raises:
         InputError: If the scenario has errors or an argument is out of range; it lists all errors.

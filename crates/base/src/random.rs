@@ -58,6 +58,10 @@ pub enum Purpose {
     ItemCluster = 5,
     /// Key of the random numbers of an entity during a run: [`crate::noise`].
     Noise = 6,
+    /// Position of a goal.
+    Goal = 7,
+    /// Centre of a cluster of goals; the index is that of the cluster.
+    GoalCluster = 8,
 }
 
 /// The stream of an entity for a purpose in a run, before its first draw.

@@ -18,6 +18,8 @@ use crate::messaging::peers::Peers;
 use crate::navigation::speed_governor::SpeedGovernor;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::dead_reckoning::{DeadReckoning, Odometry};
+use crate::service::assignee::Assignee;
+use crate::service::served::ServedGoal;
 use crate::situation::Situation;
 use crate::spec::BrainSpec;
 use alloc::boxed::Box;
@@ -51,6 +53,8 @@ struct Kind {
     behaviours: Vec<Ready>,
     /// Index of the highest behaviour that takes a person's orders.
     order_taker: Option<usize>,
+    /// The same for the behaviour that serves the goals of controllers.
+    server: Option<usize>,
     arbiter: Arbiter,
 }
 
@@ -68,7 +72,8 @@ impl Brain {
             noise: matches!(arbiter, Arbiter::Schemas(_)).then(Box::default),
             kind: Arc::new(Kind {
                 governor: SpeedGovernor::new(&body),
-                order_taker: order_taker(&spec),
+                order_taker: highest(&spec, BehaviourSpec::takes_orders),
+                server: highest(&spec, BehaviourSpec::serves_controllers),
                 spec,
                 body,
                 behaviours,
@@ -117,6 +122,22 @@ impl Brain {
             brain.add_to(hash);
             self.assigned_goals().add_to(hash);
         }
+        if let Some(assignee) = self.assignee() {
+            assignee.add_to(hash);
+        }
+    }
+
+    fn assignee(&self) -> Option<&Assignee> {
+        let place = self.kind.server?;
+        let (behaviour, layer) = (self.kind.behaviours.get(place)?, self.layers.get(place)?);
+        behaviour.assignee(layer.memory_now())
+    }
+
+    /// The goals of controllers that it serves, in the order in which it serves them; none if it has
+    /// no behaviour `serve`.
+    #[must_use]
+    pub fn served_goals(&self) -> Vec<ServedGoal> {
+        self.assignee().map(Assignee::served).unwrap_or_default()
     }
 
     /// The goals that a person has assigned, in the order of assignment; none if no behaviour of the
@@ -157,6 +178,9 @@ impl Brain {
     pub fn renumber(&mut self, new_id: impl Fn(RobotId) -> Option<RobotId>) {
         if let Some(brain) = &mut self.beliefs {
             brain.renumber(&new_id);
+        }
+        if let Some((behaviour, layer)) = self.kind.server(&mut self.layers) {
+            behaviour.renumber(layer.memory(), &new_id);
         }
     }
 
@@ -234,6 +258,9 @@ impl Brain {
         if let Some(brain) = &mut self.beliefs {
             brain.publish(elapsed_s, &mut command.outbox);
         }
+        if let Some((behaviour, layer)) = self.kind.server(&mut self.layers) {
+            behaviour.publish(layer.memory(), &mut command.outbox);
+        }
         leading
     }
 
@@ -259,6 +286,9 @@ impl Brain {
         let last_goal = Cell::new(selection.as_ref().map_or(0, |each| each.last_goal));
         let situation = kind.situation(percept, known, &moved, &last_goal);
         kind.serve_orders(&mut self.layers, &situation);
+        if let Some((behaviour, layer)) = kind.server(&mut self.layers) {
+            behaviour.communicate(layer.memory(), &situation);
+        }
         let memory = ArbitrationMemory {
             layers: &mut self.layers,
             noise: self.noise.as_deref_mut(),
@@ -336,6 +366,16 @@ impl Kind {
         }
     }
 
+    /// The behaviour that serves the goals of controllers.
+    #[inline]
+    fn server<'k, 'l>(
+        &'k self,
+        layers: &'l mut [Layer<Memory>],
+    ) -> Option<(&'k Ready, &'l mut Layer<Memory>)> {
+        let place = self.server?;
+        self.behaviours.get(place).zip(layers.get_mut(place))
+    }
+
     /// Passes a person's orders to the behaviour that takes them.
     #[inline]
     fn serve_orders(&self, layers: &mut [Layer<Memory>], situation: &Situation) {
@@ -349,10 +389,9 @@ impl Kind {
     }
 }
 
-/// Index of the highest behaviour that takes a person's orders.
-fn order_taker(spec: &BrainSpec) -> Option<usize> {
-    let mut behaviours = spec.behaviours.iter();
-    behaviours.rposition(BehaviourSpec::takes_orders)
+/// Index of the highest behaviour with a property.
+fn highest(spec: &BrainSpec, has: impl FnMut(&BehaviourSpec) -> bool) -> Option<usize> {
+    spec.behaviours.iter().rposition(has)
 }
 
 /// The beliefs and goals, if the specification has beliefs or a behaviour needs them.

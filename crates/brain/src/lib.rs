@@ -39,6 +39,7 @@ mod io;
 mod messaging;
 mod navigation;
 mod perception;
+mod service;
 mod situation;
 mod spec;
 #[cfg(test)]
@@ -52,12 +53,18 @@ pub use goals::orders::{AssignedGoal, OrderVerdict};
 pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, HeadingOptions};
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
-pub use io::dispatch::{Dispatch, Task, Work};
-pub use io::goal_id::GoalId;
+pub use io::dispatch::{
+    Award, Bid, Claim, Dispatch, Fitness, Reason, Refusal, Renewal, Report, Seen, Task, Work,
+};
+pub use io::goal_id::{GoalId, issuer_of};
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
 pub use perception::beliefs::pose::Pose;
 pub use perception::beliefs::{BeliefsSpec, TrustSpec};
 pub use perception::believed::{BelievedItem, BelievedRobot};
+pub use service::grantor::{Grant, Grantor, wait_s};
+pub use service::holder::{Holder, Lease};
+pub use service::numbers::{Numbers, is_since};
+pub use service::served::ServedGoal;
 pub use spec::BrainSpec;

@@ -4,7 +4,8 @@
 //! [brain](brain::Brain) is: it has no world, no clock and no shared table.
 //!
 //! * [`Settings`]: the controller's part of a scenario;
-//! * [`Controller`]: one controller.
+//! * [`Controller`]: one controller;
+//! * [`Allocation`]: the rules by which a [`Market`] is cleared.
 
 #![cfg_attr(not(test), no_std)]
 
@@ -14,6 +15,7 @@ mod allocation;
 mod controller;
 mod settings;
 
-pub use allocation::Allocation;
+pub use allocation::optimal::assignment;
+pub use allocation::{Allocation, Market, Offer, Pair};
 pub use controller::{Controller, OwnedGoal};
 pub use settings::Settings;

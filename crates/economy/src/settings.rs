@@ -1,6 +1,7 @@
 //! What a person sets of a controller.
 
 use crate::allocation::Allocation;
+use brain::RobotId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +17,7 @@ pub struct Settings {
     /// Time for which a controller owns a goal without renewal by its heir.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
-    /// Time from a call for bids to the award.
+    /// Time from the first call for bids to the award; a fifth of it passes between two awards.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub auction_s: f64,
     /// Maximum number of goals that it owns; more are refused.
@@ -25,6 +26,18 @@ pub struct Settings {
     /// Maximum drift of any clock, in seconds per second.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub max_drift: f64,
+    /// Number of kinds of robots, which are numbered before all kinds of controllers. With 0, it is
+    /// the number of the controller's own kind: there is no other kind of controllers before it.
+    #[serde(skip)]
+    pub robot_kinds: u8,
+}
+
+impl Settings {
+    /// Whether an id is that of a robot, for a controller with an id.
+    pub(crate) fn is_robot(&self, id: RobotId, own: RobotId) -> bool {
+        let is_known = self.robot_kinds > 0;
+        id.kind < if is_known { self.robot_kinds } else { own.kind }
+    }
 }
 
 impl Default for Settings {
@@ -36,6 +49,7 @@ impl Default for Settings {
             auction_s: 1.0,
             max_goals: 1000,
             max_drift: 1e-4,
+            robot_kinds: 0,
         }
     }
 }

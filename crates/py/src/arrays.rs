@@ -2,8 +2,7 @@
 
 use base::geometry::Point;
 use brain::{
-    About, CommitmentStatus, Dispatch, GoalId, Motion, Percept, Provenance, Reading,
-    ReceivedMessage,
+    About, CommitmentStatus, GoalId, Motion, Percept, Provenance, Reading, ReceivedMessage,
 };
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
@@ -298,7 +297,10 @@ fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
             | About::Sender { at, .. }
             | About::Goal { at, .. }
             | About::Order { at, .. } => [at.x, at.y],
-            About::Dispatch(Dispatch::Issue(task)) => task.at_m.map(f64::from),
+            About::Dispatch(dispatch) => {
+                let task = dispatch.task();
+                task.map_or([f64::NAN; 2], |task| task.at_m.map(f64::from))
+            }
         });
     entries.dict.set_item("at", table(py, places)?)?;
     Ok(entries.dict)

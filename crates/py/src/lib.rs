@@ -11,6 +11,7 @@ mod commands;
 mod configuration;
 mod convert;
 mod document;
+mod economy;
 mod engines;
 mod error;
 mod external;
@@ -54,6 +55,8 @@ mod _core {
     };
     #[pymodule_export]
     use crate::document::Document;
+    #[pymodule_export]
+    use crate::economy::{controllers, goals};
     #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]

@@ -37,10 +37,11 @@ impl Kinds {
         unless_below(self.robots?, &format!("{at}.kind"), id.kind.into(), "robot")
     }
 
-    /// An error, unless there is the kind of a sender; `at` is the path of its id. The operator is no
-    /// robot.
-    pub(crate) fn sender(&self, at: &str, id: RobotId) -> Option<InputError> {
-        if id == RobotId::OPERATOR {
+    /// An error, unless there is the kind of the sender of a message; `at` is the path of its id. The operator is no
+    /// robot, and the senders of messages about goals of controllers may be controllers, whose kinds have numbers after
+    /// those of robots.
+    pub(crate) fn sender(&self, at: &str, id: RobotId, about: &About) -> Option<InputError> {
+        if id == RobotId::OPERATOR || matches!(about, About::Dispatch(_)) {
             return None;
         }
         self.robot(at, id)

@@ -22,9 +22,10 @@ pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
     Ok(MetricScenario(Arc::new(checked.scenario)))
 }
 
-/// A robot's name: KIND/INDEX.
+/// The name of a robot or controller: KIND/INDEX.
 pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
-    let kind = scenario.robot_kinds().nth(id.kind.into());
+    let mut kinds = scenario.robot_kinds().chain(scenario.controller_kinds());
+    let kind = kinds.nth(id.kind.into());
     format!("{}/{}", kind.unwrap_or_default(), id.index)
 }
 

@@ -84,6 +84,9 @@ fn to_draw(run: &mut Run, selected: Option<RobotId>, all_robots: bool, limit: us
         links.splice(..0, own);
         links.truncate(limit);
     }
+    // Pages draw links between robots only.
+    let robots = run.state().robots();
+    links.retain(|link| (link.from.max(link.to) as usize) < robots);
     links
 }
 

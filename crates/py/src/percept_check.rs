@@ -49,7 +49,11 @@ fn unknown_kind(at: &str, percept: &Percept, kinds: &Kinds) -> Option<InputError
     let received = || {
         inbox.find_map(|(number, received)| {
             let at = format!("{at}.inbox[{number}]");
-            let sender = kinds.sender(&format!("{at}.from"), received.from);
+            let sender = kinds.sender(
+                &format!("{at}.from"),
+                received.from,
+                &received.message.about,
+            );
             sender.or_else(|| kinds.message(&format!("{at}.message"), &received.message))
         })
     };

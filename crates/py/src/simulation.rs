@@ -440,6 +440,18 @@ fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
         let shown = |size: base::geometry::Point| format!("[{}, {}]", size.x, size.y);
         errors.push(error("world.size_m", shown(is), shown(was)));
     }
+    for (key, of) in [
+        (
+            "clock.max_offset_s",
+            Scenario::max_clock_offset_s as fn(&Scenario) -> f64,
+        ),
+        ("clock.max_drift", Scenario::max_clock_drift),
+    ] {
+        let [was, is] = [from, to].map(of);
+        if was.to_bits() != is.to_bits() {
+            errors.push(error(key, is.to_string(), was.to_string()));
+        }
+    }
     let [was, is] = [from, to].map(Scenario::is_periodic);
     if was != is {
         errors.push(error("world.periodic", is.to_string(), was.to_string()));
@@ -458,6 +470,13 @@ fn no_room(scenario: &Scenario, why: NoRoom) -> PyErr {
     let error = match why {
         NoRoom::Item { kind, index, why } => {
             named(kind, index, scenario.item_kinds().collect(), "items", &why)
+        }
+        NoRoom::Goal { kind, index, why } => {
+            named(kind, index, scenario.goal_kinds().collect(), "goals", &why)
+        }
+        NoRoom::Controller { id, why } => {
+            let kinds = scenario.robot_kinds().chain(scenario.controller_kinds());
+            named(id.kind, id.index, kinds.collect(), "controllers", &why)
         }
         NoRoom::Robot(robot) => named(
             robot.kind,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Time step and time limit.
+/// Time step, time limit, and the clocks of robots and controllers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClockSpec {
     /// Length of a time step, in seconds.
@@ -14,6 +14,16 @@ pub struct ClockSpec {
     /// failed.
     #[schemars(range(min = 0.0, max = 1e7))]
     pub time_limit_s: f64,
+    /// The clock of each robot and controller is ahead by a random time, of its own in each run, from 0 to this, in
+    /// seconds.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub max_offset_s: f64,
+    /// The clock of each robot and controller gains a random time, of its own in each run, from minus this to this,
+    /// in seconds per second.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 0.1))]
+    pub max_drift: f64,
 }
 
 fn tenth() -> f64 {

@@ -6,13 +6,13 @@ use base::scenario::condition::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// When a run is complete and over; without this table, when all targets are found.
+/// When a run is complete and over; without this table, when all targets are found and all goals are served.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EndSpec {
     /// The condition with which a run is complete: a count that changes during the run, compared with
     /// a number by `>=`, `>`, `<=`, `<`, `==` or `!=`, such as `"found_mine >= 3"`. The counts are
     /// `found` and `missed` (of all targets), `found_KIND` and `missed_KIND` (of a kind of items),
-    /// `false_alarms`, `collisions` and `robots_stopped`. A run that is not complete when the time
+    /// `false_alarms`, `collisions` and `robots_stopped`, and with goals `served`. A run that is not complete when the time
     /// limit is reached, or when no robot can move, has failed.
     #[schemars(length(min = 1))]
     pub when: String,
@@ -28,6 +28,10 @@ pub(crate) enum Count {
     FalseAlarms,
     Collisions,
     RobotsStopped,
+    /// Goals served.
+    Served,
+    /// Targets not found, and goals not served.
+    Open,
     /// Items found of the kind of this number.
     FoundOf(usize),
     /// Items not found of the kind of this number.
@@ -42,8 +46,8 @@ pub(crate) struct EndCondition {
 }
 
 impl Count {
-    /// All counts, named as the outcome columns of scenarios with these kinds of items.
-    fn all<'k>(kinds: impl Iterator<Item = &'k str>) -> Vec<(String, Self)> {
+    /// All counts, named as the outcome columns of scenarios with these kinds of items, and with goals or without.
+    fn all<'k>(kinds: impl Iterator<Item = &'k str>, has_goals: bool) -> Vec<(String, Self)> {
         let of_one_kind = kinds.enumerate().flat_map(|(number, kind)| {
             [
                 (format!("found_{kind}"), Self::FoundOf(number)),
@@ -58,7 +62,9 @@ impl Count {
             ("robots_stopped", Self::RobotsStopped),
         ];
         let of_all = of_all.map(|(name, count)| (name.to_owned(), count));
-        of_all.into_iter().chain(of_one_kind).collect()
+        let of_goals = has_goals.then(|| ("served".to_owned(), Self::Served));
+        let of_all = of_all.into_iter().chain(of_goals);
+        of_all.chain(of_one_kind).collect()
     }
 }
 
@@ -76,12 +82,22 @@ impl EndCondition {
         }
     }
 
-    /// Parses a condition on the counts of scenarios with these kinds of items.
+    /// That all targets are found and all goals are served.
+    pub(crate) fn all_served() -> Self {
+        Self {
+            count: Count::Open,
+            ..Self::all_found()
+        }
+    }
+
+    /// Parses a condition on the counts of scenarios with these kinds of items, and with goals or without.
     pub(crate) fn parse<'k>(
         text: &str,
         kinds: impl Iterator<Item = &'k str>,
+        has_goals: bool,
     ) -> Result<Self, ConditionError> {
-        let (names, counts): (Vec<String>, Vec<Count>) = Count::all(kinds).into_iter().unzip();
+        let (names, counts): (Vec<String>, Vec<Count>) =
+            Count::all(kinds, has_goals).into_iter().unzip();
         let columns = ConditionColumns {
             names,
             ..ConditionColumns::default()
@@ -93,9 +109,9 @@ impl EndCondition {
         })
     }
 
-    /// Whether it is that all targets are found.
-    pub(crate) fn is_all_found(&self) -> bool {
-        *self == Self::all_found()
+    /// Whether it is that nothing is left to find or to serve.
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::all_found() || self.count == Count::Open
     }
 
     /// Whether it can hold for a count from 0 to `max`.
@@ -111,7 +127,7 @@ mod tests {
     use super::*;
 
     fn condition(text: &str) -> EndCondition {
-        EndCondition::parse(text, ["cow", "mine"].into_iter()).unwrap()
+        EndCondition::parse(text, ["cow", "mine"].into_iter(), true).unwrap()
     }
 
     #[test]
@@ -122,6 +138,7 @@ mod tests {
             ("found_mine >= 1", Count::FoundOf(1)),
             ("missed_cow < 2", Count::MissedOf(0)),
             ("robots_stopped > 0", Count::RobotsStopped),
+            ("served >= 60", Count::Served),
         ] {
             assert_eq!(condition(text).count, count, "{text}");
         }

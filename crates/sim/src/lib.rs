@@ -9,9 +9,13 @@
     )
 )]
 
+pub(crate) mod agent_clock;
 pub mod bodies;
 pub mod clock;
+pub mod controllers;
 pub mod end;
+pub(crate) mod failures;
+pub mod goals;
 pub mod judge;
 pub mod radio;
 pub mod run;

@@ -53,8 +53,8 @@ impl Engine for Metric {
         ScenarioSpec::files(document)
     }
 
-    fn merit_terms(&self, _: &Document) -> Vec<MeritTerm> {
-        columns::columns(&[]).merit_terms()
+    fn merit_terms(&self, document: &Document) -> Vec<MeritTerm> {
+        columns::columns(&[], ScenarioSpec::has_goals(document)).merit_terms()
     }
 
     fn condition_columns(&self, document: &Document) -> ConditionColumns {
@@ -97,7 +97,7 @@ impl Runner for Runs {
 
 impl Runs {
     fn outcome_columns(&self) -> OutcomeColumns<Scenario, Outcome> {
-        columns::columns(&self.0.max_item_counts())
+        columns::columns(&self.0.max_item_counts(), !self.0.goals.is_empty())
     }
 
     fn finish(

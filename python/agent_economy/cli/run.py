@@ -152,6 +152,7 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
     found = {f"{kind} found": counts(outcome, kind) for kind in outcome.found}
     rows: dict[str, str | None] = {
         **found,
+        "goals served": served(outcome),
         "time": f"{outcome.time_s:.1f} s of {scenario.time_limit_s:g} s",
         "energy": energy(outcome),
         "distance": number(outcome.distance_m, "m"),
@@ -163,6 +164,14 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
         "merit": None if outcome.merit is None else f"{outcome.merit:.3f}",
     }
     return [(name, text) for name, text in rows.items() if text is not None]
+
+
+def served(outcome: Outcome) -> str | None:
+    """Return how many goals were served, and twice; None without goals."""
+    if "goals" not in outcome.row:
+        return None
+    row = outcome.row
+    return f"{row['served']} of {row['goals']}, {row['served_twice']} of them twice"
 
 
 def energy(outcome: Outcome) -> str | None:

@@ -12,16 +12,26 @@ from agent_economy.scenario import Scenario
 from agent_economy.scenario.merit import Bounds
 from agent_economy.study.answer import estimate
 
-EVENTS = {"collisions", "false_alarms", "paints"}
+EVENTS = {
+    "collisions",
+    "false_alarms",
+    "goals_refused",
+    "messages_dropped",
+    "messages_sent",
+    "paints",
+}
 """Counts of events: their greatest possible value, if any, is too large to limit a mean."""
 
-NOT_JUDGED = EVENTS | {"energy_j", "distance_m", "robots_stopped"}
+PARTS_OF_GOALS = {"waiting_s", "travel_s", "blocked_s", "service_s", "served_twice", "expired"}
+"""Columns of goals of which a quarantined run has no worst value."""
+
+NOT_JUDGED = EVENTS | PARTS_OF_GOALS | {"energy_j", "distance_m", "robots_stopped"}
 """Columns without a worst value: their means leave quarantined runs out.
 
 So do those of the times of finds, which also leave out the runs without that find.
 """
 
-BEST_IF_GREAT = ("complete", "found", "merit")
+BEST_IF_GREAT = ("complete", "found", "merit", "served")
 """First words of columns whose worst value is the smallest; of others, it is the greatest."""
 
 Floats = NDArray[np.float64]

@@ -29,8 +29,15 @@ STATUSES = np.array(["active", "empty", "broken"])
 """Status of a robot, by its number in the compiled part."""
 
 
-FIXED = ("clock.step_s", "world.size_m", "world.periodic")
-"""Keys that cannot change in a run: times are counted in steps, and positions lie in the world."""
+FIXED = (
+    "clock.step_s",
+    "clock.max_offset_s",
+    "clock.max_drift",
+    "world.size_m",
+    "world.periodic",
+)
+"""Keys that cannot change in a run: times are counted in steps, clocks never go back, and positions
+lie in the world."""
 
 
 class Footprint(NamedTuple):
@@ -294,7 +301,8 @@ class Simulation(Stepped):
 
         Args:
             path: Keys from the root, separated by dots, such as "robots.rover.count". Not allowed:
-                `clock.step_s`, `world.size_m` and `world.periodic`.
+                `clock.step_s`, `clock.max_offset_s`, `clock.max_drift`, `world.size_m` and
+                `world.periodic`.
             value: The new value, as in the file.
 
         Raises:
@@ -407,6 +415,35 @@ class Simulation(Stepped):
                 "found_s": arrow.column(items["found_s"], np.isnan(items["found_s"])),
             }
         )
+
+    @property
+    def goals(self) -> pa.Table:
+        """One row per goal, with times in seconds, null for what has not happened.
+
+        The columns are `name` (KIND/INDEX), `issuer` and `number` of its id in messages, `x_m`,
+        `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
+        `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
+        `blocked_s` (time for which it stood under way), `served_by`, `served_twice` and `expired`.
+        """
+        goals: dict[str, Any] = _core.goals(self._run)
+        return arrow.table(
+            {
+                name: arrow.column(values, np.isnan(values)) if name.endswith("_s") else values
+                for name, values in goals.items()
+            }
+        )
+
+    @property
+    def controllers(self) -> list[dict[str, Any]]:
+        """The controllers, with the goals that they own as far as they know.
+
+        Each has `name` (KIND/INDEX), `x_m`, `y_m`, `aboard` (a robot, or None), `range_m`,
+        `working`, `refused` (the number of goals refused), and `goals`, each with `goal`
+        (KIND/INDEX, or None for a goal that is not of the scenario), `x_m`, `y_m`, `assignee` (the
+        robot that it is awarded to, or None), `lease_s` (the remaining time of that robot's
+        lease, or None) and `heir` (a controller, or None).
+        """
+        return _core.controllers(self._run)
 
 
 def sorted_names(external: Iterable[str]) -> tuple[str, ...]:

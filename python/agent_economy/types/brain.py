@@ -89,20 +89,195 @@ class Task(TypedDict):
     capability: int
 
 
-class DispatchIssue(TypedDict):
-    """A goal that its receiver is to own from now on.
+class Report(TypedDict):
+    """The state of a robot.
 
-    It is accepted only from the operator.
+    Attributes:
+        at_m: Its position in the world, in metres.
+        speed_m_s: The speed at which it drives to goals.
+        battery: Remaining fraction of the battery's capacity, 0 to 1.
+        goals: Number of goals that it serves, of all controllers.
+        payload: Number of goals that it can serve in addition: its free payload.
     """
 
+    at_m: Sequence[float]
+    speed_m_s: float
+    battery: float
+    goals: int
+    payload: int
 
-class Dispatch(TypedDict, total=False):
-    """A message about a goal that a controller owns or awards.
 
-    It has one of these keys.
+Verdict: TypeAlias = Literal["complete", "impossible", "approaching", "receding"]
+"""The state of a goal."""
+
+
+class Fitness(TypedDict):
+    """The progress of a robot towards a goal.
+
+    Attributes:
+        goal: The goal.
+        verdict: Its verdict.
+        remaining_s: Expected time until it has been served.
     """
 
-    issue: DispatchIssue
+    goal: GoalId
+    verdict: Verdict
+    remaining_s: float
+
+
+class Bid(TypedDict):
+    """A bid of a robot for a goal.
+
+    The confidence of its message is the probability that it serves it.
+
+    Attributes:
+        goal: The goal.
+        number: The number that the robot gave the bid.
+        time_s: Time by which the robot's path and service become longer.
+        energy: The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
+        call: The number of the call.
+    """
+
+    goal: GoalId
+    number: int
+    time_s: float
+    energy: float
+    call: int
+
+
+class Award(TypedDict):
+    """The award of a goal, or the grant of its ownership.
+
+    Attributes:
+        goal: The goal.
+        number: The number of the bid or request.
+        lease_s: Duration of the lease, from sending the bid or request, on the holder's clock.
+    """
+
+    goal: GoalId
+    number: int
+    lease_s: float
+
+
+class Claim(TypedDict):
+    """A goal, and the number of a request of the robot or controller that holds its lease.
+
+    Attributes:
+        goal: The goal.
+        number: The number that the holder gave its request, which is different for each.
+    """
+
+    goal: GoalId
+    number: int
+
+
+Reason: TypeAlias = Literal[
+    "unreachable",
+    "capability",
+    "deadline",
+    "battery",
+    "full",
+    "lease",
+    "out_of_service",
+    "no_robot",
+]
+"""Why a goal is not served."""
+
+
+class Refusal(TypedDict):
+    """Why a robot or a controller does not serve a goal.
+
+    Attributes:
+        goal: The goal.
+        number: The number of the bid or of the lease; of a refused call, that of the call.
+        reason: Why.
+    """
+
+    goal: GoalId
+    number: int
+    reason: Reason
+
+
+class Renewal(TypedDict):
+    """A request to renew all leases between two agents.
+
+    Attributes:
+        number: The number that the holder gave the request.
+        count: Number of leases.
+        hash: Hash of the goals.
+    """
+
+    number: int
+    count: int
+    hash: Sequence[int]
+
+
+class Seen(TypedDict):
+    """The position of a robot.
+
+    Attributes:
+        robot: The robot.
+        at_m: Its position in the world, in metres.
+    """
+
+    robot: RobotId
+    at_m: Sequence[float]
+
+
+class DispatchCall(TypedDict):
+    """From a controller to robots: a goal that they can bid for.
+
+    A call to one robot requests an answer, a bid or a refusal.
+
+    Attributes:
+        number: The number that the caller gave the offer; it is the same when the call is
+            repeated.
+        task: The goal.
+    """
+
+    number: int
+    task: Task
+
+
+DispatchByKey = TypedDict(
+    "DispatchByKey",
+    {
+        "issue": Task,
+        "serial": int,
+        "report": Report,
+        "fitness": Fitness,
+        "call": DispatchCall,
+        "bid": Bid,
+        "award": Award,
+        "commit": Claim,
+        "refuse": Refusal,
+        "done": Claim,
+        "stuck": Refusal,
+        "release": Claim,
+        "withdraw": Claim,
+        "renew": Renewal,
+        "renewed": int,
+        "differs": int,
+        "renew_one": Claim,
+        "renewed_one": Claim,
+        "seen": Seen,
+        "entrust": Task,
+        "entrusted": Award,
+        "relieve": Claim,
+        "relieved": Claim,
+        "return": Task,
+        "bind": Award,
+    },
+    total=False,
+)
+"""A message about a goal that a controller owns or awards.
+
+It has one of these keys.
+"""
+
+
+Dispatch: TypeAlias = Literal["query"] | DispatchByKey
+"""A message about a goal that a controller owns or awards."""
 
 
 class AboutItem(TypedDict):
@@ -164,10 +339,6 @@ class AboutOrder(TypedDict):
     action: OrderAction
 
 
-class AboutDispatch(TypedDict):
-    """A goal that a controller owns or awards."""
-
-
 class About(TypedDict, total=False):
     """The content of a message.
 
@@ -178,7 +349,7 @@ class About(TypedDict, total=False):
     sender: AboutSender
     goal: AboutGoal
     order: AboutOrder
-    dispatch: AboutDispatch
+    dispatch: Dispatch
 
 
 OrderVerdict: TypeAlias = Literal["pending", "approaching", "receding", "complete", "impossible"]
@@ -253,10 +424,6 @@ class BelievedRobot(TypedDict):
     at: Point
     velocity_m_s: Point
     age_s: float
-
-
-Verdict: TypeAlias = Literal["complete", "impossible", "approaching", "receding"]
-"""The state of a goal."""
 
 
 class GoalState(TypedDict):

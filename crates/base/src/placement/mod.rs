@@ -71,17 +71,19 @@ pub struct PlacementContext {
     pub world: Rectangle,
     /// The torus of a periodic world.
     pub torus: Option<Torus>,
-    /// Whether items or robots are placed.
+    /// What is placed.
     pub things: EntityClass,
 }
 
-/// Items or robots: they have different random streams.
+/// Items, robots or goals: they have different random streams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EntityClass {
     /// Items.
     Items,
-    /// Robots.
+    /// Robots and controllers.
     Robots,
+    /// Goals.
+    Goals,
 }
 
 impl EntityClass {
@@ -89,6 +91,7 @@ impl EntityClass {
         match self {
             Self::Items => Purpose::Item,
             Self::Robots => Purpose::Start,
+            Self::Goals => Purpose::Goal,
         }
     }
 
@@ -96,6 +99,7 @@ impl EntityClass {
         match self {
             Self::Items => Purpose::ItemCluster,
             Self::Robots => Purpose::StartCluster,
+            Self::Goals => Purpose::GoalCluster,
         }
     }
 }

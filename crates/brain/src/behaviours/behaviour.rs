@@ -3,7 +3,10 @@
 use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
+use crate::io::body::RobotId;
 use crate::io::command::Motion;
+use crate::io::message::Message;
+use crate::service::assignee::Assignee;
 use crate::situation::Situation;
 use alloc::vec::Vec;
 
@@ -24,6 +27,9 @@ pub(crate) trait Behaviour {
     /// Whether it takes a person's orders.
     const TAKES_ORDERS: bool = false;
 
+    /// Whether it serves the goals of controllers.
+    const SERVES_CONTROLLERS: bool = false;
+
     /// The initial memory.
     fn memory(&self) -> Self::Memory;
 
@@ -40,6 +46,21 @@ pub(crate) trait Behaviour {
     fn assigned_goals(&self, _memory: &Self::Memory) -> Vec<AssignedGoal> {
         Vec::new()
     }
+
+    /// Takes the messages of controllers. Called first in each step if it is the highest behaviour that
+    /// serves them.
+    fn communicate(&self, _memory: &mut Self::Memory, _situation: &Situation) {}
+
+    /// Adds its messages to controllers to the outbox.
+    fn publish(&self, _memory: &mut Self::Memory, _outbox: &mut Vec<Message>) {}
+
+    /// The goals of controllers that it serves.
+    fn assignee<'m>(&self, _memory: &'m Self::Memory) -> Option<&'m Assignee> {
+        None
+    }
+
+    /// Changes the ids of other agents; those without a new id are forgotten.
+    fn renumber(&self, _memory: &mut Self::Memory, _new_id: &dyn Fn(RobotId) -> Option<RobotId>) {}
 
     /// Its proposal, if it is triggered. Called in each step in which no higher behaviour is active.
     fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal>;

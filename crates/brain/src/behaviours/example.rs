@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(zigzag.name(), "zigzag");
         assert_eq!(zigzag, BehaviourSpec::Zigzag(Zigzag { straight_s: 2.0 }));
         assert!(!zigzag.needs_beliefs() && !zigzag.needs_pose() && !zigzag.needs_detector());
-        assert!(!zigzag.takes_orders());
+        assert!(!zigzag.takes_orders() && !zigzag.serves_controllers());
         let slip = r#"{"kind": "zigzag", "strait_s": 2}"#;
         assert!(serde_json::from_str::<BehaviourSpec>(slip).is_err());
     }

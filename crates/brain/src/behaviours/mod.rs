@@ -19,6 +19,7 @@ mod outlook;
 mod part;
 mod random_bounce;
 mod return_home;
+mod serve;
 mod spiral;
 mod survey;
 mod turn;
@@ -35,14 +36,17 @@ pub use lawnmower::Lawnmower;
 pub use navigate::{Assignment, Navigate};
 pub use random_bounce::RandomBounce;
 pub use return_home::ReturnHome;
+pub use serve::Serve;
 pub use spiral::Spiral;
 
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
-use crate::io::body::Body;
+use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
+use crate::io::message::Message;
+use crate::service::assignee::Assignee;
 use crate::situation::Situation;
 use alloc::vec::Vec;
 use schemars::JsonSchema;
@@ -100,6 +104,14 @@ macro_rules! behaviours {
                 }
             }
 
+            /// Whether it serves the goals of controllers.
+            #[must_use]
+            pub fn serves_controllers(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $file::Ready::SERVES_CONTROLLERS,)+
+                }
+            }
+
             pub(crate) fn ready(&self, body: &Body) -> Ready {
                 match self {
                     $(Self::$kind(spec) => Ready::$kind($file::Ready::new(spec, body)),)+
@@ -150,6 +162,44 @@ macro_rules! behaviours {
                         ready.assigned_goals(memory)
                     })+
                     _ => Vec::new(),
+                }
+            }
+
+            fn communicate(&self, memory: &mut Memory, situation: &Situation) {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.communicate(memory, situation)
+                    })+
+                    _ => {}
+                }
+            }
+
+            fn publish(&self, memory: &mut Memory, outbox: &mut Vec<Message>) {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.publish(memory, outbox)
+                    })+
+                    _ => {}
+                }
+            }
+
+            fn assignee<'m>(&self, memory: &'m Memory) -> Option<&'m Assignee> {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => ready.assignee(memory),)+
+                    _ => None,
+                }
+            }
+
+            fn renumber(
+                &self,
+                memory: &mut Memory,
+                new_id: &dyn Fn(RobotId) -> Option<RobotId>,
+            ) {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.renumber(memory, new_id)
+                    })+
+                    _ => {}
                 }
             }
 
@@ -229,6 +279,8 @@ behaviours! {
     ReturnHome in return_home;
     /// Visits waypoints, around known obstacles.
     Navigate in navigate;
+    /// Serves the goals that controllers award.
+    Serve in serve;
     /// Avoids what is too near.
     Avoid in avoid;
     /// Moves in a flock by separation, alignment and cohesion.

@@ -2,9 +2,8 @@
 
 use crate::goals::proposal::Destination;
 use crate::io::goal_id::GoalPlace;
+pub use crate::io::verdict::Verdict;
 use base::geometry::Point;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The robot makes progress when the path to the goal is shorter by this than ever before, in
 /// metres; more if its position is noisy.
@@ -14,22 +13,6 @@ pub(crate) const PROGRESS_M: f64 = 0.1;
 /// seconds.
 const RECEDING_S: f64 = 4.0;
 const IMPOSSIBLE_S: f64 = 30.0;
-
-/// The state of a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// The robot has reached it.
-    Complete,
-    /// There is no known path, the battery does not last, or the robot has tried for too long.
-    Impossible,
-    /// The robot comes nearer.
-    Approaching,
-    /// The robot has not come nearer for some time.
-    Receding,
-}
-
-base::hashed!(enum Verdict);
 
 /// The situation of one step.
 #[derive(Debug, Clone, Copy)]

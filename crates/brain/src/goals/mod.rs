@@ -16,6 +16,7 @@ mod given_up;
 pub(crate) mod orders;
 pub(crate) mod precedence;
 pub(crate) mod proposal;
+pub(crate) mod tour;
 
 use crate::goals::proposal::Destination;
 use crate::io::goal_id::GoalId;

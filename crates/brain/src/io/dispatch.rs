@@ -1,23 +1,126 @@
 //! Messages about the goals that controllers own and award to robots.
+//!
+//! `docs/economy.md` describes the protocol: which message answers which.
 
+use super::body::RobotId;
 use super::goal_id::GoalId;
+use super::verdict::Verdict;
+
 use base::hash::Hash;
 use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A message about a goal that a controller owns or awards.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Dispatch {
-    /// A goal that its receiver is to own from now on. It is accepted only from the operator.
-    Issue(Task),
+/// Defines the messages, and their numbers in hashes.
+macro_rules! dispatch {
+    ($($(#[doc = $purpose:literal])+ $number:literal $kind:ident
+        $(($content:ty))? $({$($(#[doc = $what:literal])+ $field:ident: $type:ty,)+})?,)+) => {
+        /// A message about a goal that a controller owns or awards.
+        #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "snake_case", deny_unknown_fields)]
+        pub enum Dispatch {
+            $($(#[doc = $purpose])+ $kind $(($content))? $({$($(#[doc = $what])+ $field: $type,)+})?,)+
+        }
+
+        impl Hashed for Dispatch {
+            fn add_to(&self, hash: &mut Hash) {
+                $(dispatch!(@hash self hash $number $kind $(($content))? $({$($field)+})?);)+
+            }
+        }
+    };
+    (@hash $self:ident $hash:ident $number:literal $kind:ident ($content:ty)) => {
+        if let Self::$kind(content) = $self {
+            ($number as u8, *content).add_to($hash);
+        }
+    };
+    (@hash $self:ident $hash:ident $number:literal $kind:ident {$($field:ident)+}) => {
+        if let Self::$kind { $($field),+ } = $self {
+            ($number as u8).add_to($hash);
+            $($field.add_to($hash);)+
+        }
+    };
+    (@hash $self:ident $hash:ident $number:literal $kind:ident) => {
+        if let Self::$kind = $self {
+            ($number as u8).add_to($hash);
+        }
+    };
 }
 
-impl Hashed for Dispatch {
-    fn add_to(&self, hash: &mut Hash) {
+dispatch! {
+    /// From the operator to a controller: a goal that it is to own from now on.
+    0 Issue(Task),
+    /// From a controller to all: it is present, and has this serial number.
+    1 Serial(u32),
+    /// From a controller to robots: a request of a report.
+    2 Query,
+    /// From a robot to controllers: its state.
+    3 Report(Report),
+    /// From a robot to the owner of a goal that it serves: its progress.
+    4 Fitness(Fitness),
+    /// From a controller to robots: a goal that they can bid for. A call to one robot requests an
+    /// answer, a bid or a refusal.
+    5 Call {
+        /// The number that the caller gave the offer; it is the same when the call is repeated.
+        number: u16,
+        /// The goal.
+        task: Task,
+    },
+    /// From a robot to the caller: its best bid.
+    6 Bid(Bid),
+    /// From the owner to a bidder: it is to serve the goal.
+    7 Award(Award),
+    /// From the receiver of an award: it serves the goal.
+    8 Commit(Claim),
+    /// From a robot: it does not serve the goal, and no award or call of this number changes that.
+    9 Refuse(Refusal),
+    /// From a robot to all, until its owner withdraws the goal: the goal has been served.
+    10 Done(Claim),
+    /// From a robot to the owner: it does not reach the goal. From a controller to the operator: no
+    /// robot can serve the goal.
+    11 Stuck(Refusal),
+    /// From a robot or an owner: its lease has ended.
+    12 Release(Claim),
+    /// From the owner to all: the goal is no longer on offer. To its assignee: it is to release it.
+    13 Withdraw(Claim),
+    /// From the holder of leases: a request to renew all that it has of the receiver.
+    14 Renew(Renewal),
+    /// The renewal of this number is granted.
+    15 Renewed(u32),
+    /// The lists of leases differ; the holder is to renew each one.
+    16 Differs(u32),
+    /// From the holder of a lease: a request to renew it.
+    17 RenewOne(Claim),
+    /// The renewal of a lease is granted.
+    18 RenewedOne(Claim),
+    /// From a controller to others: the position of a robot that they may not see.
+    19 Seen(Seen),
+    /// From an owner to another controller: it is to be the heir of a goal.
+    20 Entrust(Task),
+    /// The answer to it, and to a binding: it is ready to be the heir, and grants owner leases of this
+    /// duration.
+    21 Entrusted(Award),
+    /// From an owner to its heir: a request to be the heir no longer.
+    22 Relieve(Claim),
+    /// The answer to it: it is no longer the heir.
+    23 Relieved(Claim),
+    /// From an heir that owns a goal to the previous owner: it can have it back.
+    24 Return(Task),
+    /// From an owner to its heir: from now on, it owns the goal only while the heir renews its lease.
+    /// The number is that of the answer to which it refers, the duration that of its longest service
+    /// lease.
+    25 Bind(Award),
+}
+
+impl Dispatch {
+    /// The goal that it describes, if it does.
+    #[must_use]
+    pub fn task(&self) -> Option<&Task> {
         match self {
-            Self::Issue(task) => (0_u8, *task).add_to(hash),
+            Self::Issue(task)
+            | Self::Call { task, .. }
+            | Self::Entrust(task)
+            | Self::Return(task) => Some(task),
+            _ => None,
         }
     }
 }
@@ -56,6 +159,21 @@ base::hashed!(Task {
     capability
 });
 
+impl Task {
+    /// Whether all of its numbers are finite and plausible.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        let is_plausible = |number: f32| (0.0..=f32::MAX).contains(&number);
+        let numbers = [self.value, self.service_s, self.due_s];
+        let is_near = |along_m: f32| along_m.abs() <= MAX_COORDINATE_M;
+        let is_wide = self.radius_m > 0.0 && self.radius_m <= MAX_COORDINATE_M;
+        is_wide && self.at_m.into_iter().all(is_near) && numbers.into_iter().all(is_plausible)
+    }
+}
+
+/// Larger coordinates in metres are invalid.
+pub(crate) const MAX_COORDINATE_M: f32 = 1e7;
+
 /// What a goal consists of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -67,3 +185,249 @@ pub enum Work {
 }
 
 base::hashed!(enum Work);
+
+/// A goal, and the number of a request of the robot or controller that holds its lease.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// The goal.
+    pub goal: GoalId,
+    /// The number that the holder gave its request, which is different for each.
+    pub number: u32,
+}
+
+base::hashed!(Claim { goal, number });
+
+/// The state of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    /// Its position in the world, in metres.
+    pub at_m: [f32; 2],
+    /// The speed at which it drives to goals.
+    pub speed_m_s: f32,
+    /// Remaining fraction of the battery's capacity, 0 to 1.
+    pub battery: f32,
+    /// Number of goals that it serves, of all controllers.
+    pub goals: u16,
+    /// Number of goals that it can serve in addition: its free payload.
+    pub payload: u16,
+}
+
+base::hashed!(Report {
+    at_m,
+    speed_m_s,
+    battery,
+    goals,
+    payload
+});
+
+/// The progress of a robot towards a goal.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fitness {
+    /// The goal.
+    pub goal: GoalId,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// Expected time until it has been served.
+    pub remaining_s: f32,
+}
+
+base::hashed!(Fitness {
+    goal,
+    verdict,
+    remaining_s
+});
+
+/// A bid of a robot for a goal. The confidence of its message is the probability that it serves it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bid {
+    /// The goal.
+    pub goal: GoalId,
+    /// The number that the robot gave the bid.
+    pub number: u32,
+    /// Time by which the robot's path and service become longer.
+    pub time_s: f32,
+    /// The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
+    pub energy: f32,
+    /// The number of the call.
+    pub call: u16,
+}
+
+base::hashed!(Bid {
+    goal,
+    number,
+    time_s,
+    energy,
+    call
+});
+
+/// The award of a goal, or the grant of its ownership.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Award {
+    /// The goal.
+    pub goal: GoalId,
+    /// The number of the bid or request.
+    pub number: u32,
+    /// Duration of the lease, from sending the bid or request, on the holder's clock.
+    pub lease_s: f32,
+}
+
+base::hashed!(Award {
+    goal,
+    number,
+    lease_s
+});
+
+/// Why a robot or a controller does not serve a goal.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Refusal {
+    /// The goal.
+    pub goal: GoalId,
+    /// The number of the bid or of the lease; of a refused call, that of the call.
+    pub number: u32,
+    /// Why.
+    pub reason: Reason,
+}
+
+base::hashed!(Refusal {
+    goal,
+    number,
+    reason
+});
+
+/// Why a goal is not served.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// No path leads there, or the robot does not come nearer.
+    Unreachable,
+    /// It lacks the capability.
+    Capability,
+    /// It would be too late.
+    Deadline,
+    /// The battery does not last.
+    Battery,
+    /// It serves the maximum number of goals.
+    Full,
+    /// The lease has ended, or is shorter than the service takes.
+    Lease,
+    /// It has been taken out of service.
+    OutOfService,
+    /// No robot is in range.
+    NoRobot,
+}
+
+base::hashed!(enum Reason);
+
+/// A request to renew all leases between two agents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Renewal {
+    /// The number that the holder gave the request.
+    pub number: u32,
+    /// Number of leases.
+    pub count: u16,
+    /// Hash of the goals.
+    pub hash: [u32; 2],
+}
+
+base::hashed!(Renewal {
+    number,
+    count,
+    hash
+});
+
+/// The position of a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Seen {
+    /// The robot.
+    pub robot: RobotId,
+    /// Its position in the world, in metres.
+    pub at_m: [f32; 2],
+}
+
+base::hashed!(Seen { robot, at_m });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dispatch_takes_at_most_44_bytes() {
+        assert!(size_of::<Dispatch>() <= 44, "{}", size_of::<Dispatch>());
+    }
+
+    #[test]
+    fn messages_that_differ_have_different_hashes() {
+        let claim = Claim {
+            goal: GoalId::default(),
+            number: 7,
+        };
+        let hash = |dispatch: Dispatch| {
+            let mut hash = Hash::default();
+            dispatch.add_to(&mut hash);
+            hash.value()
+        };
+        let all = [
+            Dispatch::Query,
+            Dispatch::Serial(7),
+            Dispatch::Renewed(7),
+            Dispatch::Commit(claim),
+            Dispatch::Done(claim),
+            Dispatch::Done(Claim { number: 8, ..claim }),
+        ];
+        let mut hashes: Vec<u64> = all.into_iter().map(hash).collect();
+        hashes.sort_unstable();
+        hashes.dedup();
+        assert_eq!(hashes.len(), all.len());
+    }
+
+    #[test]
+    fn goals_with_absurd_numbers_are_invalid() {
+        let task = Task {
+            id: GoalId::default(),
+            at_m: [1.0, 2.0],
+            radius_m: 0.5,
+            value: 1.0,
+            service_s: 0.0,
+            due_s: f32::MAX,
+            work: Work::Visit,
+            capability: 0,
+        };
+        assert!(task.is_valid());
+        for absurd in [
+            Task {
+                at_m: [f32::NAN, 0.0],
+                ..task
+            },
+            Task {
+                at_m: [1e9, 0.0],
+                ..task
+            },
+            Task {
+                radius_m: 0.0,
+                ..task
+            },
+            Task {
+                value: -1.0,
+                ..task
+            },
+            Task {
+                service_s: f32::INFINITY,
+                ..task
+            },
+            Task {
+                due_s: f32::NAN,
+                ..task
+            },
+        ] {
+            assert!(!absurd.is_valid(), "{absurd:?}");
+        }
+    }
+}

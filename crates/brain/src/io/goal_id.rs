@@ -48,7 +48,8 @@ base::hashed!(GoalPlace { id, at });
 
 /// The issuer of the goals of a list of waypoints. It follows from the list, so that kinds of robots
 /// with different lists do not confuse their goals, and kinds with the same list share them.
-pub(crate) fn issuer_of(waypoints: &[Point]) -> RobotId {
+#[must_use]
+pub fn issuer_of(waypoints: &[Point]) -> RobotId {
     // Adding 0 makes -0 the same as 0.
     let coordinates = waypoints.iter().flat_map(|at| [at.x + 0.0, at.y + 0.0]);
     let bytes = coordinates.flat_map(|along_m| along_m.to_bits().to_le_bytes());

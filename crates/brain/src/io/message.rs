@@ -44,6 +44,7 @@ fn everyone() -> RobotId {
     RobotId::EVERYONE
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_everyone(to: &RobotId) -> bool {
     *to == RobotId::EVERYONE
 }

@@ -8,3 +8,4 @@ pub(crate) mod infinite;
 pub(crate) mod message;
 pub(crate) mod percept;
 pub(crate) mod random_words;
+pub(crate) mod verdict;

@@ -43,6 +43,6 @@ pub enum Status {
     Active,
     /// Its battery is empty.
     Empty,
-    /// It has collided too often.
+    /// It has collided too often, or failed.
     Broken,
 }

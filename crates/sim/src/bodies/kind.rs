@@ -4,6 +4,7 @@ use super::battery::Battery;
 use super::collision::Collision;
 use super::drive::Drive;
 use super::{Layer, RobotSpec};
+use crate::goals::kind::capability;
 use crate::radio::Radio;
 use crate::schedule::Schedule;
 use crate::sensors::{Measure, Measures, Sensor, SensorSpec};
@@ -25,6 +26,7 @@ pub(crate) struct Kind {
     pub(crate) layer: Layer,
     pub(crate) radius_m: f64,
     pub(crate) price: f64,
+    pub(crate) mean_time_between_failures_s: Option<f64>,
     pub(crate) start: Placement,
     pub(crate) drive: Drive,
     pub(crate) collision: Collision,
@@ -92,6 +94,8 @@ impl Flocking {
 pub(crate) struct KindContext<'a> {
     pub(crate) item_kinds: &'a [String],
     pub(crate) robots: &'a BTreeMap<String, RobotSpec>,
+    /// Names of all capabilities, sorted.
+    pub(crate) capabilities: &'a [String],
     pub(crate) field: Rectangle,
     pub(crate) step_s: f64,
 }
@@ -136,7 +140,7 @@ impl Kind {
             }),
             item_kinds: item_kinds.to_vec(),
             others: others(spec.layer, context),
-            capabilities: Vec::new(),
+            capabilities: capabilities(spec, context.capabilities),
             field: Some(context.field),
         };
         let mut kind = Self {
@@ -147,6 +151,7 @@ impl Kind {
             layer: spec.layer,
             radius_m: spec.radius_m,
             price: spec.price,
+            mean_time_between_failures_s: spec.mean_time_between_failures_s,
             start: spec.start.clone(),
             drive,
             collision: Collision::new(&spec.collision, step_s),
@@ -280,6 +285,17 @@ fn others(layer: Layer, context: &KindContext) -> Vec<Other> {
         detectors: detectors(spec, context),
     };
     context.robots.values().map(other).collect()
+}
+
+/// The numbers of its capabilities among all of these.
+fn capabilities(spec: &RobotSpec, all: &[String]) -> Vec<u8> {
+    let mut numbers: Vec<u8> = spec
+        .capabilities
+        .iter()
+        .map(|name| capability(name, all))
+        .collect();
+    numbers.sort_unstable();
+    numbers
 }
 
 fn detectors(spec: &RobotSpec, context: &KindContext) -> Vec<Detector> {

@@ -58,6 +58,13 @@ pub struct RobotSpec {
     pub collision: CollisionSpec,
     /// The battery. Without it, energy is not counted.
     pub battery: Option<BatterySpec>,
+    /// What it can do besides moving, each under a name of your choice: goals require capabilities.
+    #[serde(default)]
+    #[schemars(length(max = 255))]
+    pub capabilities: Vec<String>,
+    /// Mean time until a robot breaks down, in seconds. Without it, robots only break in collisions.
+    #[schemars(range(min = 0.001, max = 1e12))]
+    pub mean_time_between_failures_s: Option<f64>,
     /// The sensors, each under a name of your choice.
     #[serde(default)]
     pub sensors: BTreeMap<String, SensorSpec>,

@@ -1,5 +1,6 @@
 //! Bounds of what runs of a scenario can yield.
 
+use super::goal_tally::GoalTally;
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::scenario::Scenario;
@@ -15,9 +16,22 @@ impl Scenario {
         self.of_team(|_| 1.0)
     }
 
-    /// The price of the team.
+    /// The price of the team and its controllers.
     pub(super) fn price(&self) -> f64 {
-        self.of_team(|kind| kind.price)
+        let controllers = self.controllers.iter();
+        let controllers = controllers.map(|kind| f64::from(kind.count) * kind.price);
+        self.of_team(|kind| kind.price) + controllers.sum::<f64>()
+    }
+
+    /// Number of goals of all kinds.
+    pub(crate) fn number_of_goals(&self) -> u32 {
+        self.goals.iter().map(|kind| kind.count).sum()
+    }
+
+    /// The tally of goals of a run that begins, if there are kinds of goals.
+    pub(super) fn goals(&self) -> Option<GoalTally> {
+        let goals = self.number_of_goals() as usize;
+        (!self.goals.is_empty()).then(|| GoalTally::new(goals, self.robots()))
     }
 
     #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
@@ -45,7 +59,7 @@ impl Scenario {
         terrain.map_or(TerrainFactors::NO_EFFECT, Terrain::most)
     }
 
-    fn longest_s(&self) -> f64 {
+    pub(super) fn longest_s(&self) -> f64 {
         HAIR * (self.time_limit_s + self.step_s)
     }
 

@@ -1,23 +1,24 @@
 //! The outcome columns, each defined in one place.
 
 use super::find_times::{find_time, find_times};
+use super::goal_columns::{self, Column};
 use super::outcome::Outcome;
 use super::unseen::unseen;
 use crate::scenario::{Scenario, ScenarioSpec};
 use base::document::Document;
 use base::engine::ColumnKind::{Flag, Real, Whole};
-use base::engine::{Bounds, OutcomeColumn, OutcomeColumns};
+use base::engine::{Bounds, OutcomeColumns};
 use base::scenario::condition::{ConditionColumns, TimesUntil};
 
-type Column = OutcomeColumn<Scenario, Outcome>;
-
 /// The outcome columns of scenarios with these kinds of items, each with the largest number of items in any
-/// configuration of the study: all configurations have the same columns.
-pub(crate) fn columns(items: &[(&str, u32)]) -> OutcomeColumns<Scenario, Outcome> {
+/// configuration of the study: all configurations have the same columns. With kinds of goals, there are those of goals.
+pub(crate) fn columns(items: &[(&str, u32)], has_goals: bool) -> OutcomeColumns<Scenario, Outcome> {
     let items = items.iter().copied().enumerate();
     let counts = items.clone().flat_map(counts_of);
     let times = items.flat_map(find_times_of);
     let columns = [time_and_team(), finds(), costs()].into_iter().flatten();
+    let goals = has_goals.then(goal_columns::columns);
+    let columns = columns.chain(goals.into_iter().flatten());
     OutcomeColumns(columns.chain(counts).chain(times).collect())
 }
 
@@ -29,7 +30,7 @@ pub(crate) fn condition_columns(document: &Document) -> ConditionColumns {
         .map(|(name, count)| (name.as_str(), *count))
         .collect();
     let items = items.as_slice();
-    let names = columns(items).names();
+    let names = columns(items, ScenarioSpec::has_goals(document)).names();
     let lengths = items.iter().map(|(_, count)| find_times(*count) as usize);
     let mut start = names.len() - lengths.clone().sum::<usize>();
     let mut times = Vec::new();
@@ -176,7 +177,7 @@ mod tests {
 
     #[test]
     fn merit_terms_are_summed_in_the_order_of_stored_studies() {
-        let terms = columns(&[]).merit_terms();
+        let terms = columns(&[], false).merit_terms();
         let names: Vec<&str> = terms.iter().map(|term| &*term.name).collect();
         let expected = "time robots failed price found missed collisions energy distance stopped \
                         false_alarms";

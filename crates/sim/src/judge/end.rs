@@ -44,8 +44,8 @@ impl Moment<'_> {
     /// The step in which a run was complete, after its scenario changed; `before` is that of the run before.
     pub(crate) fn completed_at(&self, before: Option<u64>) -> Option<u64> {
         let end = self.scenario.end.as_ref().filter(|_| self.meets_end())?;
-        if end.is_all_found() {
-            return self.last_find();
+        if end.is_default() {
+            return self.last_find().max(self.last_service());
         }
         before.or(Some(self.tick))
     }
@@ -56,6 +56,15 @@ impl Moment<'_> {
         let kinds = &self.scenario.items;
         let targets = found.filter(|(kind, _)| kinds[usize::from(*kind)].is_target);
         targets.filter_map(|(_, found_at)| found_at).max()
+    }
+
+    /// The step in which the last of the goals was served that were served.
+    fn last_service(&self) -> Option<u64> {
+        let goals = self.tally.goals.iter();
+        goals
+            .flat_map(|goals| goals.services())
+            .map(|(_, service)| service.at)
+            .max()
     }
 
     fn count(&self, count: Count) -> f64 {
@@ -69,9 +78,19 @@ impl Moment<'_> {
             Count::FalseAlarms => events(tally.false_alarms),
             Count::Collisions => events(tally.collisions),
             Count::RobotsStopped => tally.removed.and(self.body_states.iter()).stopped.into(),
+            Count::Served => self.served().into(),
+            Count::Open => {
+                let unserved = scenario.number_of_goals() - self.served();
+                (scenario.sum_of_targets(missed) + unserved).into()
+            }
             Count::FoundOf(kind) => tally.found[kind].into(),
             Count::MissedOf(kind) => missed(kind).into(),
         }
+    }
+
+    fn served(&self) -> u32 {
+        let goals = self.tally.goals.as_ref();
+        goals.map_or(0, |goals| goals.served())
     }
 }
 

@@ -10,9 +10,14 @@ pub(crate) mod cost;
 pub(crate) mod detections;
 mod end;
 mod find_times;
+mod goal_columns;
+mod goal_outcome;
+pub(crate) mod goal_tally;
+mod journey;
 pub(crate) mod moment;
 mod outcome;
 pub(crate) mod tally;
 mod unseen;
 
+pub use goal_outcome::GoalOutcome;
 pub use outcome::Outcome;

@@ -3,6 +3,7 @@
 use super::tally::Tally;
 use crate::bodies::body_state::BodyState;
 use crate::bodies::path::Orientation;
+use crate::goals::placed::Goals;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::geometry::Disc;
@@ -15,6 +16,9 @@ pub(crate) struct Moment<'a> {
     pub(crate) tick: u64,
     pub(crate) items: &'a Items,
     pub(crate) tally: &'a Tally,
+    pub(crate) goals: &'a Goals,
+    /// Goals that controllers have refused.
+    pub(crate) goals_refused: u32,
     pub(crate) discs: &'a [Disc],
     pub(crate) orientations: &'a [Orientation],
     pub(crate) body_states: &'a [BodyState],

@@ -1,5 +1,6 @@
 //! The outcome of a run.
 
+use super::goal_outcome::GoalOutcome;
 use super::moment::Moment;
 use crate::clock::seconds;
 use std::iter::zip;
@@ -28,6 +29,8 @@ pub struct Outcome {
     pub distance_m: f64,
     /// Robots that are empty or broken, including those that were removed in that state.
     pub robots_stopped: u32,
+    /// The outcome of the goals, in a scenario with kinds of goals.
+    pub goals: Option<GoalOutcome>,
     /// Whether every robot has a finite pose.
     is_placed: bool,
 }
@@ -56,6 +59,10 @@ impl Outcome {
             energy_j: cost.energy_j,
             distance_m: cost.distance_m,
             robots_stopped: cost.stopped,
+            goals: tally
+                .goals
+                .as_ref()
+                .map(|goals| GoalOutcome::of(moment, goals)),
             is_placed: is_placed(moment),
         }
     }

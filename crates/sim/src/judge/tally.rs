@@ -2,10 +2,12 @@
 
 use super::cost::Cost;
 use super::detections::Detections;
+use super::goal_tally::GoalTally;
 use crate::bodies::body_state::BodyState;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::hash::Hash;
+use base::hashed::Hashed;
 
 /// Counts of a run, besides those of each robot.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -20,6 +22,8 @@ pub(crate) struct Tally {
     pub(super) collisions: u64,
     /// The cost of robots that were removed.
     pub(super) removed: Cost,
+    /// Counts of goals, in a scenario with kinds of goals.
+    pub(crate) goals: Option<Box<GoalTally>>,
 }
 
 impl Tally {
@@ -28,6 +32,7 @@ impl Tally {
         Self {
             found_at: vec![None; items.len()],
             found: vec![0; scenario.items.len()],
+            goals: scenario.goals().map(Box::new),
             ..Self::default()
         }
     }
@@ -58,7 +63,14 @@ impl Tally {
     pub(crate) fn counts(&self) -> (u64, u64) {
         let found = self.found.iter().copied().map(u64::from).sum();
         let others = self.false_alarms + self.collisions + u64::from(self.removed.stopped);
-        (found, others + u64::from(self.complete_at.is_some()))
+        let goals = self.goals.as_deref();
+        let served = goals.map_or(0, |goals| {
+            u64::from(goals.served()) + goals.served_twice() as u64
+        });
+        (
+            found,
+            others + served + u64::from(self.complete_at.is_some()),
+        )
     }
 
     /// The step in which each item was found, by its number.
@@ -95,6 +107,9 @@ impl Tally {
         }
         hash.add(self.false_alarms);
         hash.add(self.collisions);
+        if let Some(goals) = &self.goals {
+            goals.as_ref().add_to(hash);
+        }
         if self.removed != Cost::default() {
             hash.add(self.removed.energy_j.to_bits());
             hash.add(self.removed.distance_m.to_bits());

@@ -15,18 +15,19 @@ struct Kind {
 
 /// The counts and times that are unknown after the end of a document with these columns. Works on documents with
 /// errors, too.
-pub(crate) fn unseen(document: &Document, names: &[String]) -> Vec<Unseen> {
+pub(crate) fn unseen(document: &Document, columns: &[String]) -> Vec<Unseen> {
     let when = document.get(&["end", "when"]).map(|node| &node.value);
     let Some(Value::Text(text)) = when else {
         return Vec::new();
     };
     let kinds = kinds(document);
-    let end = EndCondition::parse(text, kinds.iter().map(|kind| kind.name.as_str()));
+    let names = kinds.iter().map(|kind| kind.name.as_str());
+    let end = EndCondition::parse(text, names, ScenarioSpec::has_goals(document));
     let finds = end.ok().and_then(|end| finds(&end, &kinds));
     let Some((of, last)) = finds else {
         return Vec::new();
     };
-    let place = |name: String| names.iter().position(|known| *known == name);
+    let place = |name: String| columns.iter().position(|known| *known == name);
     let seen = |(name, seen): (String, (f64, f64))| {
         let end = text.trim().to_owned();
         Some(Unseen {

@@ -2,9 +2,9 @@
 
 use super::participant::{Participant, Place};
 use crate::bodies::kind::Kind;
-use crate::sensors::backlog::{Backlog, age_s};
+use crate::sensors::backlog::Backlog;
 use base::noise::Noise;
-use brain::{Brain, Motion, Percept, ReceivedMessage, RobotId, SensorRequest};
+use brain::{Brain, Motion, Percept, RobotId, SensorRequest};
 use std::collections::BTreeMap;
 
 /// The deciding part of one robot.
@@ -109,10 +109,7 @@ impl Inputs {
     /// Adds received messages to a percept.
     pub(crate) fn deliver_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
         if let Some(participant) = &mut self.participant {
-            participant.inbox.deliver(now, |late| {
-                let age_s = age_s(late.taken, now, step_s);
-                to.inbox.push(ReceivedMessage { age_s, ..late.what });
-            });
+            participant.deliver(now, step_s, &mut to.inbox);
         }
     }
 }

@@ -21,9 +21,27 @@ pub(super) fn previous_numbers(
     next.ids.iter().map(was).collect()
 }
 
-/// Whether no robot was added or removed.
-pub(super) fn is_same_team(before: &State, old: &[Option<usize>]) -> bool {
-    old.len() == before.robots() && old.iter().all(Option::is_some)
+/// For each controller of `next` its number in `before`, as [`previous_numbers`].
+pub(super) fn previous_controllers(
+    before: &State,
+    from: &Scenario,
+    next: &State,
+    to: &Scenario,
+) -> Vec<Option<usize>> {
+    let name = |scenario: &Scenario, id: RobotId| {
+        let kind = scenario.controller_kind_of(id);
+        (kind.name.clone(), id.index)
+    };
+    let old = before.controllers.iter().enumerate();
+    let old = old.map(|(number, agent)| (name(from, agent.participant.id), number));
+    let old: BTreeMap<(String, u32), usize> = old.collect();
+    let ids = next.controllers.iter().map(|agent| agent.participant.id);
+    ids.map(|id| old.get(&name(to, id)).copied()).collect()
+}
+
+/// Whether none of `count` robots or controllers was removed, and none added.
+pub(super) fn is_same_team(count: usize, old: &[Option<usize>]) -> bool {
+    old.len() == count && old.iter().all(Option::is_some)
 }
 
 /// The body states of the robots that are removed.
@@ -49,6 +67,19 @@ pub(super) fn new_ids(
         .collect()
 }
 
+/// Old and new ids of the controllers that stay.
+pub(super) fn new_controller_ids(
+    before: &State,
+    next: &State,
+    old: &[Option<usize>],
+) -> BTreeMap<RobotId, RobotId> {
+    let pairs = old.iter().zip(&next.controllers);
+    let pairs = pairs.filter_map(|(was, agent)| Some((before.controllers.get((*was)?)?, agent)));
+    pairs
+        .map(|(was, agent)| (was.participant.id, agent.participant.id))
+        .collect()
+}
+
 /// Renumbers the ids in a message in transit; returns false if a robot or item that it refers to by
 /// name no longer exists.
 pub(super) fn renumber_message(
@@ -60,7 +91,14 @@ pub(super) fn renumber_message(
     let Some(sender) = ids.get(&message.from) else {
         return false;
     };
+    let receiver = ids.get(&message.message.to).unwrap_or(&RobotId::EVERYONE);
+    let is_dispatch = matches!(message.message.about, About::Dispatch(_));
+    if is_dispatch && (*sender, *receiver) != (message.from, message.message.to) {
+        // It belongs to leases between agents that had other ids.
+        return false;
+    }
     message.from = *sender;
+    message.message.to = *receiver;
     let About::Item {
         kind, provenance, ..
     } = &mut message.message.about

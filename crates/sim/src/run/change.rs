@@ -1,13 +1,18 @@
 //! Continuing a run with another scenario.
 
-use super::carry_over::{is_same_team, new_ids, previous_numbers, removed, renumber_message};
-use super::state::{NoRoom, State, draws};
+use super::carry_over::{
+    is_same_team, new_controller_ids, new_ids, previous_controllers, previous_numbers, removed,
+    renumber_message,
+};
+use super::placing::{NoRoom, draws};
+use super::state::State;
 use crate::bodies::Layer;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;
 use crate::scenario::Scenario;
 use crate::world::items::Item;
 use base::placement::{DiscIndex, EntityClass, PlacementError, TeamPlacementError};
+use brain::RobotId;
 use std::collections::BTreeMap;
 
 /// Whether the place of a robot is still valid.
@@ -26,7 +31,7 @@ impl State {
     /// of the world.
     ///
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
-    /// they are; others are added where they would start, or removed. A robot whose brain, body or
+    /// they are, and so do controllers and goals; others are added where they would start, or removed. A robot whose brain, body or
     /// sensors changed gets a new agent, and its speed is limited at once to what its drive now
     /// allows. Of a battery with another capacity, what was not used so far is left. Messages in
     /// transit are lost if the team changes. The cost of robots that are removed stays part of the
@@ -38,23 +43,47 @@ impl State {
         let mut next = Self::new(to, self.seed, self.run)?;
         (next.tick, next.decisions) = (self.tick, self.decisions);
         let old = previous_numbers(self, from, &next, to);
-        let ids = new_ids(self, &next, &old);
+        let old_controllers = previous_controllers(self, from, &next, to);
+        let mut ids = new_ids(self, &next, &old);
+        ids.extend(new_controller_ids(self, &next, &old_controllers));
         let starts = next.keep_robots(self, &old, from, to);
         for agent in &mut next.agents {
             agent.renumber_robots(&ids);
         }
+        next.keep_controllers(self, to, &old_controllers, &ids);
         next.make_room(to, &starts)?;
         let kept = next.keep_items(self, from, to)?;
         let removed = removed(self, &old);
         next.tally = self.tally.continued((to, &next.items), &kept, &removed);
+        next.keep_goals((self, from), to, &old, &ids);
         next.tally.complete_at = next.moment(to).completed_at(self.tally.complete_at);
-        if is_same_team(self, &old) {
+        if is_same_team(self.robots(), &old)
+            && is_same_team(self.controllers.len(), &old_controllers)
+        {
             // Kinds are sorted by name, so that receivers keep their numbers.
             next.channel = self.channel.clone();
             next.channel
                 .retain(|message| renumber_message(message, &ids, from, to));
         }
         Ok(next)
+    }
+
+    /// Takes over controllers that stay, each from its `old` number.
+    fn keep_controllers(
+        &mut self,
+        before: &Self,
+        to: &Scenario,
+        old: &[Option<usize>],
+        ids: &BTreeMap<RobotId, RobotId>,
+    ) {
+        let has_same_ids = ids.iter().all(|(was, now)| was == now);
+        for (agent, was) in self.controllers.iter_mut().zip(old) {
+            if let Some(was) = was {
+                let settings = &to.controller_kind_of(agent.participant.id).settings;
+                agent.take_over(&before.controllers[*was], settings, has_same_ids);
+                agent.participant.renumber(ids);
+            }
+        }
     }
 
     /// Takes over robots that stay, each from its `old` number.

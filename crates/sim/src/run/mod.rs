@@ -3,11 +3,18 @@
 pub(crate) mod agent;
 mod carry_over;
 mod change;
+pub(crate) mod controller;
+mod economy;
+mod failing;
+mod goals;
 pub(crate) mod participant;
+pub(crate) mod placing;
 pub(crate) mod snapshot;
 pub(crate) mod state;
 mod state_hash;
 
 pub use crate::bodies::body_state::Status;
+pub use economy::{Controller, Goal};
+pub use placing::NoRoom;
 pub use snapshot::{Item, Robot};
-pub use state::{NoRoom, State};
+pub use state::State;

@@ -1,6 +1,6 @@
 //! Participants: what sends and receives messages, and can be addressed.
 //!
-//! Participants are numbered: first all robots, also those without a radio, and then the stations,
+//! Participants are numbered: first all robots, also those without a radio, and then the controllers,
 //! which have no body. Radio and delivery use nothing else of a run.
 
 use crate::bodies::Layer;
@@ -8,6 +8,7 @@ use crate::bodies::body_state::{BodyState, Status};
 use crate::radio::Radio;
 use crate::radio::arrivals::Arrivals;
 use crate::radio::channel::Transmission;
+use crate::sensors::backlog::age_s;
 use crate::sensors::pending::{Pending, PendingQueue};
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
@@ -16,7 +17,7 @@ use base::random::Entity;
 use brain::{ReceivedMessage, RobotId};
 use std::collections::BTreeMap;
 
-/// A participant in communication: a robot that has a radio, or a station.
+/// A participant in communication: a robot that has a radio, or a controller.
 #[derive(Debug, Clone)]
 pub(crate) struct Participant {
     pub(crate) id: RobotId,
@@ -25,6 +26,8 @@ pub(crate) struct Participant {
     /// Its key in the random streams of other participants.
     pub(crate) key: Entity,
     pub(crate) noise: Noise,
+    /// Whether it is silent for ever, though not because of a robot that carries it.
+    pub(crate) has_failed: bool,
     /// Received messages that its agent has not read.
     pub(crate) inbox: PendingQueue<ReceivedMessage>,
 }
@@ -35,7 +38,6 @@ pub(crate) enum Place {
     /// Aboard the robot of this number: it works only while the robot does.
     Aboard(u32),
     /// At a fixed point. Obstacles hide it as they hide robots of the layer.
-    #[cfg_attr(not(test), expect(dead_code, reason = "no scenario has stations yet"))]
     Fixed(Point, Layer),
 }
 
@@ -53,16 +55,18 @@ impl Participant {
             radio,
             key,
             noise,
+            has_failed: false,
             inbox: PendingQueue::default(),
         }
     }
 
     /// Whether it can send and receive at all.
     pub(crate) fn is_working(&self, body_states: &[BodyState]) -> bool {
-        match self.place {
+        let is_carried = match self.place {
             Place::Aboard(robot) => body_states[robot as usize].status == Status::Active,
             Place::Fixed(..) => true,
-        }
+        };
+        is_carried && !self.has_failed
     }
 
     /// Receives a message that arrives now.
@@ -95,6 +99,23 @@ impl Participant {
             entries[first + place] = entries[first + arrival.place];
         }
         entries.truncate(first + selected.len());
+    }
+
+    /// Receives a message of a person, without a radio.
+    pub(crate) fn receive_order(&mut self, message: ReceivedMessage, now: u64) {
+        self.inbox.entries.push(Pending {
+            taken: now,
+            due: now,
+            what: message,
+        });
+    }
+
+    /// Passes the messages that have arrived to the inbox of a percept.
+    pub(crate) fn deliver(&mut self, now: u64, step_s: f64, inbox: &mut Vec<ReceivedMessage>) {
+        self.inbox.deliver(now, |late| {
+            let age_s = age_s(late.taken, now, step_s);
+            inbox.push(ReceivedMessage { age_s, ..late.what });
+        });
     }
 
     /// Renumbers the senders of its messages; those of participants that were removed are dropped.

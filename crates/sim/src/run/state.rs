@@ -1,10 +1,13 @@
 //! Everything that changes in a run.
 
 use super::agent::Agent;
-use super::participant::Participant;
-use crate::bodies::Layer;
+use super::controller::ControllerAgent;
+use super::placing::{
+    NoRoom, draws, groups, place_controllers, place_goals, place_items, start_places,
+};
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
+use crate::goals::placed::Goals;
 use crate::judge::Outcome;
 use crate::judge::moment::Moment;
 use crate::judge::tally::Tally;
@@ -13,9 +16,7 @@ use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::geometry::{Disc, Point};
 use base::noise::Noise;
-use base::placement::{
-    EntityClass, Group, PlacementContext, PlacementError, TeamPlacementError, team,
-};
+use base::placement::EntityClass;
 use base::random::Entity;
 use brain::RobotId;
 
@@ -34,8 +35,9 @@ pub struct State {
     pub(crate) body_states: Vec<BodyState>,
     pub(crate) noises: Vec<Noise>,
     pub(crate) agents: Vec<Agent>,
-    /// The participants in communication without a body.
-    pub(crate) stations: Vec<Participant>,
+    /// Controllers in the order of their kinds and indices.
+    pub(crate) controllers: Vec<ControllerAgent>,
+    pub(crate) goals: Goals,
     pub(crate) items: Items,
     pub(crate) channel: RadioChannel,
     pub(crate) tally: Tally,
@@ -43,31 +45,14 @@ pub struct State {
     pub(crate) decisions: Option<u64>,
 }
 
-/// A robot or an item for which a run has no room.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum NoRoom {
-    /// An item.
-    #[error("item {index} of kind {kind}: {why}")]
-    Item {
-        /// Number of its kind.
-        kind: u8,
-        /// Its index within the kind.
-        index: u32,
-        /// The reason.
-        why: PlacementError,
-    },
-    /// A robot.
-    #[error(transparent)]
-    Robot(#[from] TeamPlacementError),
-}
-
 impl State {
     /// A new run.
     ///
     /// # Errors
-    /// If there is no room for an item or a robot.
+    /// If there is no room for an item, a goal, a robot or a controller.
     pub fn new(scenario: &Scenario, seed: u64, run: u64) -> Result<Self, NoRoom> {
         let items = place_items(scenario, seed, run)?;
+        let goals = place_goals(scenario, seed, run)?;
         let mut state = Self {
             seed,
             run,
@@ -78,13 +63,15 @@ impl State {
             body_states: Vec::new(),
             noises: Vec::new(),
             agents: Vec::new(),
-            stations: Vec::new(),
+            controllers: Vec::new(),
             tally: Tally::new(scenario, &items),
+            goals,
             items,
             channel: RadioChannel::default(),
             decisions: None,
         };
         state.place_robots(scenario)?;
+        state.controllers = place_controllers(scenario, (seed, run), &state.ids)?;
         Ok(state)
     }
 
@@ -157,6 +144,12 @@ impl State {
             scenario,
             tick: self.tick,
             items: &self.items,
+            goals: &self.goals,
+            goals_refused: self
+                .controllers
+                .iter()
+                .map(|agent| agent.controller.refused())
+                .sum(),
             tally: &self.tally,
             discs: &self.discs,
             orientations: &self.orientations,
@@ -169,71 +162,4 @@ impl State {
     pub fn robots(&self) -> usize {
         self.ids.len()
     }
-}
-
-fn groups(scenario: &Scenario) -> Vec<Group<'_>> {
-    let kinds = (0..).zip(&scenario.kinds);
-    let groups = kinds.map(|(number, kind)| Group {
-        kind: number,
-        key: kind.key,
-        count: kind.count,
-        radius_m: kind.radius_m,
-        layer: kind.layer as u8,
-        placement: &kind.start,
-    });
-    groups.collect()
-}
-
-/// The places where the robots of a run start, by kind.
-///
-/// # Errors
-/// The first robot for which no place is found.
-pub(crate) fn start_places(
-    scenario: &Scenario,
-    seed: u64,
-    run: u64,
-) -> Result<Vec<Vec<Point>>, TeamPlacementError> {
-    let draws = draws(scenario, seed, run, EntityClass::Robots);
-    team(&draws, &groups(scenario), |group, place| {
-        let layer = scenario.kinds[usize::from(group.kind)].layer;
-        scenario.is_free(place, group.radius_m, layer)
-    })
-}
-
-pub(super) fn draws(
-    scenario: &Scenario,
-    seed: u64,
-    run: u64,
-    things: EntityClass,
-) -> PlacementContext {
-    PlacementContext {
-        seed,
-        run,
-        world: scenario.world,
-        torus: scenario.torus,
-        things,
-    }
-}
-
-fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom> {
-    let draws = draws(scenario, seed, run, EntityClass::Items);
-    let mut items = Vec::new();
-    for (number, kind) in (0..).zip(&scenario.items) {
-        for index in 0..kind.count {
-            let thing = Entity {
-                kind: kind.key,
-                index,
-            };
-            let is_free = |place| scenario.is_free(place, 0.0, Layer::Ground);
-            let place = kind.placement.place(&draws, thing, is_free);
-            let place = place.map_err(|why| NoRoom::Item {
-                kind: number,
-                index,
-                why,
-            })?;
-            items.push((thing, u16::from(number), scenario.home(place)));
-        }
-    }
-    let world = (scenario.world.size(), scenario.torus);
-    Ok(Items::new(&items, world, scenario.items_reach_m()))
 }

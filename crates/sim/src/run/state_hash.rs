@@ -8,8 +8,8 @@ use brain::Motion;
 
 impl State {
     /// A hash of the poses, speeds, setpoints and counts of the robots, of which items were found, of
-    /// the beliefs of the robots, and of the messages that have not reached a brain. What a run does
-    /// not have adds nothing.
+    /// the beliefs of the robots, of the goals and the memory of the controllers, and of the messages that have not
+    /// reached their agents. What a run does not have adds nothing.
     ///
     /// It covers neither the memory of brains without beliefs, nor readings that have not reached a
     /// brain: [`Simulation::hash_decisions`](crate::simulation::Simulation::hash_decisions) covers
@@ -23,6 +23,7 @@ impl State {
         self.hash_beliefs(&mut hash);
         self.channel.hash_messages(&mut hash);
         self.hash_inboxes(&mut hash);
+        self.hash_controllers(&mut hash);
         hash.value()
     }
 
@@ -74,11 +75,20 @@ impl State {
         }
     }
 
+    fn hash_controllers(&self, hash: &mut Hash) {
+        for agent in &self.controllers {
+            (agent.participant.id, agent.participant.has_failed).add_to(hash);
+            agent.controller.add_to(hash);
+        }
+    }
+
     /// The participants in communication, with their numbers.
     fn participants(&self) -> impl Iterator<Item = (usize, &Participant)> {
         let aboard = self.agents.iter();
         let aboard = aboard.map(|agent| agent.inputs.participant.as_deref());
-        let all = aboard.chain(self.stations.iter().map(Some)).enumerate();
+        let controllers = self.controllers.iter();
+        let controllers = controllers.map(|agent| Some(&agent.participant));
+        let all = aboard.chain(controllers).enumerate();
         all.filter_map(|(number, participant)| Some((number, participant?)))
     }
 }

@@ -18,6 +18,13 @@ impl ScenarioSpec {
     }
 }
 
+impl ScenarioSpec {
+    /// Whether a document has kinds of goals. Works on documents with errors, too.
+    pub(crate) fn has_goals(document: &Document) -> bool {
+        Self::names(document, &["goals"]).is_some_and(|names| !names.is_empty())
+    }
+}
+
 impl Scenario {
     /// The scenario as one of the configurations of a document.
     pub(super) fn among_those_of(mut self, document: &Document) -> Self {

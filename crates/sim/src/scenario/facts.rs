@@ -29,7 +29,7 @@ impl Scenario {
                 format!("{}{clutter}", kind.count),
             )
         });
-        let end = self.end.iter().filter(|end| !end.is_all_found());
+        let end = self.end.iter().filter(|end| !end.is_default());
         let end = end.map(|end| ("complete when".to_owned(), end.comparison.to_string()));
         let facts = [("world".to_owned(), world), ("clock".to_owned(), clock)];
         facts.into_iter().chain(items).chain(end).collect()

@@ -4,6 +4,7 @@ mod checked;
 mod checks;
 mod counts;
 mod facts;
+mod kinds;
 mod models;
 mod reading;
 mod ready;

@@ -3,9 +3,12 @@
 
 use super::spec::ScenarioSpec;
 use super::world_hash::world_hash;
+use crate::agent_clock::AgentClocks;
 use crate::bodies::Layer;
 use crate::bodies::kind::{Kind, KindContext};
+use crate::controllers::kind::ControllerKind;
 use crate::end::EndCondition;
+use crate::goals::kind::{GoalContext, GoalKind};
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::items::ItemKind;
@@ -13,7 +16,6 @@ use crate::world::obstacles::Solid;
 use crate::world::static_geometry::{StaticGeometry, Wall};
 use crate::world::terrain::{Area, Terrain, TerrainFactors};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
-use brain::{Brain, RobotId};
 
 /// Neighbour lists reach farther than necessary: by this fraction of the range of rays, but within
 /// these limits in metres. They stay valid until a robot has moved half of it.
@@ -43,10 +45,16 @@ pub struct Scenario {
     seen: [StaticGeometry; 2],
     touched: [StaticGeometry; 2],
     pub(crate) items: Vec<ItemKind>,
-    /// The condition with which a run is complete: that of the scenario, otherwise that all targets are found;
-    /// `None` if there are no targets either.
+    /// The condition with which a run is complete: that of the scenario, otherwise that all targets are found
+    /// and all goals are served; `None` if there are none of them either.
     pub(crate) end: Option<EndCondition>,
     pub(crate) kinds: Vec<Kind>,
+    /// Kinds of controllers; ids number them after the kinds of robots.
+    pub(crate) controllers: Vec<ControllerKind>,
+    pub(crate) goals: Vec<GoalKind>,
+    pub(crate) clocks: AgentClocks,
+    /// Whether robots or controllers fail at random times.
+    pub(crate) has_failures: bool,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
     pub(crate) contact_m: f64,
     /// Additional reach of neighbour lists.
@@ -70,9 +78,11 @@ impl Scenario {
         let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
         let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
         let world = Rectangle::spanned(Point::default(), size_m);
+        let capabilities = spec.capabilities();
         let context = KindContext {
             item_kinds: &names,
             robots: &spec.robots,
+            capabilities: &capabilities,
             field: world,
             step_s,
         };
@@ -117,6 +127,13 @@ impl Scenario {
             solids,
             end: end_of(spec, &items),
             items,
+            controllers: controllers(spec),
+            goals: goals(spec, &capabilities),
+            clocks: AgentClocks {
+                max_offset_s: spec.clock.max_offset_s,
+                max_drift: spec.clock.max_drift,
+            },
+            has_failures: spec.has_failures(),
             kinds,
         }
     }
@@ -145,7 +162,7 @@ impl Scenario {
     /// Whether nothing can be touched or detected: all robots are points that only flock.
     pub(crate) fn is_of_flocks_of_points(&self) -> bool {
         let is_one = |kind: &Kind| kind.flocking.is_some() && kind.radius_m == 0.0;
-        self.kinds.iter().all(is_one)
+        self.kinds.iter().all(is_one) && self.controllers.is_empty() && self.goals.is_empty()
     }
 
     /// Whether all robots can be in each other's way.
@@ -185,6 +202,18 @@ impl Scenario {
         self.time_limit_s
     }
 
+    /// Maximum offset of the clocks of robots and controllers.
+    #[must_use]
+    pub fn max_clock_offset_s(&self) -> f64 {
+        self.clocks.max_offset_s
+    }
+
+    /// Maximum drift of the clocks of robots and controllers.
+    #[must_use]
+    pub fn max_clock_drift(&self) -> f64 {
+        self.clocks.max_drift
+    }
+
     /// The world.
     #[must_use]
     pub fn world(&self) -> Rectangle {
@@ -195,49 +224,6 @@ impl Scenario {
     #[must_use]
     pub fn is_periodic(&self) -> bool {
         self.torus.is_some()
-    }
-
-    /// Names of the kinds of robots, in the order in which ids count them.
-    pub fn robot_kinds(&self) -> impl Iterator<Item = &str> {
-        self.kinds.iter().map(|kind| kind.name.as_str())
-    }
-
-    /// Names of the kinds of items, in the order in which contacts count them.
-    pub fn item_kinds(&self) -> impl Iterator<Item = &str> {
-        self.items.iter().map(|kind| kind.name.as_str())
-    }
-
-    /// Names of the kinds of items, each with the largest number of them in any configuration of the study.
-    pub(crate) fn max_item_counts(&self) -> Vec<(&str, u32)> {
-        let kinds = self.items.iter();
-        let counts = kinds.map(|kind| (kind.name.as_str(), kind.max_count));
-        counts.collect()
-    }
-
-    /// The brain with which robots of a kind start.
-    #[must_use]
-    pub fn brain(&self, kind: u8) -> Option<&Brain> {
-        self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
-    }
-
-    /// The radio range of a kind of robots, if they have a radio.
-    #[must_use]
-    pub fn radio_m(&self, kind: u8) -> Option<f64> {
-        let kind = self.kinds.get(usize::from(kind))?;
-        kind.radio.map(|radio| radio.range_m)
-    }
-
-    /// The layer of a kind of robots; none if there is no such kind.
-    #[must_use]
-    pub fn layer(&self, kind: u8) -> Option<Layer> {
-        Some(self.kinds.get(usize::from(kind))?.layer)
-    }
-
-    /// The kind of a robot of a run. Ids from anywhere else, such as the senders of messages, may
-    /// have no kind of robots.
-    #[inline]
-    pub(crate) fn kind_of(&self, robot: RobotId) -> &Kind {
-        &self.kinds[usize::from(robot.kind)]
     }
 
     /// What rays meet in a layer.
@@ -337,9 +323,35 @@ fn entries(spec: &ScenarioSpec, obstacles: usize) -> Vec<usize> {
 fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
     let Some(end) = &spec.end else {
         let has_targets = items.iter().any(|kind| kind.is_target && kind.count > 0);
-        return has_targets.then(EndCondition::all_found);
+        let has_goals = spec.goals.values().any(|kind| kind.count > 0);
+        let all_found = has_targets.then(EndCondition::all_found);
+        return if has_goals {
+            Some(EndCondition::all_served())
+        } else {
+            all_found
+        };
     };
-    EndCondition::parse(&end.when, spec.items.keys().map(String::as_str)).ok()
+    let items = spec.items.keys().map(String::as_str);
+    EndCondition::parse(&end.when, items, !spec.goals.is_empty()).ok()
+}
+
+fn controllers(spec: &ScenarioSpec) -> Vec<ControllerKind> {
+    let clock = (spec.clock.step_s, spec.clock.max_drift);
+    let kinds = spec.controllers.iter();
+    kinds
+        .map(|kind| ControllerKind::new(kind, spec.robots.keys(), clock))
+        .collect()
+}
+
+fn goals(spec: &ScenarioSpec, capabilities: &[String]) -> Vec<GoalKind> {
+    let controllers: Vec<String> = spec.controllers.keys().cloned().collect();
+    let context = GoalContext {
+        capabilities,
+        controllers: &controllers,
+        step_s: spec.clock.step_s,
+    };
+    let kinds = spec.goals.iter();
+    kinds.map(|kind| GoalKind::new(kind, &context)).collect()
 }
 
 fn greatest(kinds: &[Kind], value: impl Fn(&Kind) -> f64) -> f64 {

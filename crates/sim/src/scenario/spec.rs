@@ -3,7 +3,9 @@
 use super::models::{self, ModelSpec};
 use crate::bodies::RobotSpec;
 use crate::clock::ClockSpec;
+use crate::controllers::ControllerSpec;
 use crate::end::EndSpec;
+use crate::goals::GoalSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
@@ -11,13 +13,13 @@ use base::document::schema::Schema;
 use base::document::{Document, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 /// A scenario as it is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScenarioSpec {
-    /// Time step and time limit.
+    /// Time step, time limit, and the clocks of robots and controllers.
     pub clock: ClockSpec,
     /// The world.
     pub world: WorldSpec,
@@ -32,7 +34,13 @@ pub struct ScenarioSpec {
     pub models: BTreeMap<String, ModelSpec>,
     /// Kinds of robots, each under a name of your choice.
     pub robots: BTreeMap<String, RobotSpec>,
-    /// When a run is complete and over; without this table, when all targets are found.
+    /// Kinds of controllers, each under a name of your choice.
+    #[serde(default)]
+    pub controllers: BTreeMap<String, ControllerSpec>,
+    /// Kinds of goals, each under a name of your choice.
+    #[serde(default)]
+    pub goals: BTreeMap<String, GoalSpec>,
+    /// When a run is complete and over; without this table, when all targets are found and all goals are served.
     pub end: Option<EndSpec>,
 }
 
@@ -41,14 +49,38 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<Scena
 
 impl ScenarioSpec {
     /// The keys at the root of a document that this type reads.
-    pub const KEYS: [&str; 7] = [
-        "clock", "world", "terrain", "items", "models", "robots", "end",
+    pub const KEYS: [&str; 9] = [
+        "clock",
+        "world",
+        "terrain",
+        "items",
+        "models",
+        "robots",
+        "controllers",
+        "goals",
+        "end",
     ];
 
     /// The schema of [`ScenarioSpec::KEYS`], once every robot kind is completed from its model.
     #[must_use]
     pub fn schema() -> &'static Schema {
         &SCHEMA
+    }
+
+    /// The names of all capabilities of robots, sorted: their numbers are their places, from 1.
+    pub(crate) fn capabilities(&self) -> Vec<String> {
+        let robots = self.robots.values();
+        let names: BTreeSet<&String> = robots.flat_map(|robot| &robot.capabilities).collect();
+        names.into_iter().cloned().collect()
+    }
+
+    /// Whether robots or controllers fail at random times.
+    pub(super) fn has_failures(&self) -> bool {
+        let robots = self.robots.values();
+        let robots = robots.map(|kind| kind.mean_time_between_failures_s);
+        let controllers = self.controllers.values();
+        let controllers = controllers.map(|kind| kind.mean_time_between_failures_s);
+        robots.chain(controllers).any(|mean_s| mean_s.is_some())
     }
 
     /// A document in which every robot kind and every model is completed from its model.

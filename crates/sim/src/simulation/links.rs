@@ -1,12 +1,13 @@
-//! Radio links between robots, for display only: no brain uses them.
+//! Radio links between robots and controllers, for display only: no agent uses them.
 
 use super::{NoRobot, Simulation};
 use crate::step::communicate::Participants;
 use brain::RobotId;
 
-/// Two robots of which at least one receives the other's messages, unless they are lost by chance.
+/// Two robots or controllers of which at least one receives the other's messages, unless they are lost by chance.
 ///
-/// Robots are numbered in the order of [`State::each_robot`](super::State::each_robot).
+/// Robots are numbered in the order of [`State::each_robot`](super::State::each_robot), and controllers after them in the
+/// order of [`State::each_controller`](super::State::each_controller).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Link {
     /// The sender; the lower number if the link is mutual.
@@ -18,22 +19,31 @@ pub struct Link {
 }
 
 impl Simulation {
-    /// The current links, at most `most`: of one robot, or of all; ordered by the numbers of the
-    /// robots, the lower one first. The run does not change.
+    /// The current links, at most `most`: of one robot, or of all robots and controllers; ordered by the numbers, the
+    /// lower one first. The run does not change.
     ///
     /// # Errors
     /// If there is no such robot.
     pub fn links(&mut self, of: Option<RobotId>, most: usize) -> Result<Vec<Link>, NoRobot> {
         of.map(|id| self.number(id)).transpose()?;
         let radios = self.scenario().kinds.iter().filter_map(|kind| kind.radio);
-        let Some(reach_m) = radios.map(|radio| radio.range_m).reduce(f64::max) else {
+        let controllers = self.scenario().controllers.iter().map(|kind| kind.radio);
+        let ranges_m = radios.chain(controllers).map(|radio| radio.range_m);
+        let Some(reach_m) = ranges_m.reduce(f64::max) else {
             return Ok(Vec::new());
         };
         let (view, agents) = self.view();
         let participants = Participants::new(&view, agents);
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "participants have 32-bit numbers"
+        )]
+        let [robots, all] =
+            [view.ids.len(), view.ids.len() + view.controllers.len()].map(|count| count as u32);
         let links = |robot: u32| {
-            let centre = view.discs[robot as usize].centre;
-            let about = view.neighbours.about(centre, reach_m);
+            let near = view.discs.get(robot as usize);
+            let near = near.map(|disc| view.neighbours.about(disc.centre, reach_m));
+            let about = near.into_iter().flatten().chain(robots..all);
             let is_included = |other: &u32| *other > robot || (of.is_some() && *other != robot);
             let mut others: Vec<u32> = about.filter(is_included).collect();
             // Lists of near robots have no particular order.
@@ -41,10 +51,11 @@ impl Simulation {
             let links = others.into_iter();
             links.filter_map(move |other| link(&participants, robot, other))
         };
-        let robots = (0..).zip(view.ids);
-        let robots = robots.filter(|(_, id)| of.is_none_or(|of| of == **id));
-        let links = robots.flat_map(|(robot, _)| links(robot));
-        Ok(links.take(most).collect())
+        let included = (0..all).filter(|number| {
+            let id = view.ids.get(*number as usize);
+            of.is_none_or(|of| id == Some(&of))
+        });
+        Ok(included.flat_map(links).take(most).collect())
     }
 }
 

@@ -61,10 +61,16 @@ pub(crate) fn deliver(state: &mut State) {
     }
     for sent in &arrived {
         let count = channel.take_count(sent.to);
-        if let Some(receiver) = receiver(state, sent.to).filter(|_| count > 0)
-            && count > receiver.radio.messages_per_step
-        {
-            receiver.drop_excess(now, &mut channel.arrivals);
+        let receiver = receiver(state, sent.to).filter(|_| count > 0);
+        let dropped = receiver.map_or(0, |receiver| {
+            let dropped = count.saturating_sub(receiver.radio.messages_per_step);
+            if dropped > 0 {
+                receiver.drop_excess(now, &mut channel.arrivals);
+            }
+            dropped
+        });
+        if let Some(goals) = &mut state.tally.goals {
+            goals.messages_dropped += dropped as u64;
         }
     }
     channel.reuse(arrived);
@@ -75,9 +81,11 @@ pub(crate) fn deliver(state: &mut State) {
 fn receiver(state: &mut State, number: u32) -> Option<&mut Participant> {
     let robots = state.agents.len();
     let number = number as usize;
-    let participant = match state.agents.get_mut(number) {
-        Some(agent) => agent.inputs.participant.as_deref_mut(),
-        None => state.stations.get_mut(number - robots),
+    let participant = if let Some(agent) = state.agents.get_mut(number) {
+        agent.inputs.participant.as_deref_mut()
+    } else {
+        let controller = state.controllers.get_mut(number - robots);
+        controller.map(|agent| &mut agent.participant)
     };
     participant.filter(|participant| participant.is_working(&state.body_states))
 }
@@ -91,9 +99,11 @@ impl<'a> Participants<'a> {
     #[inline]
     pub(crate) fn get(&self, number: u32) -> Option<&'a Participant> {
         let number = number as usize;
-        match self.agents.get(number) {
-            Some(agent) => agent.inputs.participant.as_deref(),
-            None => self.view.stations.get(number - self.agents.len()),
+        if let Some(agent) = self.agents.get(number) {
+            agent.inputs.participant.as_deref()
+        } else {
+            let controller = self.view.controllers.get(number - self.agents.len());
+            controller.map(|agent| &agent.participant)
         }
     }
 
@@ -111,8 +121,8 @@ impl<'a> Participants<'a> {
             clippy::cast_possible_truncation,
             reason = "participants have 32-bit numbers"
         )]
-        let stations = (view.ids.len() as u32..).take(view.stations.len());
-        robots.chain(stations).filter(move |to| {
+        let controllers = (view.ids.len() as u32..).take(view.controllers.len());
+        robots.chain(controllers).filter(move |to| {
             let receiver = participants.get(*to).filter(|_| *to != outgoing.from);
             receiver.is_some_and(|receiver| {
                 is_for(&outgoing.message, receiver)
@@ -176,7 +186,6 @@ mod tests {
     use crate::scenario::ScenarioSpec;
     use crate::simulation::Simulation;
     use base::document::Document;
-    use base::random::Entity;
     use brain::{About, Command, Message, Provenance, RobotId};
     use std::sync::Arc;
 
@@ -189,21 +198,20 @@ radius_m = 0.2
 start = { kind = \"fixed\", at_m = [[10, 10]] }
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 radio = { range_m = 15, needs_line_of_sight = true }
+[controllers.base]
+count = 1
+radio = { range_m = 15, needs_line_of_sight = true }
 ";
 
     const ROVER: RobotId = RobotId { kind: 0, index: 0 };
-    const STATION: RobotId = RobotId { kind: 1, index: 0 };
+    const CONTROLLER: RobotId = RobotId { kind: 1, index: 0 };
 
-    /// A run with one robot at [10, 10], and a station with the same radio.
-    fn with_station(place: Place) -> Simulation {
+    /// A run with one robot at [10, 10], and a controller with the same radio.
+    fn with_controller(place: Place) -> Simulation {
         let document = Document::parse("t", ONE).unwrap();
         let scenario = ScenarioSpec::read(&document).unwrap().scenario;
-        let radio = scenario.kind_of(ROVER).radio.unwrap();
         let mut simulation = Simulation::new(Arc::new(scenario), 1, 0).unwrap();
-        let key = Entity { kind: 7, index: 0 };
-        let noise = base::noise::Noise::of(1, 0, key);
-        let station = Participant::new(STATION, place, radio, (key, noise));
-        simulation.state.stations.push(station);
+        simulation.state.controllers[0].participant.place = place;
         simulation
     }
 
@@ -219,7 +227,7 @@ radio = { range_m = 15, needs_line_of_sight = true }
         }
     }
 
-    /// The senders of the messages that the station has after the robot has sent one.
+    /// The senders of the messages that the controller has after the robot has sent one.
     fn received_at(place: Place) -> Vec<RobotId> {
         received(place, &[message()])
     }
@@ -229,14 +237,14 @@ radio = { range_m = 15, needs_line_of_sight = true }
     }
 
     fn received(place: Place, sent: &[Message]) -> Vec<RobotId> {
-        let mut simulation = with_station(place);
+        let mut simulation = with_controller(place);
         let command = Command {
             outbox: sent.to_vec(),
             ..Command::default()
         };
         let commands = [(ROVER, command)].into();
         simulation.step_with([].into(), commands).unwrap();
-        let inbox = &simulation.state.stations[0].inbox.entries;
+        let inbox = &simulation.state.controllers[0].participant.inbox.entries;
         inbox.iter().map(|late| late.what.from).collect()
     }
 
@@ -245,7 +253,7 @@ radio = { range_m = 15, needs_line_of_sight = true }
     }
 
     #[test]
-    fn a_station_receives_from_robots_in_range_and_in_sight() {
+    fn a_controller_receives_from_robots_in_range_and_in_sight() {
         assert_eq!(received_at(fixed(15.0, Layer::Ground)), [ROVER]);
         assert_eq!(received_at(fixed(24.0, Layer::Ground)), []);
         assert_eq!(received_at(fixed(26.0, Layer::Ground)), []);
@@ -253,19 +261,19 @@ radio = { range_m = 15, needs_line_of_sight = true }
 
     #[test]
     fn a_message_reaches_only_the_receiver_that_it_names() {
-        for (to, received) in [(STATION, vec![ROVER]), (ROVER, vec![])] {
+        for (to, received) in [(CONTROLLER, vec![ROVER]), (ROVER, vec![])] {
             assert_eq!(received_of(&[Message { to, ..message() }]), received);
         }
     }
 
     #[test]
-    fn a_station_aboard_a_robot_receives_from_it() {
+    fn a_controller_aboard_a_robot_receives_from_it() {
         assert_eq!(received_at(Place::Aboard(0)), [ROVER]);
     }
 
     #[test]
-    fn a_robot_receives_from_a_station() {
-        let mut simulation = with_station(fixed(15.0, Layer::Ground));
+    fn a_robot_receives_from_a_controller() {
+        let mut simulation = with_controller(fixed(15.0, Layer::Ground));
         let mut worker = WorkerScratch::default();
         worker.outbox.push(Outgoing {
             from: 1,
@@ -280,6 +288,6 @@ radio = { range_m = 15, needs_line_of_sight = true }
         send(&scenario, &mut simulation.state, &neighbours, &[worker]);
         deliver(&mut simulation.state);
         let percept = simulation.percept(ROVER).unwrap().unwrap();
-        assert_eq!(percept.inbox[0].from, STATION);
+        assert_eq!(percept.inbox[0].from, CONTROLLER);
     }
 }

@@ -188,7 +188,7 @@ impl WorkerScratch {
     fn add_own_state(&mut self, view: &View, robot: usize, brain_step: u64) {
         let (body_state, kind) = (&view.body_states[robot], view.kind(robot));
         let percept = &mut self.percept;
-        percept.time_s = Some(view.time_s());
+        percept.time_s = Some(view.time_s(robot));
         percept.id = view.ids[robot];
         percept.team_size = view.kind(robot).count;
         percept.random_words =

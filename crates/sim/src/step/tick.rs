@@ -4,6 +4,7 @@ use super::act::Moves;
 use super::communicate;
 use super::decide::{StepInputs, WorkerScratch};
 use super::decision_hash::{add_decisions, add_setpoints};
+use super::direct::ControllerScratch;
 use super::external::ExternalInputs;
 use super::flock_step::flock_step;
 use super::flocks::Flocks;
@@ -11,6 +12,7 @@ use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
 use super::plan::{Plan, planned};
+use crate::judge::goal_tally::GoalMoment;
 use crate::run::agent::Agent;
 use crate::run::state::State;
 use crate::scenario::Scenario;
@@ -25,6 +27,7 @@ pub(crate) struct StepScratch {
     pub(crate) neighbours: Neighbours,
     flocks: Flocks,
     pub(super) workers: Vec<WorkerScratch>,
+    controllers: ControllerScratch,
     /// The decisions of the last step that were made outside its brains.
     pub(crate) decisions: PendingDecisions,
     moves: Moves,
@@ -42,6 +45,7 @@ impl StepScratch {
             neighbours: Neighbours::new(scenario),
             flocks: Flocks::new(scenario),
             workers: Vec::new(),
+            controllers: ControllerScratch::default(),
             decisions: PendingDecisions::default(),
             moves: Moves::default(),
             may_share,
@@ -78,12 +82,18 @@ impl StepScratch {
         } else {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
+            state.issue_goals(scenario);
+            self.direct(scenario, state);
             let hashes = self.workers.iter().flat_map(|worker| &worker.decisions);
             add_decisions(state, hashes);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
+            let is_counted = self.judge_goals(scenario, state);
             let collisions = self.act(scenario, state);
-            self.judge(state, external, collisions)
+            self.judge(state, external, collisions) | is_counted
         };
+        if scenario.has_failures {
+            state.fail(scenario);
+        }
         state.note_completion(scenario, is_counted);
         state.tick += 1;
         communicate::deliver(state);
@@ -162,6 +172,13 @@ impl StepScratch {
         }
     }
 
+    /// Lets all controllers step.
+    fn direct(&mut self, scenario: &Scenario, state: &mut State) {
+        if let Some(last) = self.workers.last_mut() {
+            self.controllers.step(scenario, state, last);
+        }
+    }
+
     /// What a robot will perceive in the next step, if its brain steps in it.
     pub(crate) fn percept(
         &mut self,
@@ -200,6 +217,24 @@ impl StepScratch {
         let moved = self.moves.act(scenario, state, &self.neighbours, is_shared);
         self.neighbours.note(moved.farthest_m);
         moved.collisions
+    }
+
+    /// Reports to the judge where robots are and what they sent, if there are goals; returns whether anything was
+    /// counted.
+    fn judge_goals(&self, scenario: &Scenario, state: &mut State) -> bool {
+        let Some(tally) = &mut state.tally.goals else {
+            return false;
+        };
+        let moment = GoalMoment {
+            scenario,
+            tick: state.tick,
+            goals: &state.goals,
+            ids: &state.ids,
+            discs: &state.discs,
+            body_states: &state.body_states,
+        };
+        let sent = self.workers.iter().flat_map(|worker| &worker.outbox);
+        tally.observe(&moment, sent)
     }
 
     /// Reports to the judge what robots detected in this step, and their collisions; returns whether anything was

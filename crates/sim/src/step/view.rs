@@ -6,7 +6,7 @@ use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;
 use crate::bodies::path::Orientation;
 use crate::run::agent::Agent;
-use crate::run::participant::Participant;
+use crate::run::controller::ControllerAgent;
 use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::SensorFrame;
@@ -26,7 +26,7 @@ pub(crate) struct View<'a> {
     pub(crate) body_states: &'a [BodyState],
     pub(crate) noises: &'a [Noise],
     pub(crate) items: &'a Items,
-    pub(crate) stations: &'a [Participant],
+    pub(crate) controllers: &'a [ControllerAgent],
     pub(crate) neighbours: &'a Neighbours,
     pub(crate) has_external_bodies: bool,
 }
@@ -70,9 +70,12 @@ impl<'a> View<'a> {
         self.is_simulated(robot) && self.kind(robot).schedule.due(self.tick).is_some()
     }
 
+    /// The time on the clock of a robot.
+    #[inline]
     #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
-    pub(crate) fn time_s(&self) -> f64 {
-        self.tick as f64 * self.scenario.step_s
+    pub(crate) fn time_s(&self, robot: usize) -> f64 {
+        let time_s = self.tick as f64 * self.scenario.step_s;
+        self.scenario.clocks.time_s(self.noises[robot], time_s)
     }
 }
 
@@ -92,7 +95,7 @@ impl State {
             body_states: &self.body_states,
             noises: &self.noises,
             items: &self.items,
-            stations: &self.stations,
+            controllers: &self.controllers,
             neighbours,
             has_external_bodies: self.body_states.iter().any(BodyState::is_external),
         };

@@ -1,7 +1,7 @@
 //! Warnings about robots that find no room where they start: such runs are quarantined.
 
 use crate::bodies::RobotSpec;
-use crate::run::state::start_places;
+use crate::run::placing::start_places;
 use crate::scenario::{Checked, Scenario};
 use base::document::Place;
 use base::geometry::{Point, Rectangle};

@@ -13,10 +13,16 @@ MINUTE_S = 60
 COUNTS = {
     "collisions": ("collision", "collisions"),
     "false_alarms": ("false alarm", "false alarms"),
+    "expired": ("goal expired", "goals expired"),
     "found": ("target found", "targets found"),
+    "goals_refused": ("goal refused", "goals refused"),
+    "messages_dropped": ("message dropped", "messages dropped"),
+    "messages_sent": ("message sent", "messages sent"),
     "missed": ("target missed", "targets missed"),
     "robots": ("robot", "robots"),
     "robots_stopped": ("robot stopped", "robots stopped"),
+    "served": ("goal served", "goals served"),
+    "served_twice": ("goal served twice", "goals served twice"),
 }
 """What columns of whole numbers count: one of them, and several."""
 

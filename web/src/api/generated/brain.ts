@@ -3,6 +3,16 @@
 /** The content of a message. */
 export type About = { item: { kind: number; at: Point; provenance: Provenance } } | { sender: { at: Point; heading_rad: number; observations: number } } | { goal: { id: GoalId; at: Point; status: CommitmentStatus } } | { order: { goal: GoalId; at: Point; action: OrderAction } } | { dispatch: Dispatch };
 
+/** The award of a goal, or the grant of its ownership. */
+export interface Award {
+  /** The goal. */
+  goal: GoalId;
+  /** The number of the bid or request. */
+  number: number;
+  /** Duration of the lease, from sending the bid or request, on the holder's clock. */
+  lease_s: number;
+}
+
 /** The beliefs and goals of a robot at one moment. */
 export interface BeliefState {
   /** Its believed pose, once it is known. */
@@ -41,6 +51,28 @@ export interface BelievedRobot {
   age_s: number;
 }
 
+/** A bid of a robot for a goal. The confidence of its message is the probability that it serves it. */
+export interface Bid {
+  /** The goal. */
+  goal: GoalId;
+  /** The number that the robot gave the bid. */
+  number: number;
+  /** Time by which the robot's path and service become longer. */
+  time_s: number;
+  /** The same for the energy, as a fraction of the battery's capacity; 0 if unknown. */
+  energy: number;
+  /** The number of the call. */
+  call: number;
+}
+
+/** A goal, and the number of a request of the robot or controller that holds its lease. */
+export interface Claim {
+  /** The goal. */
+  goal: GoalId;
+  /** The number that the holder gave its request, which is different for each. */
+  number: number;
+}
+
 /** The output of a brain in one step. */
 export interface Command {
   /** The motion setpoint; the body executes it as far as it can. */
@@ -71,7 +103,17 @@ export interface Contact {
 }
 
 /** A message about a goal that a controller owns or awards. */
-export type Dispatch = { issue: Task };
+export type Dispatch = { issue: Task } | { serial: number } | "query" | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { return: Task } | { bind: Award };
+
+/** The progress of a robot towards a goal. */
+export interface Fitness {
+  /** The goal. */
+  goal: GoalId;
+  /** Its verdict. */
+  verdict: Verdict;
+  /** Expected time until it has been served. */
+  remaining_s: number;
+}
 
 /** The id of a goal. It alone decides whether two goals are the same: a goal may move, and two goals may lie at one place. */
 export interface GoalId {
@@ -251,6 +293,9 @@ export interface Provenance {
   observations: number;
 }
 
+/** Why a goal is not served. */
+export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot";
+
 /** A received message. */
 export interface ReceivedMessage {
   /** The sender. */
@@ -259,6 +304,40 @@ export interface ReceivedMessage {
   age_s: number;
   /** The message. */
   message: Message;
+}
+
+/** Why a robot or a controller does not serve a goal. */
+export interface Refusal {
+  /** The goal. */
+  goal: GoalId;
+  /** The number of the bid or of the lease; of a refused call, that of the call. */
+  number: number;
+  /** Why. */
+  reason: Reason;
+}
+
+/** A request to renew all leases between two agents. */
+export interface Renewal {
+  /** The number that the holder gave the request. */
+  number: number;
+  /** Number of leases. */
+  count: number;
+  /** Hash of the goals. */
+  hash: [number, number];
+}
+
+/** The state of a robot. */
+export interface Report {
+  /** Its position in the world, in metres. */
+  at_m: [number, number];
+  /** The speed at which it drives to goals. */
+  speed_m_s: number;
+  /** Remaining fraction of the battery's capacity, 0 to 1. */
+  battery: number;
+  /** Number of goals that it serves, of all controllers. */
+  goals: number;
+  /** Number of goals that it can serve in addition: its free payload. */
+  payload: number;
 }
 
 /** The id of a robot: the `index`-th of its kind, both counted from 0. */
@@ -275,6 +354,14 @@ export interface Scan {
   age_s: number | null;
   /** Distances from the centre of the robot, one per ray in the order of the ring's bearings; infinite without a return (`null` in JSON). Empty without a scan. */
   ranges_m: (number | null)[];
+}
+
+/** The position of a robot. */
+export interface Seen {
+  /** The robot. */
+  robot: RobotId;
+  /** Its position in the world, in metres. */
+  at_m: [number, number];
 }
 
 /** A request to switch a sensor on or off. */

@@ -18,7 +18,8 @@ pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError
         return Vec::new();
     };
     let at = document.place().key("end").key("when");
-    let condition = match EndCondition::parse(&end.when, spec.items.keys().map(String::as_str)) {
+    let items = spec.items.keys().map(String::as_str);
+    let condition = match EndCondition::parse(&end.when, items, !spec.goals.is_empty()) {
         Ok(condition) => condition,
         Err(error) => {
             let hint = hint(&end.when);
@@ -76,6 +77,11 @@ fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
         }
         Count::FoundOf(kind) => (0.0, max(items[kind].0)),
         Count::MissedOf(kind) => (items[kind].1.count.into(), max(items[kind].0)),
+        Count::Served | Count::Open => {
+            let kinds = spec.goals.keys();
+            let counts = kinds.map(|name| f64::from(max_count(document, "goals", name)));
+            (0.0, counts.sum())
+        }
         Count::FalseAlarms | Count::Collisions => (0.0, f64::INFINITY),
         Count::RobotsStopped => {
             let kinds = spec.robots.keys();

@@ -2,6 +2,7 @@
 
 use super::ground::rectangle;
 use crate::bodies::RobotSpec;
+use crate::controllers::ControllerSpec;
 use crate::radio::RadioSpec;
 use crate::scenario::spec::ScenarioSpec;
 use crate::sensors::items::ItemsSpec;
@@ -35,6 +36,13 @@ const VALUE_BYTES: f64 = 8.0;
 const LIST_BYTES: f64 = 16.0;
 const MIN_VALUES: f64 = 4.0;
 
+/// Approximate bytes of a controller, and of one goal that it may own.
+const CONTROLLER_BYTES: f64 = 10_000.0;
+const OWNED_BYTES: f64 = 500.0;
+
+/// Approximate bytes of a goal.
+const GOAL_BYTES: f64 = 400.0;
+
 /// Approximate bytes of an item.
 const ITEM_BYTES: f64 = 64.0;
 
@@ -47,7 +55,16 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         let bytes = f64::from(robot.count) * bytes_of(robot, spec);
         (bytes, at.key("robots").key(name))
     });
-    let all: Vec<(f64, Place)> = items.chain(robots).collect();
+    let goals = spec.goals.iter().map(|(name, kind)| {
+        let bytes = f64::from(kind.count) * GOAL_BYTES;
+        (bytes, at.key("goals").key(name))
+    });
+    let controllers = spec.controllers.iter().map(|(name, kind)| {
+        let bytes = f64::from(kind.count) * bytes_of_controller(kind, spec);
+        (bytes, at.key("controllers").key(name))
+    });
+    let all = items.chain(robots).chain(goals).chain(controllers);
+    let all: Vec<(f64, Place)> = all.collect();
     let total: f64 = all.iter().map(|(bytes, _)| bytes).sum();
     let largest = all.iter().max_by(|one, other| one.0.total_cmp(&other.0));
     let largest = largest.filter(|_| total > MAX_BYTES);
@@ -71,8 +88,15 @@ fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
         .map(|sensor| bytes_of_sensor(sensor, robot, spec))
         .sum();
     let radio = robot.radio.as_ref();
-    let radio = radio.map_or(0.0, |radio| bytes_of_radio(radio, robot, spec));
+    let rate_hz = robot.brain.rate_hz;
+    let radio = radio.map_or(0.0, |radio| bytes_of_radio(radio, rate_hz, spec));
     ROBOT_BYTES + sensors + radio + bytes_of_beliefs(robot)
+}
+
+fn bytes_of_controller(kind: &ControllerSpec, spec: &ScenarioSpec) -> f64 {
+    let goals: u32 = spec.goals.values().map(|kind| kind.count).sum();
+    let owned = f64::from(goals.min(kind.max_goals));
+    CONTROLLER_BYTES + owned * OWNED_BYTES + bytes_of_radio(&kind.radio, None, spec)
 }
 
 /// Approximate bytes of its beliefs.
@@ -87,12 +111,14 @@ fn bytes_of_beliefs(robot: &RobotSpec) -> f64 {
 }
 
 /// Bytes of its messages in transit to all receivers, and of those that it has received.
-fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
+fn bytes_of_radio(radio: &RadioSpec, rate_hz: Option<f64>, spec: &ScenarioSpec) -> f64 {
     let step_s = spec.clock.step_s;
     let a_step = f64::from(radio.messages_per_step);
-    let receivers = robots_within(radio.range_m, spec, |robot| robot.radio.is_some());
+    let controllers: u32 = spec.controllers.values().map(|kind| kind.count).sum();
+    let robots = robots_within(radio.range_m, spec, |robot| robot.radio.is_some());
+    let receivers = robots + f64::from(controllers);
     let delay = (radio.delay_s / step_s).max(1.0);
-    let waiting = (a_step * period_s(robot.brain.rate_hz, step_s) / step_s).min(most() + a_step);
+    let waiting = (a_step * period_s(rate_hz, step_s) / step_s).min(most() + a_step);
     a_step * delay * receivers * size(SENT_BYTES) + waiting * size(MESSAGE_BYTES)
 }
 

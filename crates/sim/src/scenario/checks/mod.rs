@@ -2,9 +2,11 @@
 
 mod brains;
 mod clock;
+mod controllers;
 mod detection;
 mod drive;
 mod end;
+mod goals;
 mod ground;
 mod memory;
 mod names;
@@ -25,13 +27,15 @@ use std::collections::BTreeSet;
 /// A check: the errors of a scenario at the place `at` in a document.
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
-const CHECKS: [Check; 7] = [
+const CHECKS: [Check; 9] = [
     clock::errors,
     names::errors,
     rates::errors,
     drive::errors,
     detection::errors,
     brains::errors,
+    controllers::errors,
+    goals::errors,
     memory::errors,
 ];
 

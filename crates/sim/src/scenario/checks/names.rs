@@ -36,12 +36,28 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         MAX_KINDS,
         &at.key("terrain"),
     ));
+    let controllers = at.key("controllers");
+    let left = MAX_KINDS.saturating_sub(spec.robots.len());
+    errors.extend(errors_of(&names(&spec.controllers), 0, left, &controllers));
+    errors.extend(errors_of(
+        &names(&spec.goals),
+        0,
+        MAX_KINDS,
+        &at.key("goals"),
+    ));
     errors.extend(twins(&names(&spec.robots), &robots));
+    errors.extend(twins(&names(&spec.controllers), &controllers));
+    errors.extend(robots_and_controllers(spec, &controllers));
+    errors.extend(twins(&names(&spec.goals), &at.key("goals")));
     errors.extend(twins(&names(&spec.items), &at.key("items")));
     errors.extend(time_columns(&names(&spec.items), &at.key("items")));
     for (name, robot) in &spec.robots {
         let sensors = robots.key(name).key("sensors");
         errors.extend(errors_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));
+        let capabilities = robots.key(name).key("capabilities");
+        let bad = robot.capabilities.iter().enumerate();
+        let bad = bad.filter(|(_, name)| !is_fine(name));
+        errors.extend(bad.map(|(number, _)| capabilities.item(number).error(allowed())));
     }
     errors
 }
@@ -53,17 +69,33 @@ fn names<T>(table: &BTreeMap<String, T>) -> Vec<&str> {
 fn errors_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<InputError> {
     let bad = names.iter().filter(|name| !is_fine(name));
     let mut errors: Vec<InputError> = bad
-        .map(|name| {
-            at.key(name).error(format!(
-                "under a name of at most {MAX_LENGTH} letters a to z or A to Z, digits, _ and -"
-            ))
-        })
+        .map(|name| at.key(name).error(format!("under {}", allowed())))
         .collect();
     if !(least..=most).contains(&names.len()) {
         let allowed = format!("a table of {least} to {most}; it has {}", names.len());
         errors.push(at.error(allowed));
     }
     errors
+}
+
+/// What names may be.
+fn allowed() -> String {
+    format!("a name of at most {MAX_LENGTH} letters a to z or A to Z, digits, _ and -")
+}
+
+/// Controllers that would have the names or the random numbers of robots.
+fn robots_and_controllers(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let robots: BTreeMap<u32, &String> = spec
+        .robots
+        .keys()
+        .map(|name| (kind_key(name), name))
+        .collect();
+    let same = spec.controllers.keys().filter_map(|name| {
+        let robot = robots.get(&kind_key(name))?;
+        let allowed = format!("a different name: the kind of robots {robot} has it, or its hash");
+        Some(at.key(name).error(allowed))
+    });
+    same.collect()
 }
 
 /// Kinds that would have the random numbers of another kind.

@@ -17,14 +17,24 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
     for (name, kind) in &spec.items {
         let at = at.key("items").key(name).key("placement");
-        errors.extend(errors_of_list(&kind.placement, kind.count, &at));
-        errors.extend(errors_of_rectangle(&kind.placement, spec, &at));
-        for (place, at) in given(&kind.placement, kind.count, &at) {
-            if !checked.scenario.is_free(place, 0.0, Layer::Ground) {
-                let world = words(&spec.world);
-                errors.push(at.error(format!("in {world}, and not in an obstacle")));
-            }
-        }
+        errors.extend(errors_of_points(
+            checked,
+            (&kind.placement, kind.count),
+            &at,
+        ));
+    }
+    for (name, kind) in &spec.goals {
+        let at = at.key("goals").key(name).key("placement");
+        errors.extend(errors_of_points(
+            checked,
+            (&kind.placement, kind.count),
+            &at,
+        ));
+    }
+    for (name, kind) in &spec.controllers {
+        let at = at.key("controllers").key(name).key("start");
+        let start = kind.start.iter();
+        errors.extend(start.flat_map(|start| errors_of_points(checked, (start, kind.count), &at)));
     }
     for (name, kind) in &spec.robots {
         let at = at.key("robots").key(name).key("start");
@@ -37,6 +47,24 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         }
     }
     errors.extend(overlaps(spec, checked.scenario.torus, at));
+    errors
+}
+
+/// Errors of the places of things without a size on the ground.
+fn errors_of_points(
+    checked: &Checked,
+    (placement, count): (&Placement, u32),
+    at: &Place,
+) -> Vec<InputError> {
+    let spec = &checked.spec;
+    let mut errors = errors_of_list(placement, count, at);
+    errors.extend(errors_of_rectangle(placement, spec, at));
+    for (place, at) in given(placement, count, at) {
+        if !checked.scenario.is_free(place, 0.0, Layer::Ground) {
+            let world = words(&spec.world);
+            errors.push(at.error(format!("in {world}, and not in an obstacle")));
+        }
+    }
     errors
 }
 

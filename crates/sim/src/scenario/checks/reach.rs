@@ -1,12 +1,12 @@
-//! Checks that robots can reach the items.
+//! Checks that robots can reach the items and goals.
 
+use super::goals::can_serve;
 use super::ground::rectangle;
 use super::room::{lattice, within};
 use crate::bodies::{Layer, RobotSpec};
 use crate::scenario::checked::Checked;
 use crate::scenario::spec::ScenarioSpec;
 use crate::sensors::Measures;
-use crate::world::items::ItemSpec;
 use crate::world::obstacles::Solid;
 use base::document::Place;
 use base::error::InputError;
@@ -32,11 +32,47 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         }
         // Paths through a periodic world are not examined.
         if !finders.is_empty() && !checked.spec.world.periodic {
-            errors.extend(out_of_reach(checked, kind, &finders, &at));
-            errors.extend(all_out_of_reach(checked, kind, &finders, &at));
+            let targets = Targets {
+                placement: &kind.placement,
+                count: kind.count,
+                robots: "robot with a sensor for it",
+            };
+            errors.extend(out_of_reach(checked, &targets, &finders, &at));
+            errors.extend(all_out_of_reach(checked, &targets, &finders, &at));
         }
     }
+    errors.extend(of_goals(checked, at));
     errors
+}
+
+/// Goals that no robot that can serve them can reach.
+fn of_goals(checked: &Checked, at: &Place) -> Vec<InputError> {
+    let spec = &checked.spec;
+    let goals = spec.goals.iter().filter(|(_, kind)| kind.count > 0);
+    let goals = goals.filter(|_| !spec.world.periodic);
+    let errors = goals.flat_map(|(name, kind)| {
+        let at = at.key("goals").key(name);
+        let robots = spec.robots.values().filter(|robot| can_serve(robot, kind));
+        let range_m = kind.within_m;
+        let servers: Vec<Finder> = robots.map(|robot| Finder { robot, range_m }).collect();
+        let targets = Targets {
+            placement: &kind.placement,
+            count: kind.count,
+            robots: "robot that can serve it",
+        };
+        let mut errors = out_of_reach(checked, &targets, &servers, &at);
+        errors.extend(all_out_of_reach(checked, &targets, &servers, &at));
+        errors
+    });
+    errors.collect()
+}
+
+/// Items or goals of a kind.
+struct Targets<'s> {
+    placement: &'s Placement,
+    count: u32,
+    /// The robots that have to come near.
+    robots: &'static str,
 }
 
 /// A kind of robot that detects an item at this distance.
@@ -68,11 +104,11 @@ fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
 /// The given places that no robot can come near enough to.
 fn out_of_reach(
     checked: &Checked,
-    kind: &ItemSpec,
+    kind: &Targets,
     finders: &[Finder],
     at: &Place,
 ) -> Vec<InputError> {
-    let Placement::Fixed { at_m, .. } = &kind.placement else {
+    let Placement::Fixed { at_m, .. } = kind.placement else {
         return Vec::new();
     };
     let reaches: Vec<(Reachability, f64)> = finders
@@ -89,8 +125,8 @@ fn out_of_reach(
     places
         .filter(|(_, place)| !is_found(**place))
         .map(|(index, _)| {
-            at.item(index)
-                .error("a place that a robot with a sensor for it can reach within range")
+            let allowed = format!("a place that a {} can reach within range", kind.robots);
+            at.item(index).error(allowed)
         })
         .collect()
 }
@@ -98,12 +134,12 @@ fn out_of_reach(
 /// Randomly placed items, if no robot can come near enough to any place of their area.
 fn all_out_of_reach(
     checked: &Checked,
-    kind: &ItemSpec,
+    kind: &Targets,
     finders: &[Finder],
     at: &Place,
 ) -> Option<InputError> {
     let world = rectangle(&checked.spec.world);
-    let within = within(&kind.placement, &world)?;
+    let within = within(kind.placement, &world)?;
     let is_free = |place: &Point| checked.scenario.is_free(*place, 0.0, Layer::Ground);
     let places = || lattice(within).filter(is_free);
     // Where there is no free place at all, another check reports it.
@@ -115,15 +151,17 @@ fn all_out_of_reach(
             let reach = reach(checked, finder.robot);
             places().any(|place| reach.may_come_near(place, finder.range_m))
         });
-    let at = match &kind.placement {
+    let at = match kind.placement {
         Placement::Uniform { within_m: Some(_) }
         | Placement::Clustered {
             within_m: Some(_), ..
         } => at.key("placement").key("within_m"),
         _ => at.key("placement"),
     };
-    let allowed = "an area with a free place that a robot with a sensor for these items can reach within range: \
-                   it has none";
+    let allowed = format!(
+        "an area with a free place that a {} can reach within range: it has none",
+        kind.robots
+    );
     (!is_fine).then(|| at.error(allowed))
 }
 

@@ -51,12 +51,10 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let world = rectangle(&checked.spec.world);
     let scenario = &checked.scenario;
     let mut errors = Vec::new();
-    for (name, kind) in &checked.spec.items {
-        let within = within(&kind.placement, &world);
-        let within = within.filter(|_| kind.count > 0);
+    for (placement, count, at) in points(checked, at) {
+        let within = within(placement, &world).filter(|_| count > 0);
         if within.is_some_and(|within| !has_place(scenario, within, 0.0, Layer::Ground)) {
-            let at = at.key("items").key(name).key("count");
-            errors.push(at.error("0: their area has no free place"));
+            errors.push(at.key("count").error("0: their area has no free place"));
         }
     }
     let mut is_fine = true;
@@ -75,6 +73,29 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         );
     }
     errors
+}
+
+/// The placement and number of each kind of things without a size.
+fn points<'c, 'd>(
+    checked: &'c Checked,
+    at: &Place<'d>,
+) -> impl Iterator<Item = (&'c Placement, u32, Place<'d>)> {
+    let spec = &checked.spec;
+    let tables = ["items", "goals", "controllers"].map(|table| at.key(table));
+    let [items, goals, controllers_at] = tables;
+    let items = spec
+        .items
+        .iter()
+        .map(move |(name, kind)| (&kind.placement, kind.count, items.key(name)));
+    let goals = spec
+        .goals
+        .iter()
+        .map(move |(name, kind)| (&kind.placement, kind.count, goals.key(name)));
+    let controllers = spec.controllers.iter();
+    let controllers = controllers.filter_map(move |(name, kind)| {
+        Some((kind.start.as_ref()?, kind.count, controllers_at.key(name)))
+    });
+    items.chain(goals).chain(controllers)
 }
 
 /// The areas of those without given places.

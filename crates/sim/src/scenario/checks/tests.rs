@@ -3,7 +3,9 @@ use base::document::Document;
 use base::error::InputErrors;
 
 mod brains;
+mod controllers;
 mod end;
+mod goals;
 mod obstacles;
 mod periodic;
 mod renamed;

@@ -28,10 +28,19 @@ start = { kind = "fixed", at_m = [[6, 6], [7, 6]], heading_deg = [0, 90] }
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 battery = { capacity_j = 1000 }
 radio = { range_m = 10, delay_s = 0.3 }
+capabilities = ["arm"]
 brain = { behaviours = [{ kind = "cruise" }, { kind = "avoid", near_m = 0.2 }] }
 [robots.rover.sensors]
 eye = { kind = "items", range_m = 3, detection_probability = { mine = [[0, 1], [3, 0.5]], scrap = 0.1 } }
 sonar = { kind = "range", rays = 8, range_m = 2 }
+[controllers.base]
+count = 1
+aboard = "rover"
+radio = { range_m = 10 }
+[goals.spot]
+count = 2
+requires = "arm"
+placement = { kind = "fixed", at_m = [[6, 7], [7, 7]] }
 [models.best]
 model = "quadrotor"
 price = 3

@@ -40,9 +40,10 @@ fn joined(one: &Json, other: &Json) -> Json {
     Json::Object(both.into_iter().flatten().collect::<Map<_, _>>())
 }
 
-/// The definitions that are used by robots and their models only.
+/// The definitions that are used by robots and their models only, except for controllers, which have the same radios.
 fn of_robots_only(schema: &Json) -> BTreeSet<String> {
     let mut rest = schema["properties"].clone();
+    rest["controllers"].take();
     let [mut robots, mut others] = [BTreeSet::new(), BTreeSet::new()];
     for key in ["robots", "models"] {
         rest[key].take();

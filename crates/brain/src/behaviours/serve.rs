@@ -1,0 +1,130 @@
+//! Serving the goals of controllers.
+
+use super::behaviour::Behaviour;
+use super::lawnmower::swath_m;
+use crate::goals::Verdict;
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::{Body, RobotId};
+use crate::io::command::Motion;
+use crate::io::message::Message;
+use crate::perception::beliefs::Beliefs;
+use crate::service::ability::{Ability, Moment};
+use crate::service::assignee::Assignee;
+use crate::situation::Situation;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Bids for the goals of controllers, and serves those that it is awarded on the shortest path
+/// through them. It needs a position, a heading and a radio. Without an awarded goal, it does nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Serve {
+    /// Speed, in m/s. Without it, the maximum speed of the body.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub speed_m_s: Option<f64>,
+    /// Factor of the values of goals, relative to other behaviours.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub value: f64,
+    /// Maximum number of goals that the robot is awarded at once. Its paths through up to 8 are the
+    /// shortest.
+    #[schemars(range(min = 1, max = 64))]
+    pub max_goals: u32,
+}
+
+impl Default for Serve {
+    fn default() -> Self {
+        Self {
+            speed_m_s: None,
+            value: 1.0,
+            max_goals: 8,
+        }
+    }
+}
+
+/// [`Serve`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    ability: Ability,
+    value: f64,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Serve, body: &Body) -> Self {
+        let speed_m_s = spec.speed_m_s.unwrap_or(body.max_speed_m_s);
+        Self {
+            ability: Ability {
+                speed_m_s: speed_m_s.max(1e-3),
+                max_goals: spec.max_goals as usize,
+                lane_m: swath_m(body).0,
+                capabilities: body.capabilities.clone(),
+                robot_kinds: body.others.len(),
+            },
+            value: spec.value,
+        }
+    }
+}
+
+impl Behaviour for Ready {
+    type Memory = Box<Assignee>;
+
+    const NEEDS_BELIEFS: bool = true;
+    const SERVES_CONTROLLERS: bool = true;
+
+    fn memory(&self) -> Box<Assignee> {
+        Box::default()
+    }
+
+    fn communicate(&self, assignee: &mut Box<Assignee>, situation: &Situation) {
+        let Some(beliefs) = situation.beliefs else {
+            return;
+        };
+        let moment = Moment {
+            percept: situation.percept,
+            body: situation.body,
+            at: beliefs.pose().map(|pose| pose.at),
+            elapsed_s: situation.elapsed_s,
+            battery_s: beliefs.battery_s(),
+            charge: beliefs.battery_charge(),
+        };
+        assignee.step(&self.ability, &moment);
+    }
+
+    fn publish(&self, assignee: &mut Box<Assignee>, outbox: &mut Vec<Message>) {
+        assignee.publish(outbox);
+    }
+
+    fn assignee<'m>(&self, assignee: &'m Box<Assignee>) -> Option<&'m Assignee> {
+        Some(assignee)
+    }
+
+    fn renumber(&self, assignee: &mut Box<Assignee>, new_id: &dyn Fn(RobotId) -> Option<RobotId>) {
+        assignee.renumber(&new_id);
+    }
+
+    fn triggered(&self, assignee: &mut Box<Assignee>, situation: &Situation) -> Option<Proposal> {
+        let pose = situation.beliefs.and_then(Beliefs::pose)?;
+        let (job, is_there) = assignee.current(&self.ability, pose.at)?;
+        if is_there {
+            return Some(Motion::default().into());
+        }
+        let (at, near_m) = job.target(&self.ability);
+        Some(Proposal::Destination(Destination {
+            id: job.task.id,
+            at,
+            tolerance_m: near_m,
+            max_speed_m_s: self.ability.speed_m_s,
+            value: self.value * f64::from(job.task.value),
+        }))
+    }
+
+    fn judged(&self, assignee: &mut Box<Assignee>, verdict: Verdict) {
+        assignee.judged(verdict);
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+}

@@ -1,0 +1,61 @@
+//! What a robot can do for goals, the same for all robots of a kind, and its state in a step.
+
+use crate::io::body::{Body, RobotId};
+use crate::io::dispatch::{Reason, Task, Work};
+use crate::io::percept::Percept;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// What a robot can do.
+#[derive(Debug, Clone)]
+pub(crate) struct Ability {
+    /// Speed between goals.
+    pub(crate) speed_m_s: f64,
+    /// Maximum number of goals that it serves.
+    pub(crate) max_goals: usize,
+    /// Distance between the lanes of a search.
+    pub(crate) lane_m: f64,
+    pub(crate) capabilities: Vec<u8>,
+    /// Kinds of participants from this number on are controllers.
+    pub(crate) robot_kinds: usize,
+}
+
+impl Ability {
+    /// Why the robot can never serve a goal, if it cannot.
+    pub(crate) fn lacks(&self, task: &Task) -> Option<Reason> {
+        let has = task.capability == 0 || self.capabilities.contains(&task.capability);
+        (!has).then_some(Reason::Capability)
+    }
+
+    /// Time that the work at a goal takes.
+    pub(crate) fn work_s(&self, task: &Task) -> f64 {
+        let search_m = match task.work {
+            Work::Visit => 0.0,
+            Work::Search => super::lanes::length_m(task, self.lane_m),
+        };
+        f64::from(task.service_s) + search_m / self.speed_m_s
+    }
+
+    /// Whether an agent is a controller.
+    pub(crate) fn is_controller(&self, id: RobotId) -> bool {
+        usize::from(id.kind) >= self.robot_kinds && id.kind != RobotId::OPERATOR.kind
+    }
+}
+
+/// The state of a robot in a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moment<'s> {
+    pub(crate) percept: &'s Percept,
+    pub(crate) body: &'s Body,
+    /// Its position, if known.
+    pub(crate) at: Option<Point>,
+    pub(crate) elapsed_s: f64,
+    /// Remaining time of the battery, and its charge if known.
+    pub(crate) battery_s: f64,
+    pub(crate) charge: Option<f64>,
+}
+
+/// The position of a goal.
+pub(crate) fn place(task: &Task) -> Point {
+    Point::from(task.at_m.map(f64::from))
+}

@@ -1,0 +1,480 @@
+//! The robot's half of the protocol: it bids for goals, serves those that it is awarded while it
+//! holds their leases, and reports.
+
+use super::ability::{Ability, Moment, place};
+use super::bidding::{Bidder, Estimate};
+use super::failures::Failures;
+use super::finished::Finished;
+use super::holder::{Holder, Lease};
+use super::jobs::{Job, Jobs};
+use super::numbers::Numbers;
+use super::offers::{Offer, Offers};
+use super::schedule::{Schedule, StandingBid};
+use crate::io::body::RobotId;
+use crate::io::dispatch::{Award, Claim, Dispatch, Fitness, Reason, Refusal, Report};
+use crate::io::goal_id::GoalId;
+use crate::io::message::{About, Message};
+use crate::io::percept::{Percept, ReceivedMessage};
+use crate::io::verdict::Verdict;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// Minimum time between two attempts to renew, in seconds.
+const RETRY_S: f64 = 0.5;
+
+/// Leases are renewed when this part of their duration is left.
+const RENEWED_AT: f64 = 2.0 / 3.0;
+
+/// Time for which an impossible goal is served after all others, in seconds.
+const REST_S: f64 = 10.0;
+
+/// Maximum number of leases that are renewed one by one in a step.
+const MAX_RENEWALS: usize = 8;
+
+/// A robot as the assignee of goals.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Assignee {
+    /// The robot's clock.
+    pub(crate) now_s: f64,
+    numbers: Numbers,
+    pub(crate) holder: Holder,
+    pub(crate) jobs: Jobs,
+    offers: Offers,
+    failures: Failures,
+    finished: Finished,
+    schedule: Schedule,
+    /// The goal that it proposed last.
+    proposed: Option<GoalId>,
+    outbox: Vec<Message>,
+}
+
+base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, proposed } without { outbox });
+
+impl Assignee {
+    /// Takes a step: messages first, then the work, then what is due.
+    pub(crate) fn step(&mut self, ability: &Ability, moment: &Moment) {
+        self.outbox.clear();
+        self.now_s = moment
+            .percept
+            .time_s
+            .unwrap_or(self.now_s + moment.elapsed_s);
+        self.schedule.advance(self.now_s);
+        self.offers.expire(self.now_s);
+        self.stop_before_end(moment);
+        for received in &moment.percept.inbox {
+            self.receive(received, ability, moment);
+        }
+        self.work(ability, moment);
+        self.bid(ability, moment);
+        self.renew(moment.percept);
+        self.report(ability, moment);
+    }
+
+    /// The messages of this step.
+    pub(crate) fn publish(&mut self, outbox: &mut Vec<Message>) {
+        outbox.append(&mut self.outbox);
+    }
+
+    /// The goal to serve now, and whether the robot is there.
+    pub(crate) fn current(&mut self, ability: &Ability, at: Point) -> Option<(Job, bool)> {
+        let job = *self.jobs.current(self.now_s)?;
+        self.proposed = Some(job.task.id);
+        Some((job, is_there(&job, ability, at) && job.is_swept(ability)))
+    }
+
+    /// Takes the verdict on the goal that it proposed last.
+    pub(crate) fn judged(&mut self, verdict: Verdict) {
+        let Some(job) = self.proposed.and_then(|goal| self.jobs.get_mut(goal)) else {
+            return;
+        };
+        let was = core::mem::replace(&mut job.verdict, verdict);
+        if verdict == Verdict::Impossible && was != Verdict::Impossible {
+            job.rests_until_s = self.now_s + REST_S;
+            let goal = job.task.id;
+            self.failures.add(goal, self.now_s);
+            self.report_failure(goal, Reason::Unreachable);
+        }
+    }
+
+    /// Changes the ids of other agents; those without a new id are forgotten.
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
+        // Leases and offers name their owners: after a change of ids, they are obtained again.
+        let is_unchanged = |id: RobotId| new_id(id) == Some(id);
+        let others = self.jobs.list.iter().filter(|job| !is_unchanged(job.owner));
+        let others: Vec<GoalId> = others.map(|job| job.task.id).collect();
+        for goal in others {
+            self.drop_job(goal);
+        }
+        self.schedule
+            .contacts
+            .retain(|contact| is_unchanged(contact.id));
+    }
+
+    fn send(&mut self, to: RobotId, dispatch: Dispatch) {
+        self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
+    }
+
+    /// Drops the goals whose lease ends before the next step, and those whose deadline has passed.
+    fn stop_before_end(&mut self, moment: &Moment) {
+        let step_s = moment.body.period_s.max(moment.elapsed_s.min(1.0));
+        for goal in self.holder.expire(self.now_s + step_s) {
+            self.jobs.remove(goal);
+        }
+        let late = self.jobs.list.iter().find(|job| self.now_s > job.due_at_s);
+        if let Some(goal) = late.map(|job| job.task.id) {
+            self.report_failure(goal, Reason::Deadline);
+            self.release(goal);
+        }
+    }
+
+    fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {
+        let About::Dispatch(dispatch) = received.message.about else {
+            return;
+        };
+        let from = received.from;
+        if !ability.is_controller(from) {
+            return;
+        }
+        self.schedule.note(from, self.now_s);
+        match dispatch {
+            Dispatch::Query => self.schedule.report_now(from, self.now_s),
+            Dispatch::Call { number, task } if task.is_valid() => {
+                let is_only_one = received.message.to != RobotId::EVERYONE;
+                let offer = Offer::new(task, from, number, self.now_s);
+                self.take_call(offer, is_only_one, ability, moment);
+            }
+            Dispatch::Award(award) => self.take_award(from, award, ability, moment),
+            Dispatch::Withdraw(claim) => {
+                let is_only_one = received.message.to != RobotId::EVERYONE;
+                self.take_withdrawal(from, claim, is_only_one);
+            }
+            Dispatch::Renewed(number) => self.holder.renew(from, number, self.now_s),
+            Dispatch::RenewedOne(claim) => self.holder.renew_one(from, claim, self.now_s),
+            Dispatch::Differs(number) if self.holder.differs(from, number) => {
+                self.renew_each(from, moment.percept);
+            }
+            _ => {}
+        }
+    }
+
+    /// A goal that has been served is no offer. A call to this robot alone is answered.
+    fn take_call(&mut self, offer: Offer, is_only_one: bool, ability: &Ability, moment: &Moment) {
+        let goal = offer.task.id;
+        if self.finished.contains(goal) {
+            self.finished.report_to(goal, offer.owner, self.now_s);
+            return;
+        }
+        if self.jobs.get(goal).is_some() {
+            return;
+        }
+        self.offers.put(offer);
+        if is_only_one {
+            match self.estimate(&offer, ability, moment) {
+                Ok(estimate) => self.send_bid(&estimate, moment.percept),
+                Err(reason) => self.refuse(offer.owner, goal, offer.call.into(), reason),
+            }
+        }
+    }
+
+    fn estimate(
+        &self,
+        offer: &Offer,
+        ability: &Ability,
+        moment: &Moment,
+    ) -> Result<Estimate, Reason> {
+        let known = (&self.jobs, &self.failures);
+        let bidder = Bidder::new(ability, known, moment, self.now_s);
+        bidder.map_or(Err(Reason::Unreachable), |bidder| bidder.estimate(offer))
+    }
+
+    fn take_award(&mut self, from: RobotId, award: Award, ability: &Ability, moment: &Moment) {
+        let Award { goal, number, .. } = award;
+        let claim = Claim { goal, number };
+        if self.finished.contains(goal) {
+            self.finished.report_to(goal, from, self.now_s);
+            return;
+        }
+        if self.jobs.get(goal).is_some() {
+            if self
+                .holder
+                .lease(goal)
+                .is_some_and(|lease| lease.number == number)
+            {
+                self.send(from, Dispatch::Commit(claim));
+            }
+            return;
+        }
+        match self.accepted(from, award, ability, moment) {
+            Ok(()) => self.send(from, Dispatch::Commit(claim)),
+            Err(reason) => {
+                self.holder.release(goal);
+                self.refuse(from, goal, number, reason);
+            }
+        }
+    }
+
+    fn accepted(
+        &mut self,
+        from: RobotId,
+        award: Award,
+        ability: &Ability,
+        moment: &Moment,
+    ) -> Result<(), Reason> {
+        let Award {
+            goal,
+            number,
+            lease_s,
+        } = award;
+        let offered = self.offers.get(goal).filter(|offer| offer.owner == from);
+        let (Some(offer), Some(at)) = (offered.copied(), moment.at) else {
+            return Err(Reason::Lease);
+        };
+        if self.jobs.list.len() >= ability.max_goals {
+            return Err(Reason::Full);
+        }
+        let claim = Claim { goal, number };
+        let is_enough = lease_s > offer.task.service_s;
+        if !is_enough || !self.holder.accept(from, claim, lease_s.into(), self.now_s) {
+            return Err(Reason::Lease);
+        }
+        self.offers.remove(goal);
+        self.jobs
+            .add(Job::new(offer.task, from, offer.due_at_s), at);
+        Ok(())
+    }
+
+    fn take_withdrawal(&mut self, from: RobotId, claim: Claim, is_only_one: bool) {
+        let goal = claim.goal;
+        if self
+            .offers
+            .get(goal)
+            .is_some_and(|offer| offer.owner == from)
+        {
+            self.offers.remove(goal);
+        }
+        self.finished.acknowledge(goal, from);
+        let lease = self.holder.lease(goal).copied();
+        match lease {
+            Some(lease) if lease.grantor != from => {}
+            Some(lease) if is_only_one && super::numbers::is_since(claim.number, lease.number) => {
+                self.release(goal);
+            }
+            None if is_only_one && !self.finished.contains(goal) => {
+                self.holder.release(goal);
+                let number = self.numbers.last();
+                self.send(from, Dispatch::Release(Claim { goal, number }));
+            }
+            _ => {}
+        }
+    }
+
+    /// Serves the goal at which the robot is. No service begins that cannot end within the lease.
+    fn work(&mut self, ability: &Ability, moment: &Moment) {
+        let (Some(at), Some(job)) = (moment.at, self.jobs.current(self.now_s).copied()) else {
+            return;
+        };
+        if !is_there(&job, ability, at) {
+            return;
+        }
+        let goal = job.task.id;
+        let lease = self.holder.lease(goal);
+        let left_s = lease.map_or(0.0, |lease| lease.until_s - self.now_s);
+        let Some(job) = self.jobs.get_mut(goal) else {
+            return;
+        };
+        if !job.is_swept(ability) {
+            job.corners += 1;
+        } else if job.left_s() <= 0.0 {
+            self.finish(goal);
+        } else if job.served_s > 0.0 || left_s > job.left_s() + moment.body.period_s {
+            job.served_s += moment.body.period_s;
+        }
+    }
+
+    fn finish(&mut self, goal: GoalId) {
+        if let (Some(job), Some(lease)) = (self.jobs.remove(goal), self.holder.release(goal)) {
+            let number = lease.number;
+            self.finished
+                .add(Claim { goal, number }, job.owner, self.now_s);
+        }
+    }
+
+    /// Bids for the best offer of each controller, unless the last bid still stands.
+    fn bid(&mut self, ability: &Ability, moment: &Moment) {
+        let is_full = self.jobs.list.len() >= ability.max_goals;
+        if is_full || !self.schedule.is_turn(moment.percept) {
+            return;
+        }
+        let known = (&self.jobs, &self.failures);
+        let Some(bidder) = Bidder::new(ability, known, moment, self.now_s) else {
+            return;
+        };
+        let mut best: Vec<Estimate> = Vec::new();
+        for offer in self.offers.iter() {
+            let Ok(estimate) = bidder.estimate(offer) else {
+                continue;
+            };
+            let mut others = best.iter_mut();
+            match others.find(|other| other.offer.owner == offer.owner) {
+                Some(other) if estimate.cost_s() < other.cost_s() => *other = estimate,
+                Some(_) => {}
+                None => best.push(estimate),
+            }
+        }
+        for estimate in best {
+            let Offer {
+                owner, call, task, ..
+            } = estimate.offer;
+            let standing = self.schedule.bid_to(owner);
+            let stands = standing
+                .is_some_and(|bid| bid.stands(task.id, call, self.jobs.version, self.now_s));
+            if !stands {
+                self.send_bid(&estimate, moment.percept);
+            }
+        }
+    }
+
+    fn send_bid(&mut self, estimate: &Estimate, percept: &Percept) {
+        let Offer {
+            owner, call, task, ..
+        } = estimate.offer;
+        let number = self.numbers.next(percept);
+        self.holder
+            .request(number, owner, Some(task.id), self.now_s);
+        self.outbox.push(Message {
+            to: owner,
+            about: About::Dispatch(Dispatch::Bid(estimate.bid(number))),
+            confidence: estimate.confidence,
+        });
+        let bid = StandingBid {
+            goal: task.id,
+            call,
+            sent_s: self.now_s,
+            jobs: self.jobs.version,
+        };
+        self.schedule.set_bid(owner, bid);
+    }
+
+    /// Renews the leases of each controller when a third of one has passed.
+    fn renew(&mut self, percept: &Percept) {
+        for index in 0..self.schedule.contacts.len() {
+            let contact = &self.schedule.contacts[index];
+            let (id, next_s) = (contact.id, contact.next_renewal_s);
+            let is_due = |lease: &Lease| {
+                let is_own = lease.grantor == id;
+                is_own && lease.until_s - self.now_s < RENEWED_AT * lease.lasts_s
+            };
+            if self.now_s < next_s || !self.holder.leases().iter().any(is_due) {
+                continue;
+            }
+            let number = self.numbers.next(percept);
+            if let Some(renewal) = self.holder.renewal(id, number) {
+                self.holder.request(number, id, None, self.now_s);
+                self.send(id, Dispatch::Renew(renewal));
+                self.schedule.contacts[index].next_renewal_s = self.now_s + RETRY_S;
+            }
+        }
+    }
+
+    /// Renews the leases of a controller one by one, those that end first.
+    fn renew_each(&mut self, from: RobotId, percept: &Percept) {
+        let own = self.holder.leases().iter();
+        let own = own.filter(|lease| lease.grantor == from);
+        let mut own: Vec<Lease> = own.copied().collect();
+        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
+        for lease in own.into_iter().take(MAX_RENEWALS) {
+            let number = self.numbers.next(percept);
+            let goal = lease.goal;
+            self.holder.request(number, from, Some(goal), self.now_s);
+            self.send(from, Dispatch::RenewOne(Claim { goal, number }));
+        }
+    }
+
+    /// Reports the goals that have been served, and now and then the robot's state.
+    fn report(&mut self, ability: &Ability, moment: &Moment) {
+        let done: Vec<(RobotId, Claim)> = self.finished.due(self.now_s).collect();
+        for (owner, claim) in done {
+            self.send(owner, Dispatch::Done(claim));
+        }
+        let Some(at) = moment.at else {
+            return;
+        };
+        let receivers: Vec<RobotId> = self.schedule.due(self.now_s).collect();
+        for to in receivers {
+            self.send(to, Dispatch::Report(self.state(ability, moment, at)));
+            if let Some(fitness) = self.fitness(to, ability, at) {
+                self.send(to, Dispatch::Fitness(fitness));
+            }
+        }
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    fn state(&self, ability: &Ability, moment: &Moment, at: Point) -> Report {
+        let goals = self.jobs.list.len();
+        let free = ability.max_goals.saturating_sub(goals);
+        Report {
+            at_m: [at.x as f32, at.y as f32],
+            speed_m_s: ability.speed_m_s as f32,
+            battery: moment.charge.unwrap_or(1.0) as f32,
+            goals: u16::try_from(goals).unwrap_or(u16::MAX),
+            payload: u16::try_from(free).unwrap_or(u16::MAX),
+        }
+    }
+
+    /// The progress towards the first goal of a controller.
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    fn fitness(&self, owner: RobotId, ability: &Ability, at: Point) -> Option<Fitness> {
+        let job = self.jobs.list.iter().find(|job| job.owner == owner)?;
+        let away_m = at.to(place(&job.task)).length();
+        let remaining_s = away_m / ability.speed_m_s + ability.work_s(&job.task) - job.served_s;
+        Some(Fitness {
+            goal: job.task.id,
+            verdict: job.verdict,
+            remaining_s: remaining_s as f32,
+        })
+    }
+
+    fn report_failure(&mut self, goal: GoalId, reason: Reason) {
+        if let Some(lease) = self.holder.lease(goal) {
+            let (to, number) = (lease.grantor, lease.number);
+            self.send(
+                to,
+                Dispatch::Stuck(Refusal {
+                    goal,
+                    number,
+                    reason,
+                }),
+            );
+        }
+    }
+
+    fn refuse(&mut self, to: RobotId, goal: GoalId, number: u32, reason: Reason) {
+        self.send(
+            to,
+            Dispatch::Refuse(Refusal {
+                goal,
+                number,
+                reason,
+            }),
+        );
+    }
+
+    /// Ends a lease by message.
+    fn release(&mut self, goal: GoalId) {
+        self.jobs.remove(goal);
+        if let Some(lease) = self.holder.release(goal) {
+            let number = self.numbers.last();
+            self.send(lease.grantor, Dispatch::Release(Claim { goal, number }));
+        }
+    }
+
+    fn drop_job(&mut self, goal: GoalId) {
+        self.jobs.remove(goal);
+        self.holder.release(goal);
+    }
+}
+
+fn is_there(job: &Job, ability: &Ability, at: Point) -> bool {
+    let (target, near_m) = job.target(ability);
+    at.to(target).length() <= near_m
+}

@@ -1,0 +1,80 @@
+//! The goals that a robot could not serve: it bids for them later, and with less confidence.
+
+use crate::io::goal_id::GoalId;
+use alloc::vec::Vec;
+
+/// Maximum number of goals; the oldest failure is forgotten first.
+const MAX_GOALS: usize = 64;
+
+/// Time without a bid after a failure, in seconds; each further one doubles it, up to a maximum.
+const MIN_REST_S: f64 = 20.0;
+const MAX_REST_S: f64 = 320.0;
+
+/// The failures of a robot.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Failures {
+    list: Vec<Failure>,
+}
+
+base::hashed!(Failures { list });
+
+#[derive(Debug, Clone, Copy)]
+struct Failure {
+    goal: GoalId,
+    count: u8,
+    rests_until_s: f64,
+}
+
+base::hashed!(Failure {
+    goal,
+    count,
+    rests_until_s
+});
+
+impl Failures {
+    pub(crate) fn add(&mut self, goal: GoalId, now_s: f64) {
+        let index = self.list.iter().position(|failure| failure.goal == goal);
+        let count = index.map_or(0, |index| self.list.remove(index).count);
+        if self.list.len() == MAX_GOALS {
+            self.list.remove(0);
+        }
+        let rest_s = MIN_REST_S * libm::exp2(f64::from(count.min(8)));
+        self.list.push(Failure {
+            goal,
+            count: count.saturating_add(1),
+            rests_until_s: now_s + rest_s.min(MAX_REST_S),
+        });
+    }
+
+    /// Whether the robot does not try a goal at this time.
+    pub(crate) fn is_resting(&self, goal: GoalId, now_s: f64) -> bool {
+        let failure = self.of(goal);
+        failure.is_some_and(|failure| now_s < failure.rests_until_s)
+    }
+
+    /// Probability that the next attempt succeeds: half after each failure.
+    pub(crate) fn confidence(&self, goal: GoalId) -> f64 {
+        let failure = self.of(goal);
+        failure.map_or(1.0, |failure| libm::exp2(-f64::from(failure.count.min(8))))
+    }
+
+    fn of(&self, goal: GoalId) -> Option<&Failure> {
+        self.list.iter().find(|failure| failure.goal == goal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_failure_halves_the_confidence_and_doubles_the_rest() {
+        let (mut failures, goal) = (Failures::default(), GoalId::default());
+        failures.add(goal, 0.0);
+        assert!((failures.confidence(goal) - 0.5).abs() < 1e-12);
+        assert!(failures.is_resting(goal, 19.0) && !failures.is_resting(goal, 20.0));
+        failures.add(goal, 20.0);
+        assert!((failures.confidence(goal) - 0.25).abs() < 1e-12);
+        assert!(failures.is_resting(goal, 59.0) && !failures.is_resting(goal, 60.0));
+    }
+}

@@ -1,0 +1,125 @@
+//! The goals that a robot serves, in the order in which it serves them.
+
+use super::ability::{Ability, place};
+use super::lanes;
+use crate::goals::tour::Tour;
+use crate::io::body::RobotId;
+use crate::io::dispatch::{Task, Work};
+use crate::io::goal_id::GoalId;
+use crate::io::verdict::Verdict;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// A goal that a robot serves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Job {
+    pub(crate) task: Task,
+    pub(crate) owner: RobotId,
+    /// Its deadline on the robot's clock.
+    pub(crate) due_at_s: f64,
+    /// Time of service so far.
+    pub(crate) served_s: f64,
+    /// Number of corners of a search that have been visited.
+    pub(crate) corners: u32,
+    pub(crate) verdict: Verdict,
+    /// Until when others are served first, because it was impossible.
+    pub(crate) rests_until_s: f64,
+}
+
+base::hashed!(Job {
+    task,
+    owner,
+    due_at_s,
+    served_s,
+    corners,
+    verdict,
+    rests_until_s
+});
+
+impl Job {
+    pub(crate) fn new(task: Task, owner: RobotId, due_at_s: f64) -> Self {
+        Self {
+            task,
+            owner,
+            due_at_s,
+            served_s: 0.0,
+            corners: 0,
+            verdict: Verdict::Approaching,
+            rests_until_s: f64::NEG_INFINITY,
+        }
+    }
+
+    /// Where the robot has to be, and how near.
+    pub(crate) fn target(&self, ability: &Ability) -> (Point, f64) {
+        let radius_m = f64::from(self.task.radius_m);
+        let corner = match self.task.work {
+            Work::Visit => None,
+            Work::Search => lanes::corner(&self.task, ability.lane_m, self.corners),
+        };
+        let near_m = (ability.lane_m / 4.0).clamp(0.2, 2.0);
+        corner.map_or((place(&self.task), radius_m), |corner| (corner, near_m))
+    }
+
+    /// Whether it remains only to be there for the time of service.
+    pub(crate) fn is_swept(&self, ability: &Ability) -> bool {
+        self.task.work == Work::Visit
+            || lanes::corner(&self.task, ability.lane_m, self.corners).is_none()
+    }
+
+    /// Remaining time of service.
+    pub(crate) fn left_s(&self) -> f64 {
+        (f64::from(self.task.service_s) - self.served_s).max(0.0)
+    }
+}
+
+/// All goals that a robot serves.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Jobs {
+    pub(crate) list: Vec<Job>,
+    /// Number of changes.
+    pub(crate) version: u32,
+}
+
+base::hashed!(Jobs { list, version });
+
+impl Jobs {
+    pub(crate) fn get(&self, goal: GoalId) -> Option<&Job> {
+        self.list.iter().find(|job| job.task.id == goal)
+    }
+
+    pub(crate) fn get_mut(&mut self, goal: GoalId) -> Option<&mut Job> {
+        self.list.iter_mut().find(|job| job.task.id == goal)
+    }
+
+    /// Adds a goal; all are then served in the order of the shortest path from a position.
+    pub(crate) fn add(&mut self, job: Job, at: Point) {
+        self.list.push(job);
+        self.sort(at);
+    }
+
+    pub(crate) fn remove(&mut self, goal: GoalId) -> Option<Job> {
+        let index = self.list.iter().position(|job| job.task.id == goal)?;
+        self.version = self.version.wrapping_add(1);
+        Some(self.list.remove(index))
+    }
+
+    /// The goal to serve now: one whose service has begun, or the first that does not rest.
+    pub(crate) fn current(&self, now_s: f64) -> Option<&Job> {
+        let begun = self.list.iter().find(|job| job.served_s > 0.0);
+        let mut awake = self.list.iter().filter(|job| now_s >= job.rests_until_s);
+        begun.or_else(|| awake.next())
+    }
+
+    /// The shortest path from a position through all goals.
+    pub(crate) fn tour(&self, at: Point) -> Tour {
+        let places = self.list.iter().map(|job| place(&job.task));
+        let places: Vec<Point> = places.collect();
+        Tour::new(at, &places)
+    }
+
+    fn sort(&mut self, at: Point) {
+        let order = self.tour(at).order;
+        self.list = order.into_iter().map(|index| self.list[index]).collect();
+        self.version = self.version.wrapping_add(1);
+    }
+}

@@ -1,0 +1,21 @@
+//! Goals that controllers own, and robots serve: leases, and the robot's half of the protocol.
+//!
+//! * [`numbers`]: numbers of requests, which never repeat;
+//! * [`holder`] and [`grantor`]: the two halves of a lease, for robots and controllers;
+//! * [`assignee`]: the robot's half, a step as a table of contents, with [`bidding`], the [`jobs`]
+//!   that it serves, its known [`offers`], its [`failures`], and when it sends what ([`schedule`]).
+
+pub(crate) mod ability;
+pub(crate) mod assignee;
+mod bidding;
+mod failures;
+mod finished;
+pub(crate) mod grantor;
+pub(crate) mod holder;
+mod jobs;
+mod lanes;
+pub(crate) mod numbers;
+mod offers;
+mod schedule;
+pub(crate) mod served;
+mod set_hash;

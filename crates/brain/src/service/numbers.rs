@@ -1,0 +1,73 @@
+//! Numbers of requests.
+
+use crate::io::percept::Percept;
+use base::hash::Hash;
+use base::hashed::Hashed;
+
+/// A later request of the same agent has a number that is higher by less than this, modulo 2^32.
+const LATER: u32 = 1024;
+
+/// Numbers of the requests of an agent, each different from all others.
+///
+/// The first number is a hash of the agent's first percept: an agent that restarts, and remembers
+/// nothing, does not take the answer to an earlier request for that to a new one.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Numbers {
+    last: Option<u32>,
+}
+
+base::hashed!(Numbers { last });
+
+impl Numbers {
+    /// The next number.
+    pub fn next(&mut self, percept: &Percept) -> u32 {
+        let next = self
+            .last
+            .map_or_else(|| first(percept), |last| last.wrapping_add(1));
+        self.last = Some(next);
+        next
+    }
+
+    /// The last number; 0 before the first.
+    #[must_use]
+    pub fn last(&self) -> u32 {
+        self.last.unwrap_or(0)
+    }
+}
+
+/// Whether a number is that of the same request as another, or of a later one.
+#[must_use]
+pub fn is_since(number: u32, earlier: u32) -> bool {
+    number.wrapping_sub(earlier) < LATER
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a hash")]
+fn first(percept: &Percept) -> u32 {
+    let mut hash = Hash::default();
+    percept.time_s.add_to(&mut hash);
+    percept.random_words.add_to(&mut hash);
+    percept.id.add_to(&mut hash);
+    let value = hash.value();
+    (value >> 32) as u32 ^ value as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(time_s: f64) -> Percept {
+        Percept {
+            time_s: Some(time_s),
+            ..Percept::default()
+        }
+    }
+
+    #[test]
+    fn numbers_differ_also_after_a_restart() {
+        let mut numbers = Numbers::default();
+        let before: Vec<u32> = (0..100).map(|_| numbers.next(&at(1.0))).collect();
+        let mut restarted = Numbers::default();
+        assert!((0..100).all(|_| !before.contains(&restarted.next(&at(2.0)))));
+        assert!(is_since(before[9], before[3]) && !is_since(before[3], before[9]));
+    }
+}

@@ -1,0 +1,148 @@
+//! Whether a robot keeps a goal, or another gets it.
+//!
+//! ```text
+//! A robot keeps its goal while it approaches it. A goal is contested when its robot reports that it
+//! is stuck, or is overdue: other robots can bid for it, and the first valid bid moves it. If there is
+//! none, the robot keeps it and tries again; if it approaches again, the contest ends.
+//! A robot that refuses, releases or is silent until its lease ends has lost the goal at once.
+//! ```
+//!
+//! A goal never moves back and forth: a robot that has lost it rests before it bids again, each time
+//! for twice as long, with half the confidence, and no goal is contested only because another robot
+//! would be nearer. New goals that lie better change the order in which robots serve theirs.
+
+use super::Controller;
+use alloc::vec::Vec;
+use brain::{Claim, Dispatch, GoalId, Refusal, RobotId};
+
+/// A withdrawal without an answer is repeated after this time, in seconds.
+const RETRY_S: f64 = 1.0;
+
+/// The time in which a robot that approaches again is expected to serve its goal, as a multiple of what
+/// it reports, and the time that is added, in seconds.
+const OVERDUE_FACTOR: f64 = 4.0;
+const OVERDUE_S: f64 = 60.0;
+
+impl Controller {
+    /// A robot does not reach its goal: others can have it.
+    pub(super) fn take_stuck(&mut self, from: RobotId, refusal: Refusal) {
+        let is_holder = |holder: RobotId| holder == from;
+        let grant = self.services.grant_of(refusal.goal);
+        if grant.is_some_and(|grant| is_holder(grant.holder)) {
+            self.contest(refusal.goal);
+        }
+        if let Some(owned) = self.goal_mut(refusal.goal) {
+            owned.reason = refusal.reason;
+        }
+    }
+
+    /// A robot approaches its goal again, or reports how long it will take.
+    pub(super) fn is_approaching(&mut self, from: RobotId, goal: GoalId, remaining_s: f64) {
+        let now_s = self.now_s;
+        let Some(owned) = self.goal_mut(goal) else {
+            return;
+        };
+        let assigned = owned
+            .assigned
+            .as_mut()
+            .filter(|assigned| assigned.robot == from);
+        let Some(assigned) = assigned.filter(|assigned| !assigned.is_withdrawn) else {
+            return;
+        };
+        let is_late = now_s >= assigned.overdue_s;
+        if assigned.is_contested && !is_late {
+            assigned.is_contested = false;
+            assigned.overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * remaining_s.clamp(0.0, 1e4);
+            self.bids.remove_for(goal);
+            self.close_offer(goal);
+        }
+    }
+
+    /// Contests overdue goals, and moves contested ones for which another robot has bid.
+    pub(super) fn arbitrate(&mut self) {
+        let now_s = self.now_s;
+        let assigned = self.goals.iter().filter_map(|owned| {
+            let assigned = owned.assigned?;
+            Some((owned.task.id, assigned))
+        });
+        let assigned: Vec<_> = assigned.collect();
+        for (goal, assigned) in assigned {
+            if assigned.is_withdrawn {
+                self.withdraw(goal);
+            } else if assigned.is_contested {
+                if self.has_other_bid(goal, assigned.robot) {
+                    self.picture.learn(assigned.robot, false, now_s);
+                    self.withdraw(goal);
+                }
+            } else if now_s >= assigned.overdue_s {
+                self.contest(goal);
+            }
+        }
+    }
+
+    fn contest(&mut self, goal: GoalId) {
+        let now_s = self.now_s;
+        let Some(owned) = self.goal_mut(goal) else {
+            return;
+        };
+        if let Some(assigned) = owned
+            .assigned
+            .as_mut()
+            .filter(|assigned| !assigned.is_contested)
+        {
+            assigned.is_contested = true;
+            owned.offer_again(now_s);
+            self.bids.remove_for(goal);
+        }
+    }
+
+    fn has_other_bid(&self, goal: GoalId, robot: RobotId) -> bool {
+        let mut bids = self.bids.iter();
+        bids.any(|standing| standing.bid.goal == goal && standing.robot != robot)
+    }
+
+    /// The robot is to release the goal; until it does, its lease is not renewed.
+    fn withdraw(&mut self, goal: GoalId) {
+        let now_s = self.now_s;
+        let Some(owned) = self.goal_mut(goal) else {
+            return;
+        };
+        let Some(assigned) = owned.assigned.as_mut() else {
+            return;
+        };
+        if assigned.is_withdrawn && now_s < assigned.next_s {
+            return;
+        }
+        (assigned.is_withdrawn, assigned.next_s) = (true, now_s + RETRY_S);
+        let robot = assigned.robot;
+        self.services.withdraw(goal);
+        if let Some(grant) = self.services.grant_of(goal).copied() {
+            let number = grant.number;
+            self.send(robot, Dispatch::Withdraw(Claim { goal, number }));
+        }
+    }
+
+    /// A lease has ended by message: the goal is offered again, unless it already is.
+    pub(super) fn reopen(&mut self, claim: Claim) {
+        let now_s = self.now_s;
+        if let Some(owned) = self.goal_mut(claim.goal).filter(|owned| !owned.is_done) {
+            let was_contested = owned
+                .assigned
+                .take()
+                .is_some_and(|assigned| assigned.is_contested);
+            if !was_contested {
+                owned.offer_again(now_s);
+                self.bids.remove_for(claim.goal);
+            }
+        }
+    }
+
+    /// A lease has ended in silence.
+    pub(super) fn lost_assignee(&mut self, goal: GoalId, robot: RobotId) {
+        let is_open = self.goal_mut(goal).is_some_and(|owned| !owned.is_done);
+        if is_open {
+            self.picture.learn(robot, false, self.now_s);
+            self.reopen(Claim { goal, number: 0 });
+        }
+    }
+}

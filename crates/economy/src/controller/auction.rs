@@ -1,0 +1,246 @@
+//! Calls for bids, and awards: a round awards what the rule of allocation chooses from all valid
+//! bids.
+
+use super::Controller;
+use super::owned::Assigned;
+use crate::allocation::{Allocation, Market, Offer, Pair};
+use alloc::vec::Vec;
+use base::geometry::Point;
+use brain::{Award, Claim, Dispatch, GoalId, RobotId, Task};
+
+/// Maximum number of calls per step, and time after which a call is repeated, in seconds.
+const CALLS_PER_STEP: usize = 2;
+const REPEAT_S: f64 = 10.0;
+
+/// Number of rounds in the time of an auction.
+const ROUNDS: f64 = 5.0;
+
+/// An award without an answer is repeated after this time, in seconds, this many times.
+const RETRY_S: f64 = 0.5;
+const RETRIES: f64 = 10.0;
+
+/// A robot should have served a goal after this multiple of the time that it bid, and more, in
+/// seconds: it may serve others before.
+const OVERDUE_FACTOR: f64 = 4.0;
+const OVERDUE_S: f64 = 120.0;
+
+impl Controller {
+    /// Calls for bids for the goals on offer, those first that have waited longest.
+    pub(super) fn call(&mut self) {
+        if self.settings.allocation == Allocation::None || !self.may_grant() {
+            return;
+        }
+        for _ in 0..CALLS_PER_STEP {
+            let now_s = self.now_s;
+            let due = self.goals.iter_mut();
+            let due = due.filter(|owned| owned.is_on_offer(now_s) && now_s >= owned.next_call_s);
+            let next = due.min_by(|one, other| one.next_call_s.total_cmp(&other.next_call_s));
+            let Some(owned) = next else {
+                return;
+            };
+            owned.called_s.get_or_insert(now_s);
+            owned.next_call_s = now_s + REPEAT_S;
+            let (number, task) = (owned.call, owned.task_at(now_s));
+            self.send(RobotId::EVERYONE, Dispatch::Call { number, task });
+        }
+    }
+
+    /// Holds a round when it is due, and repeats awards without an answer.
+    pub(super) fn award(&mut self) {
+        self.repeat_awards();
+        if self.now_s < self.next_round_s || !self.may_grant() {
+            return;
+        }
+        self.next_round_s = self.now_s + self.settings.auction_s / ROUNDS;
+        let (goals, robots) = (self.goals_on_offer(), self.present_robots());
+        let market = self.market(&goals, &robots);
+        for Pair { goal, robot } in self.settings.allocation.choose(&market) {
+            self.award_to(goals[goal], robots[robot]);
+        }
+    }
+
+    /// The goals without an assignee whose auction has lasted long enough.
+    fn goals_on_offer(&self) -> Vec<GoalId> {
+        let is_ripe = |called_s: f64| self.now_s >= called_s + self.settings.auction_s;
+        let goals = self.goals.iter().filter(|owned| {
+            let is_free = self.services.grant_of(owned.task.id).is_none();
+            owned.is_on_offer(self.now_s) && is_free && owned.called_s.is_some_and(is_ripe)
+        });
+        let owns = |goal: &GoalId| self.owns_at(*goal, self.now_s);
+        goals.map(|owned| owned.task.id).filter(owns).collect()
+    }
+
+    fn present_robots(&self) -> Vec<RobotId> {
+        self.picture.present().map(|robot| robot.id).collect()
+    }
+
+    fn market(&self, goals: &[GoalId], robots: &[RobotId]) -> Market {
+        let is_idle = robots.iter().map(|robot| {
+            let is_holder = |id: &RobotId| {
+                self.services
+                    .grants()
+                    .iter()
+                    .any(|grant| grant.holder == *id)
+            };
+            !is_holder(robot)
+                && self
+                    .picture
+                    .get(*robot)
+                    .is_some_and(|robot| robot.goals == 0)
+        });
+        let mut market = Market {
+            goals: goals.len(),
+            is_idle: is_idle.collect(),
+            offers: Vec::new(),
+        };
+        if self.settings.allocation == Allocation::Optimal {
+            self.add_estimates(&mut market, goals, robots);
+        }
+        self.add_bids(&mut market, goals, robots);
+        market
+    }
+
+    /// Bids, instead of the estimates of their pairs.
+    fn add_bids(&self, market: &mut Market, goals: &[GoalId], robots: &[RobotId]) {
+        for standing in self.bids.iter() {
+            let goal = goals.iter().position(|goal| *goal == standing.bid.goal);
+            let robot = robots.iter().position(|robot| *robot == standing.robot);
+            let (Some(goal), Some(robot)) = (goal, robot) else {
+                continue;
+            };
+            let Some(owned) = self.goals.iter().find(|owned| owned.task.id == goals[goal]) else {
+                continue;
+            };
+            let pair = Pair { goal, robot };
+            market.offers.retain(|offer| offer.pair != pair);
+            market.offers.push(Offer {
+                pair,
+                cost_s: self.cost_s(
+                    standing.robot,
+                    &owned.task,
+                    [standing.bid.time_s.into(), standing.confidence],
+                ),
+                distance_m: self.distance_m(standing.robot, &owned.task),
+                is_bid: true,
+            });
+        }
+    }
+
+    /// Costs of idle robots by distance and speed, except where they have declined.
+    fn add_estimates(&self, market: &mut Market, goals: &[GoalId], robots: &[RobotId]) {
+        for (goal, id) in goals.iter().enumerate() {
+            let Some(owned) = self.goals.iter().find(|owned| owned.task.id == *id) else {
+                continue;
+            };
+            for (robot, id) in robots
+                .iter()
+                .enumerate()
+                .filter(|(robot, _)| market.is_idle[*robot])
+            {
+                let distance_m = self.distance_m(*id, &owned.task);
+                let speed_m_s = self.picture.get(*id).map_or(1.0, |robot| robot.speed_m_s);
+                let time_s = distance_m / speed_m_s + f64::from(owned.task.service_s);
+                if distance_m.is_finite() && !owned.is_declined_by(*id, self.now_s) {
+                    market.offers.push(Offer {
+                        pair: Pair { goal, robot },
+                        cost_s: self.cost_s(*id, &owned.task, [time_s, 1.0]),
+                        distance_m,
+                        is_bid: false,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Expected time divided by confidence, trust and value.
+    pub(super) fn cost_s(
+        &self,
+        robot: RobotId,
+        task: &Task,
+        [time_s, confidence]: [f64; 2],
+    ) -> f64 {
+        let value = f64::from(task.value).max(1e-6);
+        time_s / (confidence * self.picture.trust_of(robot) * value)
+    }
+
+    /// Distance from a robot to a goal; infinite if its position is unknown.
+    pub(super) fn distance_m(&self, robot: RobotId, task: &Task) -> f64 {
+        let at = self.picture.get(robot).and_then(|robot| robot.at);
+        let goal = Point::from(task.at_m.map(f64::from));
+        at.map_or(f64::INFINITY, |at| at.to(goal).length())
+    }
+
+    /// Awards a goal to a robot that has bid for it; one that has not is called alone.
+    fn award_to(&mut self, goal: GoalId, robot: RobotId) {
+        let bid = self.bids.get(robot, goal).map(|standing| standing.bid);
+        let Some(bid) = bid else {
+            self.call_to(goal, robot);
+            return;
+        };
+        let (now_s, wait_s) = (self.now_s, self.service_wait_s());
+        let claim = Claim {
+            goal,
+            number: bid.number,
+        };
+        if !self.services.grant(robot, claim, wait_s, now_s) {
+            return;
+        }
+        let overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * f64::from(bid.time_s);
+        let assigned = Assigned {
+            robot,
+            number: bid.number,
+            is_committed: false,
+            awarded_s: now_s,
+            next_s: now_s,
+            overdue_s,
+            is_contested: false,
+            is_withdrawn: false,
+        };
+        if let Some(owned) = self.goal_mut(goal) {
+            owned.assign(assigned);
+        }
+        self.bids.remove_for(goal);
+        self.bids.remove_of(robot);
+        self.repeat_awards();
+    }
+
+    /// Requests an answer of one robot, at most once in a while.
+    pub(super) fn call_to(&mut self, goal: GoalId, robot: RobotId) {
+        let now_s = self.now_s;
+        let Some(owned) = self
+            .goal_mut(goal)
+            .filter(|owned| now_s >= owned.next_probe_s)
+        else {
+            return;
+        };
+        owned.next_probe_s = now_s + 2.0 * RETRY_S;
+        owned.called_s.get_or_insert(now_s);
+        let (number, task) = (owned.call, owned.task_at(now_s));
+        self.send(robot, Dispatch::Call { number, task });
+    }
+
+    /// Sends the awards that have not been answered.
+    fn repeat_awards(&mut self) {
+        let (now_s, lease_s) = (self.now_s, self.settings.service_lease_s);
+        for index in 0..self.goals.len() {
+            let owned = &mut self.goals[index];
+            let goal = owned.task.id;
+            let Some(assigned) = owned.assigned.as_mut() else {
+                continue;
+            };
+            let is_repeated = now_s < assigned.awarded_s + RETRIES * RETRY_S;
+            if assigned.is_committed || now_s < assigned.next_s || !is_repeated {
+                continue;
+            }
+            assigned.next_s = now_s + RETRY_S;
+            #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+            let award = Award {
+                goal,
+                number: assigned.number,
+                lease_s: lease_s as f32,
+            };
+            let robot = assigned.robot;
+            self.send(robot, Dispatch::Award(award));
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! A controller: it owns goals, and awards them to robots.
+//!
+//! * [`owned`]: the goals; [`picture`]: the robots, as they report themselves; [`bids`]: what they bid;
+//! * [`receive`]: the effect of each message;
+//! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal;
+//!   [`unserved`]: goals that no robot can serve;
+//! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
+//!   [`colleagues`]: the other controllers.
+
+mod arbitration;
+mod auction;
+mod bids;
+mod colleagues;
+mod estates;
+mod heirs;
+mod owned;
+mod picture;
+mod receive;
+mod tenures;
+mod trust;
+mod unserved;
+
+use crate::settings::Settings;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use bids::Bids;
+use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
+use brain::{Reason, RobotId, Task, wait_s};
+use colleagues::Colleagues;
+use estates::Ward;
+use owned::{Heir, Owned};
+use picture::Picture;
+use tenures::Orphan;
+
+/// One controller: it owns goals, and awards them to robots.
+#[derive(Debug, Clone)]
+pub struct Controller {
+    settings: Arc<Settings>,
+    own: RobotId,
+    /// Its clock.
+    now_s: f64,
+    /// Until when it grants nothing, once it knows the time: an agent that restarts does not know
+    /// what it granted before.
+    silent_until_s: Option<f64>,
+    numbers: Numbers,
+    goals: Vec<Owned>,
+    /// Goals of which it is the heir, and goals that it owned until their lease ended.
+    wards: Vec<Ward>,
+    orphans: Vec<Orphan>,
+    /// Service leases that it has granted, owner leases that it has granted, and those that it holds.
+    services: Grantor,
+    estates: Grantor,
+    tenures: Holder,
+    picture: Picture,
+    colleagues: Colleagues,
+    bids: Bids,
+    next_round_s: f64,
+    next_renewal_s: f64,
+    refused: u32,
+    outbox: Vec<Message>,
+}
+
+base::hashed!(Controller {
+    own,
+    now_s,
+    silent_until_s,
+    numbers,
+    goals,
+    wards,
+    orphans,
+    services,
+    estates,
+    tenures,
+    picture,
+    colleagues,
+    bids,
+    next_round_s,
+    next_renewal_s,
+    refused
+} without { settings, outbox });
+
+/// A goal that a controller owns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OwnedGoal {
+    /// The goal.
+    pub task: Task,
+    /// The robot that serves it, and the remaining time of its lease in seconds; `None` if there is none.
+    pub assignee: Option<(RobotId, f64)>,
+    /// The controller that renews the lease of the owner and inherits the goal, and the remaining time
+    /// of that lease in seconds; `None` if there is none: the controller then owns the goal without a
+    /// lease.
+    pub heir: Option<(RobotId, f64)>,
+    /// Why no robot can serve it at present, if that is so.
+    pub unserved: Option<Reason>,
+}
+
+impl Controller {
+    /// A controller at the start of a mission: no robot holds a lease of it.
+    #[must_use]
+    pub fn new(settings: Arc<Settings>) -> Self {
+        Self {
+            settings,
+            own: RobotId::default(),
+            now_s: f64::NEG_INFINITY,
+            silent_until_s: Some(f64::NEG_INFINITY),
+            numbers: Numbers::default(),
+            goals: Vec::new(),
+            wards: Vec::new(),
+            orphans: Vec::new(),
+            services: Grantor::default(),
+            estates: Grantor::default(),
+            tenures: Holder::default(),
+            picture: Picture::default(),
+            colleagues: Colleagues::default(),
+            bids: Bids::default(),
+            next_round_s: f64::NEG_INFINITY,
+            next_renewal_s: f64::NEG_INFINITY,
+            refused: 0,
+            outbox: Vec::new(),
+        }
+    }
+
+    /// A controller that is switched on again during a mission: it remembers nothing, and grants
+    /// nothing for the longest lease.
+    #[must_use]
+    pub fn restarted(settings: Arc<Settings>) -> Self {
+        Self {
+            silent_until_s: None,
+            ..Self::new(settings)
+        }
+    }
+
+    /// The controller with the settings of another one, and its own memory.
+    #[must_use]
+    pub fn with_settings_of(&self, other: &Self) -> Self {
+        Self {
+            settings: other.settings.clone(),
+            ..self.clone()
+        }
+    }
+
+    /// The command for a percept, of which it uses time, id, position, neighbours and inbox.
+    ///
+    /// A percept from before the last one changes nothing.
+    pub fn step_into(&mut self, percept: &Percept, command: &mut Command) {
+        command.outbox.clear();
+        let time_s = percept.time_s.filter(|time_s| time_s.is_finite());
+        let now_s = time_s.unwrap_or(self.now_s.max(0.0));
+        if now_s < self.now_s {
+            return;
+        }
+        (self.now_s, self.own) = (now_s, percept.id);
+        let silent_s = self.longest_wait_s();
+        self.silent_until_s.get_or_insert(now_s + silent_s);
+        self.expire();
+        for received in &percept.inbox {
+            self.receive(received, percept);
+        }
+        self.sense(percept);
+        self.present(percept);
+        self.call();
+        self.award();
+        self.arbitrate();
+        self.probe();
+        self.settle_heirs(percept);
+        command.outbox.append(&mut self.outbox);
+    }
+
+    /// The goals that it owns and that are not done, in the order in which it received them.
+    pub fn goals(&self) -> impl Iterator<Item = OwnedGoal> {
+        let open = self.goals.iter().filter(|owned| !owned.is_done);
+        open.map(|owned| OwnedGoal {
+            task: owned.task,
+            assignee: self.services.grant_of(owned.task.id).map(|grant| {
+                let left_s = (grant.until_s - self.now_s).max(0.0);
+                (grant.holder, left_s)
+            }),
+            heir: owned.heir.bound().map(|heir| {
+                let lease = self.tenures.lease(owned.task.id);
+                (heir, lease.map_or(0.0, |lease| lease.until_s - self.now_s))
+            }),
+            unserved: owned.unserved(self.now_s),
+        })
+    }
+
+    /// The goals that it owned and that have been served.
+    pub fn done(&self) -> impl Iterator<Item = GoalId> {
+        let done = self.goals.iter().filter(|owned| owned.is_done);
+        done.map(|owned| owned.task.id)
+    }
+
+    /// The goals that it owned until their lease ended, because the heir did not renew it.
+    pub fn orphans(&self) -> impl Iterator<Item = Task> {
+        self.orphans.iter().map(|orphan| orphan.owned.task)
+    }
+
+    /// Whether it owns a goal at a time on its clock, which is not before its last step.
+    #[must_use]
+    pub fn owns_at(&self, goal: GoalId, time_s: f64) -> bool {
+        let mut goals = self.goals.iter();
+        let owned = goals.find(|owned| owned.task.id == goal && !owned.is_done);
+        owned
+            .is_some_and(|owned| owned.heir.bound().is_none() || self.tenures.is_held(goal, time_s))
+    }
+
+    /// Number of goals that it refused because it owned the maximum number.
+    #[must_use]
+    pub fn refused(&self) -> u32 {
+        self.refused
+    }
+
+    /// Owns a goal that a person has issued.
+    fn own(&mut self, task: Task) {
+        let is_known = self.goals.iter().any(|owned| owned.task.id == task.id);
+        if is_known || !task.is_valid() {
+            return;
+        }
+        let was_orphan = self
+            .orphans
+            .iter()
+            .any(|orphan| orphan.owned.task.id == task.id);
+        let open = self.goals.iter().filter(|owned| !owned.is_done).count();
+        if open >= self.settings.max_goals as usize {
+            self.refused += 1;
+            return;
+        }
+        let wait_s = if was_orphan {
+            self.service_wait_s()
+        } else {
+            0.0
+        };
+        self.orphans
+            .retain(|orphan| orphan.owned.task.id != task.id);
+        self.goals.push(Owned::new(task, self.now_s, wait_s));
+    }
+
+    /// Ends what has ended by the clock.
+    fn expire(&mut self) {
+        for grant in self.services.expire(self.now_s) {
+            self.lost_assignee(grant.goal, grant.holder);
+        }
+        self.expire_tenures();
+        self.inherit();
+        self.bids.expire(self.now_s);
+        self.picture.expire(self.now_s);
+        self.colleagues.expire(self.now_s);
+    }
+
+    fn goal_mut(&mut self, goal: GoalId) -> Option<&mut Owned> {
+        let mut goals = self.goals.iter_mut();
+        goals.find(|owned| owned.task.id == goal)
+    }
+
+    fn send(&mut self, to: RobotId, dispatch: Dispatch) {
+        self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
+    }
+
+    /// Whether it grants leases: not before the longest lease of an earlier life has ended.
+    fn may_grant(&self) -> bool {
+        self.silent_until_s
+            .is_some_and(|until_s| self.now_s >= until_s)
+    }
+
+    fn service_wait_s(&self) -> f64 {
+        wait_s(self.settings.service_lease_s, self.settings.max_drift)
+    }
+
+    fn owner_wait_s(&self) -> f64 {
+        wait_s(self.settings.owner_lease_s, self.settings.max_drift)
+    }
+
+    fn longest_wait_s(&self) -> f64 {
+        self.service_wait_s().max(self.owner_wait_s())
+    }
+
+    /// A goal is no longer on offer to any robot.
+    fn close_offer(&mut self, goal: GoalId) {
+        let claim = Claim { goal, number: 0 };
+        self.send(RobotId::EVERYONE, Dispatch::Withdraw(claim));
+    }
+}
+
+/// The part of an heir that [`OwnedGoal`] shows.
+impl Heir {
+    fn bound(&self) -> Option<RobotId> {
+        match self {
+            Self::Bound { heir, .. } | Self::Relieving { heir, .. } => Some(*heir),
+            Self::None | Self::Offered { .. } => None,
+        }
+    }
+}

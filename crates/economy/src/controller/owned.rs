@@ -1,0 +1,239 @@
+//! A goal that a controller owns, and what has happened to it.
+
+use alloc::vec::Vec;
+use base::hash::Hash;
+use base::hashed::Hashed;
+use brain::{Reason, RobotId, Task};
+
+/// Maximum number of robots that are remembered for a goal.
+const MAX_ROBOTS: usize = 64;
+
+/// A goal that no robot can serve is tried again after this time, in seconds; each further failure
+/// doubles it, up to a maximum.
+const MIN_REST_S: f64 = 20.0;
+const MAX_REST_S: f64 = 320.0;
+
+/// A goal that a controller owns.
+#[derive(Debug, Clone)]
+pub(super) struct Owned {
+    pub(super) task: Task,
+    /// Its deadline on the controller's clock.
+    pub(super) due_at_s: f64,
+    pub(super) is_done: bool,
+    /// The owner from which it was inherited.
+    pub(super) origin: Option<RobotId>,
+    /// When it is offered to that owner again; minus infinity if it never was.
+    pub(super) next_return_s: f64,
+    /// From when on it can be awarded.
+    pub(super) ready_s: f64,
+    /// Number of its offer, when that was called first, and when it is called next.
+    pub(super) call: u16,
+    pub(super) called_s: Option<f64>,
+    pub(super) next_call_s: f64,
+    pub(super) assigned: Option<Assigned>,
+    pub(super) heir: Heir,
+    /// Since when no robot has bid for it, and when the next is called alone.
+    pub(super) without_bid_s: f64,
+    pub(super) next_probe_s: f64,
+    /// The robots that cannot serve it, until when, and the last reason.
+    pub(super) declined: Vec<(RobotId, f64)>,
+    pub(super) reason: Reason,
+    pub(super) rest: Rest,
+    /// The robots that have been awarded it.
+    pub(super) assignees: Vec<RobotId>,
+}
+
+base::hashed!(Owned {
+    task,
+    due_at_s,
+    is_done,
+    origin,
+    next_return_s,
+    ready_s,
+    call,
+    called_s,
+    next_call_s,
+    assigned,
+    heir,
+    without_bid_s,
+    next_probe_s,
+    declined,
+    reason,
+    rest,
+    assignees
+});
+
+/// The award of a goal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Assigned {
+    pub(super) robot: RobotId,
+    /// Number of the bid.
+    pub(super) number: u32,
+    pub(super) is_committed: bool,
+    pub(super) awarded_s: f64,
+    /// When the award, or the withdrawal, is sent again.
+    pub(super) next_s: f64,
+    /// When the robot should have served it.
+    pub(super) overdue_s: f64,
+    /// Whether other robots can bid for it.
+    pub(super) is_contested: bool,
+    /// Whether the robot is to release it.
+    pub(super) is_withdrawn: bool,
+}
+
+base::hashed!(Assigned {
+    robot,
+    number,
+    is_committed,
+    awarded_s,
+    next_s,
+    overdue_s,
+    is_contested,
+    is_withdrawn
+});
+
+/// The rest of a goal that no robot can serve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rest {
+    pub(super) until_s: f64,
+    /// Its duration after the last failure; 0 before the first.
+    pub(super) total_s: f64,
+}
+
+base::hashed!(Rest { until_s, total_s });
+
+/// The heir of a goal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Heir {
+    /// There is none.
+    None,
+    /// It is to be one, and has not answered.
+    Offered { heir: RobotId, next_s: f64 },
+    /// The controller owns the goal only while the heir renews its lease.
+    Bound {
+        heir: RobotId,
+        /// The number that the heir gave its answer, and whether it knows that it is bound.
+        number: u32,
+        is_confirmed: bool,
+        next_s: f64,
+    },
+    /// It is to be the heir no longer, and has not answered.
+    Relieving { heir: RobotId, next_s: f64 },
+}
+
+impl Hashed for Heir {
+    fn add_to(&self, hash: &mut Hash) {
+        match *self {
+            Self::None => 0_u8.add_to(hash),
+            Self::Offered { heir, next_s } => (1_u8, (heir, next_s)).add_to(hash),
+            Self::Bound {
+                heir,
+                number,
+                is_confirmed,
+                next_s,
+            } => (2_u8, ((heir, number), (is_confirmed, next_s))).add_to(hash),
+            Self::Relieving { heir, next_s } => (3_u8, (heir, next_s)).add_to(hash),
+        }
+    }
+}
+
+impl Owned {
+    /// A goal that can be awarded after a time.
+    pub(super) fn new(task: Task, now_s: f64, wait_s: f64) -> Self {
+        Self {
+            task,
+            due_at_s: now_s + f64::from(task.due_s),
+            is_done: false,
+            origin: None,
+            next_return_s: f64::NEG_INFINITY,
+            ready_s: now_s + wait_s,
+            call: 0,
+            called_s: None,
+            next_call_s: now_s + wait_s,
+            assigned: None,
+            heir: Heir::None,
+            without_bid_s: now_s + wait_s,
+            next_probe_s: now_s + wait_s,
+            declined: Vec::new(),
+            reason: Reason::NoRobot,
+            rest: Rest {
+                until_s: f64::NEG_INFINITY,
+                total_s: 0.0,
+            },
+            assignees: Vec::new(),
+        }
+    }
+
+    /// Whether robots can bid for it.
+    pub(super) fn is_on_offer(&self, now_s: f64) -> bool {
+        let is_free = self.assigned.is_none_or(|assigned| assigned.is_contested);
+        !self.is_done && is_free && now_s >= self.ready_s && now_s >= self.rest.until_s
+    }
+
+    /// Offers it again: bids for the last offer do not count.
+    pub(super) fn offer_again(&mut self, now_s: f64) {
+        self.call = self.call.wrapping_add(1);
+        (self.called_s, self.next_call_s) = (None, now_s);
+        (self.without_bid_s, self.next_probe_s) = (now_s, now_s);
+    }
+
+    /// The description that is sent now.
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    pub(super) fn task_at(&self, now_s: f64) -> Task {
+        let due_s = (self.due_at_s - now_s).clamp(0.0, f64::from(f32::MAX));
+        Task {
+            due_s: due_s as f32,
+            ..self.task
+        }
+    }
+
+    /// Notes that a robot cannot serve it.
+    pub(super) fn decline(&mut self, robot: RobotId, until_s: f64, reason: Reason) {
+        self.declined.retain(|(declined, _)| *declined != robot);
+        if self.declined.len() == MAX_ROBOTS {
+            self.declined.remove(0);
+        }
+        self.declined.push((robot, until_s));
+        self.reason = reason;
+    }
+
+    pub(super) fn is_declined_by(&self, robot: RobotId, now_s: f64) -> bool {
+        let mut declined = self.declined.iter();
+        declined.any(|(declined, until_s)| *declined == robot && now_s < *until_s)
+    }
+
+    /// No robot can serve it: it rests, after each failure for longer.
+    pub(super) fn give_up(&mut self, now_s: f64) {
+        let rest = &mut self.rest;
+        rest.total_s = (2.0 * rest.total_s).clamp(MIN_REST_S, MAX_REST_S);
+        rest.until_s = now_s + rest.total_s;
+        self.declined.clear();
+        let until_s = rest.until_s;
+        self.offer_again(until_s);
+    }
+
+    /// What robots can do has changed.
+    pub(super) fn try_again(&mut self, now_s: f64) {
+        if now_s < self.rest.until_s {
+            self.rest.until_s = now_s;
+            self.offer_again(now_s);
+        }
+    }
+
+    /// Why no robot can serve it at present, if that is so.
+    pub(super) fn unserved(&self, now_s: f64) -> Option<Reason> {
+        (now_s < self.rest.until_s).then_some(self.reason)
+    }
+
+    pub(super) fn assign(&mut self, assigned: Assigned) {
+        let robot = assigned.robot;
+        if !self.assignees.contains(&robot) {
+            if self.assignees.len() == MAX_ROBOTS {
+                self.assignees.remove(0);
+            }
+            self.assignees.push(robot);
+        }
+        self.assigned = Some(assigned);
+        (self.rest.total_s, self.called_s) = (0.0, None);
+    }
+}

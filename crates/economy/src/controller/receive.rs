@@ -1,0 +1,198 @@
+//! The effect of each message on a controller.
+
+use super::Controller;
+use base::geometry::Point;
+use brain::{About, Bid, Claim, Dispatch, Percept, Reason, ReceivedMessage, Refusal, Renewal};
+use brain::{Report, RobotId, Verdict};
+
+/// A robot that refuses a goal is not called again for it for this time, in seconds.
+const DECLINED_S: f64 = 30.0;
+
+/// Longest plausible time of a bid, in seconds.
+const MAX_TIME_S: f32 = 1e6;
+
+impl Controller {
+    pub(super) fn receive(&mut self, received: &ReceivedMessage, percept: &Percept) {
+        let About::Dispatch(dispatch) = received.message.about else {
+            return;
+        };
+        let from = received.from;
+        if from == RobotId::OPERATOR {
+            if let Dispatch::Issue(task) = dispatch {
+                self.own(task);
+            }
+            return;
+        }
+        if self.settings.is_robot(from, self.own) {
+            self.receive_of_robot(from, dispatch, received.message.confidence);
+        } else {
+            self.receive_of_controller(from, dispatch, percept);
+        }
+    }
+
+    fn receive_of_robot(&mut self, from: RobotId, dispatch: Dispatch, confidence: f64) {
+        match dispatch {
+            Dispatch::Report(report) => self.take_report(from, &report),
+            Dispatch::Bid(bid) => self.take_bid(from, bid, confidence),
+            Dispatch::Commit(claim) => self.take_commitment(from, claim),
+            Dispatch::Refuse(refusal) => self.take_refusal(from, refusal),
+            Dispatch::Done(claim) => self.take_done(from, claim),
+            Dispatch::Stuck(refusal) => self.take_stuck(from, refusal),
+            Dispatch::Fitness(fitness) if fitness.verdict == Verdict::Approaching => {
+                self.is_approaching(from, fitness.goal, fitness.remaining_s.into());
+            }
+            Dispatch::Release(claim) => self.take_release(from, claim),
+            Dispatch::Renew(renewal) => self.renew_services(from, renewal),
+            Dispatch::RenewOne(claim) => self.renew_service(from, claim),
+            _ => {}
+        }
+    }
+
+    /// A robot that was not present is a reason to try goals again that no robot could serve.
+    fn note_robot(&mut self, from: RobotId) {
+        if self.picture.note(from, self.now_s) {
+            let now_s = self.now_s;
+            self.goals
+                .iter_mut()
+                .for_each(|owned| owned.try_again(now_s));
+        }
+    }
+
+    fn take_report(&mut self, from: RobotId, report: &Report) {
+        self.note_robot(from);
+        self.picture.report(from, report, self.now_s);
+    }
+
+    /// A bid counts if its goal is on offer under the number of the bid. If it is not, the robot is to
+    /// know that.
+    fn take_bid(&mut self, from: RobotId, bid: Bid, confidence: f64) {
+        let is_possible = confidence > 0.0 && confidence <= 1.0;
+        if !is_possible || !(0.0..=MAX_TIME_S).contains(&bid.time_s) {
+            return;
+        }
+        self.note_robot(from);
+        let now_s = self.now_s;
+        let Some(owned) = self.goal_mut(bid.goal) else {
+            return;
+        };
+        let is_own = owned
+            .assigned
+            .is_some_and(|assigned| assigned.robot == from);
+        if owned.is_on_offer(now_s) && bid.call == owned.call && !is_own {
+            owned.without_bid_s = now_s;
+            self.bids.put(from, bid, confidence, now_s);
+        } else if !is_own {
+            let claim = Claim {
+                goal: bid.goal,
+                number: bid.number,
+            };
+            self.send(from, Dispatch::Withdraw(claim));
+        }
+    }
+
+    fn take_commitment(&mut self, from: RobotId, claim: Claim) {
+        let Some(owned) = self.goal_mut(claim.goal) else {
+            return;
+        };
+        let assigned = owned.assigned.as_mut();
+        let own =
+            assigned.filter(|assigned| assigned.robot == from && assigned.number == claim.number);
+        if let Some(assigned) = own.filter(|assigned| !assigned.is_committed) {
+            assigned.is_committed = true;
+            self.close_offer(claim.goal);
+        }
+    }
+
+    fn take_refusal(&mut self, from: RobotId, refusal: Refusal) {
+        let Refusal {
+            goal,
+            number,
+            reason,
+        } = refusal;
+        let now_s = self.now_s;
+        if reason == Reason::Full {
+            self.picture.is_full(from, now_s);
+        }
+        let claim = Claim { goal, number };
+        if self.services.refuse(from, claim).is_some() {
+            self.reopen(claim);
+        }
+        let is_unable = reason != Reason::Lease && reason != Reason::Full;
+        if let Some(owned) = self.goal_mut(goal).filter(|_| is_unable) {
+            owned.decline(from, now_s + DECLINED_S, reason);
+        }
+    }
+
+    fn take_release(&mut self, from: RobotId, claim: Claim) {
+        if self.services.release(from, claim).is_some() {
+            self.reopen(claim);
+        }
+    }
+
+    /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the awards
+    /// of the previous owner are unknown.
+    fn take_done(&mut self, from: RobotId, claim: Claim) {
+        let now_s = self.now_s;
+        self.restore_orphan(from, claim.goal);
+        let Some(owned) = self.goal_mut(claim.goal) else {
+            return;
+        };
+        if !owned.is_done && !owned.assignees.contains(&from) && owned.origin.is_none() {
+            return;
+        }
+        if !owned.is_done {
+            owned.is_done = true;
+            owned.assigned = None;
+            self.picture.learn(from, true, now_s);
+            self.bids.remove_for(claim.goal);
+            self.close_offer(claim.goal);
+        }
+        self.services.release(from, claim);
+        self.services.withdraw(claim.goal);
+        self.send(from, Dispatch::Withdraw(claim));
+    }
+
+    fn renew_services(&mut self, from: RobotId, renewal: Renewal) {
+        self.note_robot(from);
+        let answer = if self.services.renew(from, renewal, self.now_s) {
+            Dispatch::Renewed(renewal.number)
+        } else {
+            Dispatch::Differs(renewal.number)
+        };
+        self.send(from, answer);
+    }
+
+    /// A lease that the robot does not have, or is to release, is withdrawn.
+    fn renew_service(&mut self, from: RobotId, claim: Claim) {
+        let answer = if self.services.renew_one(from, claim, self.now_s) {
+            Dispatch::RenewedOne(claim)
+        } else if self.goals.iter().any(|owned| owned.task.id == claim.goal) {
+            Dispatch::Withdraw(claim)
+        } else {
+            return;
+        };
+        self.send(from, answer);
+    }
+
+    fn receive_of_controller(&mut self, from: RobotId, dispatch: Dispatch, percept: &Percept) {
+        match dispatch {
+            Dispatch::Serial(serial) => self.colleagues.note(from, serial, self.now_s),
+            Dispatch::Seen(seen) => {
+                let at = Point::from(seen.at_m.map(f64::from));
+                self.picture.see(seen.robot, at, self.now_s);
+            }
+            Dispatch::Entrust(task) => self.take_entrusted(from, task, percept),
+            Dispatch::Entrusted(answer) => self.take_answer(from, answer),
+            Dispatch::Bind(binding) => self.take_binding(from, binding),
+            Dispatch::Renew(renewal) => self.renew_estates(from, renewal),
+            Dispatch::RenewOne(claim) => self.renew_estate(from, claim),
+            Dispatch::Renewed(number) => self.tenures.renew(from, number, self.now_s),
+            Dispatch::RenewedOne(claim) => self.tenures.renew_one(from, claim, self.now_s),
+            Dispatch::Differs(number) => self.renew_tenures_one_by_one(from, number, percept),
+            Dispatch::Relieve(claim) => self.take_relief(from, claim),
+            Dispatch::Relieved(claim) => self.take_relieved(from, claim),
+            Dispatch::Return(task) => self.take_return(from, task, percept),
+            _ => {}
+        }
+    }
+}

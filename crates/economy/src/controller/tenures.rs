@@ -1,0 +1,145 @@
+//! The owner's half of owner leases: renewals, their end, and goals that an heir returns.
+
+use super::Controller;
+use super::owned::{Heir, Owned};
+use alloc::vec::Vec;
+use brain::{Claim, Dispatch, GoalId, Lease, Percept, RobotId, Task};
+
+/// Leases are renewed when this part of their duration is left, and a renewal without an answer is
+/// repeated after this time, in seconds.
+const RENEWED_AT: f64 = 2.0 / 3.0;
+const RENEWAL_RETRY_S: f64 = 0.5;
+
+/// Maximum number of leases that are renewed one by one in a step.
+const MAX_RENEWALS: usize = 16;
+
+/// A goal that a controller owned until its lease ended.
+#[derive(Debug, Clone)]
+pub(super) struct Orphan {
+    pub(super) owned: Owned,
+    /// The request by which it would be owned again.
+    request: Option<u32>,
+}
+
+base::hashed!(Orphan { owned, request });
+
+impl Controller {
+    /// Renews the leases of each heir.
+    pub(super) fn renew_tenures(&mut self, percept: &Percept) {
+        let is_due = |lease: &&Lease| lease.until_s - self.now_s < RENEWED_AT * lease.lasts_s;
+        let heirs = self.tenures.leases().iter().filter(is_due);
+        let mut heirs: Vec<RobotId> = heirs.map(|lease| lease.grantor).collect();
+        heirs.sort_unstable();
+        heirs.dedup();
+        if self.now_s < self.next_renewal_s || heirs.is_empty() {
+            return;
+        }
+        self.next_renewal_s = self.now_s + RENEWAL_RETRY_S;
+        for heir in heirs {
+            let number = self.numbers.next(percept);
+            if let Some(renewal) = self.tenures.renewal(heir, number) {
+                self.tenures.request(number, heir, None, self.now_s);
+                self.send(heir, Dispatch::Renew(renewal));
+            }
+        }
+    }
+
+    /// The lists of leases differ: those that end first are renewed one by one.
+    pub(super) fn renew_tenures_one_by_one(
+        &mut self,
+        from: RobotId,
+        number: u32,
+        percept: &Percept,
+    ) {
+        if !self.tenures.differs(from, number) {
+            return;
+        }
+        let own = self
+            .tenures
+            .leases()
+            .iter()
+            .filter(|lease| lease.grantor == from);
+        let mut own: Vec<Lease> = own.copied().collect();
+        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
+        for lease in own.into_iter().take(MAX_RENEWALS) {
+            let (goal, number) = (lease.goal, self.numbers.next(percept));
+            self.tenures.request(number, from, Some(goal), self.now_s);
+            self.send(from, Dispatch::RenewOne(Claim { goal, number }));
+        }
+    }
+
+    /// The goals whose owner lease has ended are orphaned, as far as this controller knows.
+    pub(super) fn expire_tenures(&mut self) {
+        for goal in self.tenures.expire(self.now_s) {
+            let mut goals = self.goals.iter();
+            let Some(index) = goals.position(|owned| owned.task.id == goal) else {
+                continue;
+            };
+            self.goals[index].heir = Heir::None;
+            if !self.goals[index].is_done {
+                let mut owned = self.goals.remove(index);
+                owned.assigned = None;
+                let request = None;
+                self.orphans.push(Orphan { owned, request });
+                self.services.withdraw(goal);
+                self.bids.remove_for(goal);
+            }
+        }
+    }
+
+    /// An orphaned goal that has been served is orphaned no longer.
+    pub(super) fn restore_orphan(&mut self, from: RobotId, goal: GoalId) {
+        let mut orphans = self.orphans.iter();
+        let index = orphans.position(|orphan| {
+            orphan.owned.task.id == goal && orphan.owned.assignees.contains(&from)
+        });
+        if let Some(index) = index {
+            let mut owned = self.orphans.remove(index).owned;
+            owned.is_done = true;
+            self.goals.push(owned);
+        }
+    }
+
+    /// An heir returns a goal: the answer is the request of the lease.
+    pub(super) fn take_return(&mut self, from: RobotId, task: Task, percept: &Percept) {
+        let is_own = self.goals.iter().any(|owned| owned.task.id == task.id);
+        if is_own || !task.is_valid() || !self.may_grant() {
+            return;
+        }
+        let goal = task.id;
+        let number = self.numbers.next(percept);
+        let mut orphans = self.orphans.iter_mut();
+        match orphans.find(|orphan| orphan.owned.task.id == goal) {
+            Some(orphan) => orphan.request = Some(number),
+            None => self.orphans.push(Orphan {
+                owned: Owned::new(task, self.now_s, 0.0),
+                request: Some(number),
+            }),
+        }
+        self.tenures.request(number, from, Some(goal), self.now_s);
+        self.send_binding(goal, from, number, self.settings.service_lease_s);
+    }
+
+    /// An heir has granted the ownership of a goal that it returns.
+    pub(super) fn take_back(&mut self, heir: RobotId, claim: Claim, lease_s: f64) {
+        let Claim { goal, number } = claim;
+        let mut orphans = self.orphans.iter();
+        let request = Some(number);
+        let orphan =
+            orphans.position(|orphan| orphan.owned.task.id == goal && orphan.request == request);
+        let Some(index) = orphan else {
+            return;
+        };
+        if self.tenures.accept(heir, claim, lease_s, self.now_s) {
+            let Orphan { mut owned, .. } = self.orphans.remove(index);
+            owned.offer_again(self.now_s);
+            owned.heir = Heir::Bound {
+                heir,
+                number,
+                is_confirmed: true,
+                next_s: self.now_s,
+            };
+            self.goals.push(owned);
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Goals that no robot can serve: reported once with the reason, and tried again later.
+
+use super::Controller;
+use crate::allocation::Allocation;
+use alloc::vec::Vec;
+use brain::{Dispatch, GoalId, Reason, Refusal, RobotId};
+
+/// A goal for which no robot has bid for this time, in seconds, is offered to each robot alone.
+const PATIENCE_S: f64 = 10.0;
+
+impl Controller {
+    /// Offers goals without a bid to each robot alone; if all have refused, the goal rests.
+    pub(super) fn probe(&mut self) {
+        if self.settings.allocation == Allocation::None || !self.may_grant() {
+            return;
+        }
+        let now_s = self.now_s;
+        let waiting = self.goals.iter().filter(|owned| {
+            let is_free = owned.assigned.is_none() && owned.is_on_offer(now_s);
+            is_free && owned.called_s.is_some() && now_s >= owned.without_bid_s + PATIENCE_S
+        });
+        let waiting: Vec<GoalId> = waiting.map(|owned| owned.task.id).collect();
+        for goal in waiting {
+            self.probe_one(goal);
+        }
+    }
+
+    fn probe_one(&mut self, goal: GoalId) {
+        let now_s = self.now_s;
+        let Some(owned) = self.goals.iter().find(|owned| owned.task.id == goal) else {
+            return;
+        };
+        let task = owned.task;
+        if now_s >= owned.due_at_s {
+            self.give_up(goal, Reason::Deadline);
+            return;
+        }
+        let willing = self
+            .picture
+            .present()
+            .filter(|robot| !owned.is_declined_by(robot.id, now_s));
+        let willing: Vec<(RobotId, u16)> = willing.map(|robot| (robot.id, robot.payload)).collect();
+        let has_robots = self.picture.present().next().is_some();
+        let free = willing.iter().filter(|(_, payload)| *payload > 0);
+        let nearest = free.min_by(|(one, _), (other, _)| {
+            let distance_m = |id: RobotId| self.distance_m(id, &task);
+            distance_m(*one)
+                .total_cmp(&distance_m(*other))
+                .then(one.cmp(other))
+        });
+        match nearest {
+            Some((robot, _)) => self.call_to(goal, *robot),
+            // The others serve the maximum number of goals, but not forever.
+            None if !willing.is_empty() => {}
+            None if has_robots => {
+                let reason = owned.reason;
+                self.give_up(goal, reason);
+            }
+            None => self.give_up(goal, Reason::NoRobot),
+        }
+    }
+
+    /// The goal rests; the first time, that is reported to the operator.
+    fn give_up(&mut self, goal: GoalId, reason: Reason) {
+        let now_s = self.now_s;
+        let Some(owned) = self.goal_mut(goal) else {
+            return;
+        };
+        let is_first = owned.rest.total_s <= 0.0;
+        owned.reason = reason;
+        owned.give_up(now_s);
+        if is_first {
+            let number = owned.call.into();
+            let refusal = Refusal {
+                goal,
+                number,
+                reason,
+            };
+            self.send(RobotId::OPERATOR, Dispatch::Stuck(refusal));
+        }
+    }
+}

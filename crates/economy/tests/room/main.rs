@@ -1,0 +1,8 @@
+//! Robots and controllers, with nothing but messages between them: one binary, to link only once.
+
+#![expect(clippy::unwrap_used, clippy::expect_used, reason = "tests may panic")]
+
+mod missions;
+mod network;
+mod safety;
+mod team;

@@ -1,0 +1,160 @@
+//! Safety: at every instant of true time, a goal has at most one valid owner and at most one valid
+//! assignee, whatever an adversary does to messages, clocks and agents.
+
+use crate::network::Weather;
+use crate::team::{STEP_S, Team, goal_id};
+use brain::GoalId;
+use economy::Settings;
+use proptest::prelude::*;
+
+/// Number of schedules, unless the environment variable `SCHEDULES` has another.
+const SCHEDULES: u32 = 150;
+
+/// Instants per step at which the rule is checked.
+const INSTANTS: u32 = 4;
+
+const GOALS: u32 = 4;
+
+/// What the adversary chooses.
+#[derive(Debug, Clone, Copy)]
+struct Adversary {
+    seed: u64,
+    weather: Weather,
+    /// Probabilities per step of a crash, a restart, and a change of the radio.
+    crash: f64,
+    restart: f64,
+    change: f64,
+}
+
+fn adversary() -> impl Strategy<Value = Adversary> {
+    let weather = (0.0..1.0_f64, 0.0..0.5_f64, 0.0..30.0_f64);
+    let weather = weather.prop_map(|(loss, duplication, max_delay_s)| Weather {
+        loss: loss * loss,
+        duplication,
+        max_delay_s,
+    });
+    let faults = (0.0..0.02_f64, 0.01..0.1_f64, 0.0..0.05_f64);
+    (any::<u64>(), weather, faults).prop_map(|(seed, weather, (crash, restart, change))| {
+        Adversary {
+            seed,
+            weather,
+            crash,
+            restart,
+            change,
+        }
+    })
+}
+
+/// Short leases and clocks that drift much, so that many leases end.
+fn settings() -> Settings {
+    Settings {
+        service_lease_s: 5.0,
+        owner_lease_s: 6.0,
+        auction_s: 0.3,
+        max_drift: 0.1,
+        robot_kinds: 1,
+        ..Settings::default()
+    }
+}
+
+fn disturb(team: &mut Team, adversary: &Adversary) {
+    for index in 0..team.robots.len() {
+        if team.unit() < adversary.crash {
+            team.crash_robot(index);
+        } else if team.unit() < adversary.restart {
+            team.restart_robot(index);
+        }
+    }
+    for index in 0..team.stations.len() {
+        if team.unit() < adversary.crash / 2.0 {
+            team.crash_station(index);
+        } else if team.unit() < adversary.restart {
+            team.restart_station(index);
+        }
+        if team.unit() < adversary.change / 2.0 {
+            team.stations[index].is_cut_off ^= true;
+        }
+    }
+    if team.unit() < adversary.change {
+        let is_calm = team.unit() < 0.5;
+        let loss = if is_calm { 0.0 } else { adversary.weather.loss };
+        team.network.weather.loss = loss;
+    }
+}
+
+/// Owners and assignees of a goal at a true time.
+fn counts(team: &Team, goal: GoalId, true_s: f64) -> [usize; 2] {
+    let owners = team
+        .stations
+        .iter()
+        .filter(|station| Team::owns(station, goal, true_s));
+    let assignees = team
+        .robots
+        .iter()
+        .filter(|robot| Team::serves(robot, goal, true_s));
+    [owners.count(), assignees.count()]
+}
+
+/// Steps in which each goal had an owner, and in which it had an assignee.
+fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
+    let mut team = Team::new([3, 3], &settings(), adversary.weather, adversary.seed);
+    // Too far to be served.
+    team.issue_random(GOALS, 1e6);
+    let mut sums = [0, 0];
+    for step in 0..800 {
+        if step > 50 {
+            disturb(&mut team, adversary);
+        }
+        team.step();
+        for instant in 0..INSTANTS {
+            let true_s = team.now_s + STEP_S * f64::from(instant) / f64::from(INSTANTS);
+            for goal in (0..GOALS).map(goal_id) {
+                let [owners, assignees] = counts(&team, goal, true_s);
+                prop_assert!(owners <= 1, "{owners} owners of {goal:?} at {true_s} s");
+                prop_assert!(
+                    assignees <= 1,
+                    "{assignees} assignees of {goal:?} at {true_s} s"
+                );
+                sums = [sums[0] + owners, sums[1] + assignees];
+            }
+        }
+    }
+    Ok(sums)
+}
+
+fn schedules() -> u32 {
+    let given = std::env::var("SCHEDULES").ok();
+    given
+        .and_then(|number| number.parse().ok())
+        .unwrap_or(SCHEDULES)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: schedules(), max_shrink_iters: 20, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_goal_never_has_two_owners_or_two_assignees(adversary in adversary()) {
+        check(&adversary)?;
+    }
+}
+
+#[test]
+fn the_adversary_does_not_prevent_ownership_and_service() {
+    let adversary = Adversary {
+        seed: 1,
+        weather: Weather {
+            loss: 0.3,
+            duplication: 0.3,
+            max_delay_s: 3.0,
+        },
+        crash: 0.001,
+        restart: 0.05,
+        change: 0.02,
+    };
+    let [owned, assigned] = check(&adversary).unwrap();
+    let all = 800 * (GOALS * INSTANTS) as usize;
+    assert!(
+        owned > all / 4 && assigned > all / 4,
+        "{owned} {assigned} of {all}"
+    );
+}

@@ -1,0 +1,63 @@
+//! A kind of controller, converted for runs.
+
+use super::ControllerSpec;
+use crate::radio::Radio;
+use base::placement::Placement;
+use base::random::{Entity, kind_key};
+use economy::Settings;
+use std::sync::Arc;
+
+/// What all controllers of a kind have in common.
+#[derive(Debug, Clone)]
+pub(crate) struct ControllerKind {
+    pub(crate) name: String,
+    /// Its name in random streams: [`kind_key`].
+    pub(crate) key: u32,
+    pub(crate) count: u32,
+    pub(crate) base: ControllerBase,
+    pub(crate) radio: Radio,
+    pub(crate) price: f64,
+    pub(crate) mean_time_between_failures_s: Option<f64>,
+    pub(crate) settings: Arc<Settings>,
+}
+
+/// Where the controllers of a kind are.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum ControllerBase {
+    Placed(Placement),
+    /// Aboard the robots of the kind of this number.
+    Aboard(u8),
+}
+
+impl ControllerKind {
+    /// The kind that `spec` describes, where robots have these kinds.
+    pub(crate) fn new<'r>(
+        (name, spec): (&String, &ControllerSpec),
+        mut robots: impl ExactSizeIterator<Item = &'r String>,
+        (step_s, max_drift): (f64, f64),
+    ) -> Self {
+        let robot_kinds = u8::try_from(robots.len()).unwrap_or(u8::MAX);
+        let carrier = spec.aboard.as_ref();
+        let carrier = carrier.and_then(|kind| robots.position(|known| known == kind));
+        let carrier = carrier.and_then(|number| u8::try_from(number).ok());
+        let placed = || ControllerBase::Placed(spec.start.clone().unwrap_or_default());
+        Self {
+            name: name.clone(),
+            key: kind_key(name),
+            count: spec.count,
+            base: carrier.map_or_else(placed, ControllerBase::Aboard),
+            radio: Radio::new(&spec.radio, step_s),
+            price: spec.price,
+            mean_time_between_failures_s: spec.mean_time_between_failures_s,
+            settings: Arc::new(spec.settings(max_drift, robot_kinds)),
+        }
+    }
+
+    /// The key of one of its controllers in random streams.
+    pub(crate) fn entity(&self, index: u32) -> Entity {
+        Entity {
+            kind: self.key,
+            index,
+        }
+    }
+}

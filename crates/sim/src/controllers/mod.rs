@@ -1,0 +1,81 @@
+//! Controllers: agents that own goals and award them to robots. They have no body.
+
+pub(crate) mod kind;
+
+use crate::radio::RadioSpec;
+use base::placement::Placement;
+use economy::{Allocation, Settings};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A kind of controller, and the number of these controllers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ControllerSpec {
+    /// Number of controllers of this kind. They count as no robots.
+    #[schemars(range(max = 1000))]
+    pub count: u32,
+    /// Where the controllers are, on the ground; by default anywhere. They do not move, and no robot collides with them.
+    pub start: Option<Placement>,
+    /// A kind of robots that carries the controllers, instead of `start`: the first controller is aboard its
+    /// first robot, and so on. A controller works only while its robot does.
+    pub aboard: Option<String>,
+    /// The radio.
+    pub radio: RadioSpec,
+    /// Price of one controller, in the currency of the robots' prices. The outcome `price` includes it.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub price: f64,
+    /// Mean time until a controller fails, in seconds; it is silent from then on. Without it, none fails.
+    #[schemars(range(min = 0.001, max = 1e12))]
+    pub mean_time_between_failures_s: Option<f64>,
+    /// The rule by which it allocates its goals to robots.
+    #[serde(default)]
+    pub allocation: Allocation,
+    /// Time for which a robot may serve a goal without renewal, in seconds.
+    #[serde(default = "service_lease_s")]
+    #[schemars(range(min = 0.1, max = 3600.0))]
+    pub service_lease_s: f64,
+    /// Time for which a controller owns a goal without renewal by its heir, in seconds.
+    #[serde(default = "owner_lease_s")]
+    #[schemars(range(min = 0.1, max = 3600.0))]
+    pub owner_lease_s: f64,
+    /// Time from a call for bids to the award, in seconds.
+    #[serde(default = "auction_s")]
+    #[schemars(range(min = 0.0, max = 3600.0))]
+    pub auction_s: f64,
+    /// Maximum number of goals that one controller owns; more are refused.
+    #[serde(default = "max_goals")]
+    #[schemars(range(max = 10_000))]
+    pub max_goals: u32,
+}
+
+impl ControllerSpec {
+    /// Its settings, where clocks drift by at most `max_drift`.
+    pub(crate) fn settings(&self, max_drift: f64, robot_kinds: u8) -> Settings {
+        Settings {
+            allocation: self.allocation,
+            service_lease_s: self.service_lease_s,
+            owner_lease_s: self.owner_lease_s,
+            auction_s: self.auction_s,
+            max_goals: self.max_goals,
+            max_drift,
+            robot_kinds,
+        }
+    }
+}
+
+fn service_lease_s() -> f64 {
+    Settings::default().service_lease_s
+}
+
+fn owner_lease_s() -> f64 {
+    Settings::default().owner_lease_s
+}
+
+fn auction_s() -> f64 {
+    Settings::default().auction_s
+}
+
+fn max_goals() -> u32 {
+    Settings::default().max_goals
+}

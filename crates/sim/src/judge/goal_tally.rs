@@ -1,0 +1,223 @@
+//! What is counted of goals: when each was issued and served, and the robot that served it.
+
+use super::journey::{Journey, Service};
+use crate::bodies::body_state::{BodyState, Status};
+use crate::goals::placed::{Goal, Goals};
+use crate::radio::channel::Outgoing;
+use crate::scenario::Scenario;
+use base::geometry::Disc;
+use brain::{About, CommitmentStatus, Dispatch, GoalId, RobotId};
+
+/// Counts of the goals of a run, and of its messages.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct GoalTally {
+    /// By the number of the goal.
+    pub(crate) records: Vec<GoalRecord>,
+    /// By the number of the robot.
+    pub(crate) journeys: Vec<Journey>,
+    pub(crate) messages_sent: u64,
+    /// Messages that reached a participant whose radio had received its maximum in the step.
+    pub(crate) messages_dropped: u64,
+}
+
+base::hashed!(GoalTally {
+    records,
+    journeys,
+    messages_sent,
+    messages_dropped
+});
+
+/// What happened to one goal so far, in steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct GoalRecord {
+    pub(crate) issued_at: Option<u64>,
+    /// The controller that it was issued to.
+    pub(crate) issued_to: Option<RobotId>,
+    /// When it was first awarded to a robot.
+    pub(crate) awarded_at: Option<u64>,
+    /// When a robot first drove there.
+    pub(crate) pursued_at: Option<u64>,
+    pub(crate) served: Option<Service>,
+    /// Whether several robots served it.
+    pub(crate) is_served_twice: bool,
+}
+
+base::hashed!(GoalRecord {
+    issued_at,
+    issued_to,
+    awarded_at,
+    pursued_at,
+    served,
+    is_served_twice
+});
+
+/// A step of a run, as the judge of goals sees it: what robots decided, and where they decided it.
+#[derive(Clone, Copy)]
+pub(crate) struct GoalMoment<'a> {
+    pub(crate) scenario: &'a Scenario,
+    pub(crate) tick: u64,
+    pub(crate) goals: &'a Goals,
+    pub(crate) ids: &'a [RobotId],
+    pub(crate) discs: &'a [Disc],
+    pub(crate) body_states: &'a [BodyState],
+}
+
+impl GoalTally {
+    /// The tally of a run that begins.
+    pub(crate) fn new(goals: usize, robots: usize) -> Self {
+        Self {
+            records: vec![GoalRecord::default(); goals],
+            journeys: vec![Journey::default(); robots],
+            ..Self::default()
+        }
+    }
+
+    /// Notes where robots are, and the messages that they send; returns whether any of it counts.
+    pub(crate) fn observe<'m>(
+        &mut self,
+        moment: &GoalMoment,
+        sent: impl Iterator<Item = &'m Outgoing> + Clone,
+    ) -> bool {
+        self.follow(moment);
+        let mut is_counted = false;
+        for outgoing in sent.clone() {
+            self.messages_sent += 1;
+            if let Some(goal) = done(outgoing).and_then(|id| moment.goals.number(id)) {
+                is_counted |= self.note_done(moment, outgoing.from as usize, goal);
+            }
+        }
+        // A robot that reports a goal as done may report in the same step that it drives to the next.
+        sent.for_each(|outgoing| self.note_commitment(moment, outgoing));
+        is_counted
+    }
+
+    fn follow(&mut self, moment: &GoalMoment) {
+        for (robot, journey) in self.journeys.iter_mut().enumerate() {
+            let Some(goal) = journey.goal else {
+                continue;
+            };
+            let body_state = &moment.body_states[robot];
+            if body_state.status == Status::Active {
+                let is_near = moment.is_near(robot, &moment.goals.all[goal]);
+                journey.go_on(moment.tick, body_state, is_near);
+            } else {
+                *journey = Journey::default();
+            }
+        }
+    }
+
+    fn note_commitment(&mut self, moment: &GoalMoment, outgoing: &Outgoing) {
+        let (id, status) = match outgoing.message.about {
+            About::Goal { id, status, .. } => (id, status),
+            About::Dispatch(Dispatch::Award(award)) => {
+                if let Some(goal) = moment.goals.number(award.goal) {
+                    self.records[goal].awarded_at.get_or_insert(moment.tick);
+                }
+                return;
+            }
+            _ => return,
+        };
+        let (robot, goal) = (outgoing.from as usize, moment.goals.number(id));
+        let Some(journey) = self.journeys.get_mut(robot) else {
+            return;
+        };
+        match status {
+            CommitmentStatus::Active if journey.goal != goal => {
+                let is_near =
+                    goal.is_some_and(|goal| moment.is_near(robot, &moment.goals.all[goal]));
+                *journey = Journey::begin(goal, moment.tick, is_near);
+                if let Some(goal) = goal {
+                    self.records[goal].pursued_at.get_or_insert(moment.tick);
+                }
+            }
+            CommitmentStatus::Released if journey.goal == goal => *journey = Journey::default(),
+            _ => {}
+        }
+    }
+
+    /// Notes that a robot reported a goal as done; returns whether it counts.
+    fn note_done(&mut self, moment: &GoalMoment, robot: usize, number: usize) -> bool {
+        let Some(&id) = moment.ids.get(robot) else {
+            return false;
+        };
+        let (goal, now) = (&moment.goals.all[number], moment.tick);
+        let record = &mut self.records[number];
+        let journey = self.journeys[robot].to(number, now);
+        let Some(issued_at) = record.issued_at.filter(|_| moment.is_near(robot, goal)) else {
+            return false;
+        };
+        if !moment.is_long_enough(goal, journey.stay(now)) || moment.is_late(goal, issued_at) {
+            return false;
+        }
+        match &record.served {
+            Some(served) if served.by == Some(id) => return false,
+            Some(_) => record.is_served_twice = true,
+            None => record.served = Some(journey.service(id, issued_at, now)),
+        }
+        if self.journeys[robot].goal == Some(number) {
+            self.journeys[robot] = Journey::default();
+        }
+        true
+    }
+
+    /// Number of goals that were served.
+    #[expect(clippy::cast_possible_truncation, reason = "goals have 32-bit numbers")]
+    pub(crate) fn served(&self) -> u32 {
+        self.services().count() as u32
+    }
+
+    /// The services of goals, each with the step in which the goal was issued.
+    pub(crate) fn services(&self) -> impl Iterator<Item = (u64, Service)> {
+        let records = self.records.iter();
+        records.filter_map(|record| Some((record.issued_at?, record.served?)))
+    }
+
+    /// Number of goals that several robots served.
+    pub(crate) fn served_twice(&self) -> usize {
+        let twice = self.records.iter();
+        twice.filter(|record| record.is_served_twice).count()
+    }
+}
+
+impl GoalMoment<'_> {
+    /// Whether a robot is at a goal, or will be there in this step.
+    fn is_near(&self, robot: usize, goal: &Goal) -> bool {
+        let centre = self.discs[robot].centre;
+        let drive = &self.scenario.kind_of(self.ids[robot]).drive;
+        let within_m = self.scenario.goals[usize::from(goal.kind)].within_m;
+        let reach_m = within_m + drive.max_speed_m_s * self.scenario.step_s;
+        let there = self.scenario.image(centre, goal.at);
+        centre.to(there).length_squared() <= reach_m * reach_m
+    }
+
+    /// Whether a stay at a goal was long enough on a clock that may be fast.
+    #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+    fn is_long_enough(&self, goal: &Goal, steps: u64) -> bool {
+        let needed = self.scenario.goals[usize::from(goal.kind)].service_steps;
+        (steps + 1) as f64 >= needed as f64 * (1.0 - self.scenario.clocks.max_drift)
+    }
+
+    /// Whether a goal has expired.
+    fn is_late(&self, goal: &Goal, issued_at: u64) -> bool {
+        let kind = &self.scenario.goals[usize::from(goal.kind)];
+        is_late(kind.deadline_steps, issued_at, self.tick)
+    }
+}
+
+/// Whether the deadline of a goal is over.
+pub(crate) fn is_late(deadline_steps: Option<u64>, issued_at: u64, now: u64) -> bool {
+    deadline_steps.is_some_and(|steps| now > issued_at.saturating_add(steps))
+}
+
+/// The goal that a message reports as done by its sender.
+fn done(outgoing: &Outgoing) -> Option<GoalId> {
+    match outgoing.message.about {
+        About::Goal {
+            id,
+            status: CommitmentStatus::Done,
+            ..
+        } => Some(id),
+        About::Dispatch(Dispatch::Done(claim)) => Some(claim.goal),
+        _ => None,
+    }
+}

@@ -1,0 +1,101 @@
+//! The way of a robot to a goal.
+
+use crate::bodies::body_state::BodyState;
+use brain::RobotId;
+
+/// The way of a robot to the goal that it last reported to drive to; all times are steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Journey {
+    /// Number of the goal.
+    pub(crate) goal: Option<usize>,
+    began_at: u64,
+    /// Since when it is there.
+    arrived_at: Option<u64>,
+    /// Steps in which it stood under way.
+    blocked: u64,
+}
+
+base::hashed!(Journey {
+    goal,
+    began_at,
+    arrived_at,
+    blocked
+});
+
+/// The service of a goal, in steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Service {
+    /// The robot; `None` if it was removed.
+    pub(crate) by: Option<RobotId>,
+    /// When the robot set out for it, for the last time.
+    pub(crate) began_at: u64,
+    pub(crate) arrived_at: u64,
+    pub(crate) at: u64,
+    /// Steps in which the robot stood under way.
+    pub(crate) blocked: u64,
+}
+
+base::hashed!(Service {
+    by,
+    began_at,
+    arrived_at,
+    at,
+    blocked
+});
+
+impl Journey {
+    pub(super) fn begin(goal: Option<usize>, now: u64, is_there: bool) -> Self {
+        Self {
+            goal,
+            began_at: now,
+            arrived_at: is_there.then_some(now),
+            blocked: 0,
+        }
+    }
+
+    /// Notes where the robot is in a later step.
+    pub(super) fn go_on(&mut self, now: u64, body_state: &BodyState, is_there: bool) {
+        let stands = body_state.speed_m_s == 0.0 && body_state.turn_rate_rad_s == 0.0;
+        if !is_there {
+            self.arrived_at = None;
+            self.blocked += u64::from(stands);
+        } else if self.arrived_at.is_none() {
+            self.arrived_at = Some(now);
+        }
+    }
+
+    /// The journey, if it leads to this goal; otherwise one that begins and ends now.
+    pub(super) fn to(&self, goal: usize, now: u64) -> Self {
+        if self.goal == Some(goal) {
+            *self
+        } else {
+            Self::begin(Some(goal), now, true)
+        }
+    }
+
+    /// The same journey to a goal that has another number now.
+    pub(crate) fn with_goal(self, goal: usize) -> Self {
+        Self {
+            goal: Some(goal),
+            ..self
+        }
+    }
+
+    /// Steps for which the robot has been there.
+    pub(super) fn stay(&self, now: u64) -> u64 {
+        self.arrived_at.map_or(0, |at| now - at)
+    }
+
+    /// The service that ends it, of a goal that was issued at a time.
+    pub(super) fn service(&self, by: RobotId, issued_at: u64, now: u64) -> Service {
+        let began_at = self.began_at.max(issued_at);
+        let arrived_at = self.arrived_at.unwrap_or(now).max(began_at);
+        Service {
+            by: Some(by),
+            began_at,
+            arrived_at,
+            at: now,
+            blocked: self.blocked.min(arrived_at - began_at),
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Checks of controllers: what carries them, and their leases.
+
+use crate::bodies::RobotSpec;
+use crate::controllers::ControllerSpec;
+use crate::radio::RadioSpec;
+use crate::scenario::spec::ScenarioSpec;
+use base::document::Place;
+use base::error::InputError;
+
+/// Steps in which messages wait for their receivers, on the way to a controller and back.
+const STEPS: f64 = 4.0;
+
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let kinds = spec.controllers.iter();
+    kinds
+        .flat_map(|(name, kind)| {
+            let at = at.key("controllers").key(name);
+            let mut errors = of_carriers(kind, spec, &at);
+            errors.extend(of_leases(kind, spec, &at));
+            errors
+        })
+        .collect()
+}
+
+/// A kind of robots that does not exist, or has too few robots.
+fn of_carriers(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let Some(aboard) = &kind.aboard else {
+        return Vec::new();
+    };
+    let mut errors = Vec::new();
+    if kind.start.is_some() {
+        let allowed = "omitted: controllers aboard robots are where these are";
+        errors.push(at.key("start").error(allowed));
+    }
+    match spec.robots.get(aboard) {
+        None => errors.push(unknown(aboard, spec.robots.keys(), &at.key("aboard"))),
+        Some(robots) if robots.count < kind.count => {
+            let allowed = format!(
+                "at most {}, the number of robots that carry these controllers, one each",
+                robots.count
+            );
+            errors.push(at.key("count").error(allowed));
+        }
+        Some(_) => {}
+    }
+    errors
+}
+
+/// A name that is none of these.
+pub(super) fn unknown<'n>(
+    name: &str,
+    names: impl Iterator<Item = &'n String> + Clone,
+    at: &Place,
+) -> InputError {
+    let names = names.map(String::as_str);
+    if names.clone().next().is_none() {
+        return at.error("omitted: there are none");
+    }
+    let listed = InputError::not_one_of(String::new(), None, name, names);
+    InputError {
+        suggestion: listed.suggestion,
+        ..at.error(listed.allowed)
+    }
+}
+
+/// Leases that end before they can be renewed. The clock of the holder may be fast, and that of an auction slow.
+fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let drift = spec.clock.max_drift;
+    let trips_s = round_trips_s(kind, spec);
+    let auction_s = kind.auction_s / (1.0 - drift);
+    let auction = format!("an auction of {} s and ", kind.auction_s);
+    let leases = [
+        (
+            "service_lease_s",
+            kind.service_lease_s,
+            auction_s,
+            auction.as_str(),
+        ),
+        ("owner_lease_s", kind.owner_lease_s, 0.0, ""),
+    ];
+    let errors = leases.into_iter().zip(trips_s).filter_map(|((key, lease_s, auction_s, auction), trip_s)| {
+        let min_lease_s = (1.0 + drift) * (auction_s + trip_s);
+        let allowed = format!(
+            "at least {min_lease_s:.3}: it must outlast {auction}a round trip of {trip_s:.3} s over the \
+             radio, on clocks that drift by at most {drift}"
+        );
+        (lease_s < min_lease_s).then(|| at.key(key).error(allowed))
+    });
+    errors.collect()
+}
+
+/// The longest time until a message of a robot is answered, and until one of another controller is.
+fn round_trips_s(kind: &ControllerSpec, spec: &ScenarioSpec) -> [f64; 2] {
+    let step_s = spec.clock.step_s;
+    let delay_s = |radio: &RadioSpec| radio.delay_s.max(step_s);
+    let of_robot_s = |robot: &RobotSpec| {
+        let period_s = robot.brain.rate_hz.map_or(step_s, |rate_hz| 1.0 / rate_hz);
+        robot
+            .radio
+            .as_ref()
+            .map_or(step_s, |radio| delay_s(radio) + period_s)
+    };
+    let robots_s = spec.robots.values().map(of_robot_s).fold(step_s, f64::max);
+    let controllers = spec.controllers.values();
+    let controllers_s = controllers
+        .map(|kind| delay_s(&kind.radio))
+        .fold(step_s, f64::max);
+    [robots_s, controllers_s].map(|there_s| there_s + delay_s(&kind.radio) + STEPS * step_s)
+}

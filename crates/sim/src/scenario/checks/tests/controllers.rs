@@ -1,0 +1,69 @@
+//! Controllers, their carriers and their leases.
+
+use super::{GOOD, error, read};
+
+/// The errors of the valid scenario with controllers of these keys.
+fn errors_of(keys: &str) -> Vec<String> {
+    let text = format!("{GOOD}\n[controllers.base]\ncount = 1\n{keys}\n");
+    let errors = read(&text).err().map_or_else(Vec::new, |errors| errors.0);
+    errors
+        .iter()
+        .map(|error| {
+            assert!(error.to_string().starts_with("t:"), "{error}");
+            error.to_string().split_once(": ").unwrap().1.to_owned()
+        })
+        .collect()
+}
+
+fn error_of(keys: &str) -> String {
+    let errors = errors_of(keys);
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    errors.concat()
+}
+
+const RADIO: &str = "radio = { range_m = 9 }\n";
+
+#[test]
+fn a_controller_needs_a_radio() {
+    assert_eq!(errors_of(RADIO), [""; 0]);
+    assert!(error_of("").starts_with("controllers.base.radio is missing"));
+}
+
+#[test]
+fn controllers_are_aboard_a_kind_of_robots_that_has_enough_of_them() {
+    assert_eq!(errors_of(&format!("{RADIO}aboard = \"rover\"")), [""; 0]);
+    let unknown = error_of(&format!("{RADIO}aboard = \"rovr\""));
+    assert_eq!(
+        unknown,
+        "controllers.base.aboard = \"rovr\": must be one of \"bird\", \"rover\"; did you mean \"rover\"?"
+    );
+    let text =
+        "[controllers.base]\ncount = 3\naboard = \"rover\"\nradio = { range_m = 9 }\n[terrain.mud]";
+    assert!(
+        error("[terrain.mud]", text).starts_with("controllers.base.count = 3: must be at most 2")
+    );
+    let both = format!("{RADIO}aboard = \"rover\"\nstart = {{ kind = \"uniform\" }}");
+    assert!(error_of(&both).contains("must be omitted"));
+}
+
+#[test]
+fn a_lease_outlasts_an_auction_and_a_round_trip() {
+    let delayed = "radio = { range_m = 9, delay_s = 2 }\nservice_lease_s = 3";
+    assert!(
+        error_of(delayed).starts_with("controllers.base.service_lease_s = 3: must be at least 3.5")
+    );
+    let auction = format!("{RADIO}auction_s = 30");
+    assert!(error_of(&auction).contains("an auction of 30 s"));
+    let owner = format!("{RADIO}owner_lease_s = 0.1");
+    assert!(error_of(&owner).starts_with("controllers.base.owner_lease_s = 0.1: must be at least"));
+}
+
+#[test]
+fn controllers_have_other_names_than_robots_and_free_places() {
+    let text = "[controllers.rover]\ncount = 1\nradio = { range_m = 9 }\n[terrain.mud]";
+    assert!(error("[terrain.mud]", text).contains("a different name"));
+    let start = format!("{RADIO}start = {{ kind = \"fixed\", at_m = [[2, 2]] }}");
+    assert!(error_of(&start).starts_with("controllers.base.start.at_m[0]"));
+    let few = format!("{RADIO}start = {{ kind = \"fixed\", at_m = [] }}");
+    assert!(error_of(&few).contains("at least 1 places"));
+}

@@ -1,0 +1,89 @@
+//! Controllers step: each from what it has received, whatever robots decide in the same step.
+
+use super::decide::WorkerScratch;
+use super::decision_hash::decision_hash;
+use crate::bodies::body_state::BodyState;
+use crate::radio::channel::Outgoing;
+use crate::run::controller::ControllerAgent;
+use crate::run::participant::Place;
+use crate::run::state::State;
+use crate::scenario::Scenario;
+use crate::sensors::sensor_frame::NoisePurpose;
+use brain::{Command, Percept, Reading};
+
+/// Buffers of the controllers, reused in each step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ControllerScratch {
+    percept: Percept,
+    command: Command,
+}
+
+/// What all controllers step from.
+struct Moment<'a> {
+    scenario: &'a Scenario,
+    tick: u64,
+    body_states: &'a [BodyState],
+}
+
+impl ControllerScratch {
+    /// Lets all controllers step. Their messages and decisions are added to those of the last robots.
+    pub(crate) fn step(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        results: &mut WorkerScratch,
+    ) {
+        let moment = Moment {
+            scenario,
+            tick: state.tick,
+            body_states: &state.body_states,
+        };
+        let hashes_decisions = state.decisions.is_some();
+        for (number, agent) in (state.agents.len()..).zip(&mut state.controllers) {
+            if !agent.participant.is_working(moment.body_states) {
+                continue;
+            }
+            self.perceive(&moment, agent);
+            agent.controller.step_into(&self.percept, &mut self.command);
+            if hashes_decisions {
+                let hash = decision_hash(number, Some(&self.percept), &self.command);
+                results.decisions.push(hash);
+            }
+            self.send(number, agent, &mut results.outbox);
+        }
+    }
+
+    /// Fills the percept of a controller.
+    #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+    fn perceive(&mut self, moment: &Moment, agent: &mut ControllerAgent) {
+        let Moment { scenario, tick, .. } = *moment;
+        let participant = &mut agent.participant;
+        let percept = &mut self.percept;
+        let time_s = tick as f64 * scenario.step_s;
+        percept.time_s = Some(scenario.clocks.time_s(participant.noise, time_s));
+        percept.id = participant.id;
+        percept.team_size = scenario.controller_kind_of(participant.id).count;
+        let words = NoisePurpose::RandomWords as u32;
+        percept.random_words = participant.noise.words(words, tick, 0);
+        percept.position = match participant.place {
+            Place::Fixed(value, _) => Some(Reading { value, age_s: 0.0 }),
+            Place::Aboard(_) => None,
+        };
+        percept.inbox.clear();
+        participant.deliver(tick, scenario.step_s, &mut percept.inbox);
+    }
+
+    fn send(&self, number: usize, agent: &ControllerAgent, outbox: &mut Vec<Outgoing>) {
+        let most = agent.participant.radio.messages_per_step;
+        let messages = self.command.outbox.iter().take(most);
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "participants have 32-bit numbers"
+        )]
+        outbox.extend(messages.zip(0..).map(|(message, place)| Outgoing {
+            from: number as u32,
+            number: place,
+            message: *message,
+        }));
+    }
+}

@@ -1,0 +1,205 @@
+//! Controllers are agents without a body: they take part in communication, fail, and change in mid-run.
+
+use crate::common::{go, id, message, replaced, robots, scenario, send, start, step_with};
+use brain::RobotId;
+use sim::run::{Controller, Status};
+use sim::simulation::Simulation;
+
+const ONE: &str = r#"
+[clock]
+time_limit_s = 100
+[world]
+size_m = [40, 20]
+[robots.rover]
+count = 2
+radius_m = 0.2
+price = 10
+start = { kind = "fixed", at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+radio = { range_m = 5 }
+brain = { behaviours = [] }
+[controllers.base]
+count = 2
+price = 3
+start = { kind = "fixed", at_m = [[8, 10], [30, 5], [31, 5]] }
+radio = { range_m = 5 }
+[goals.spot]
+count = 4
+placement = { kind = "fixed", at_m = [[20, 10], [22, 10], [24, 10], [26, 10]] }
+"#;
+
+const ROVER: RobotId = RobotId { kind: 0, index: 0 };
+
+fn controllers(simulation: &Simulation) -> Vec<Controller> {
+    simulation.state().each_controller().collect()
+}
+
+fn owned(simulation: &Simulation) -> Vec<usize> {
+    let controllers = controllers(simulation);
+    controllers.iter().map(|each| each.goals.len()).collect()
+}
+
+#[test]
+fn controllers_count_as_no_robots_but_are_paid_for() {
+    let simulation = start(ONE);
+    assert_eq!(robots(&simulation).len(), 2);
+    let runs = sim::runner::Runs(simulation.scenario().clone());
+    let columns = base::engine::Runner::columns(&runs);
+    let values = runs.values(&simulation.outcome()).unwrap();
+    let value = |name: &str| {
+        let place = columns.iter().position(|column| column.name == name);
+        values[place.unwrap()]
+    };
+    assert_eq!(
+        [value("robots"), value("price"), value("goals")],
+        [2.0, 26.0, 4.0]
+    );
+}
+
+#[test]
+fn a_controller_aboard_goes_where_its_robot_goes_and_fails_with_it() {
+    let text = replaced(
+        ONE,
+        &[(
+            "start = { kind = \"fixed\", at_m = [[8, 10], [30, 5], [31, 5]] }",
+            "aboard = \"rover\"",
+        )],
+    );
+    let text = replaced(
+        &text,
+        &[("drive", "collision = { max_collisions = 1 }\ndrive")],
+    );
+    let mut simulation = start(&text);
+    for _ in 0..320 {
+        step_with(&mut simulation, [(ROVER, go(1.0, 0.0))]);
+        assert_eq!(controllers(&simulation)[0].at, robots(&simulation)[0].at);
+    }
+    assert_eq!(robots(&simulation)[0].status, Status::Broken);
+    let working = controllers(&simulation)
+        .iter()
+        .map(|each| each.is_working)
+        .collect::<Vec<_>>();
+    assert_eq!(working, [false, true]);
+}
+
+#[test]
+fn links_reach_controllers() {
+    let mut simulation = start(ONE);
+    let links = simulation.links(None, 100).unwrap();
+    let links = links
+        .iter()
+        .map(|link| (link.from, link.to))
+        .collect::<Vec<_>>();
+    // Robots 0 and 1, then controllers 2 and 3.
+    assert_eq!(links, [(0, 1), (0, 2), (1, 2)]);
+}
+
+#[test]
+fn controllers_fail_at_random_times() {
+    let never = start(ONE);
+    let text = replaced(
+        ONE,
+        &[("price = 3", "price = 3\nmean_time_between_failures_s = 5")],
+    );
+    let text = replaced(
+        &text,
+        &[("price = 10", "price = 10\nmean_time_between_failures_s = 5")],
+    );
+    let mut simulation = start(&text);
+    let mut other = never;
+    for _ in 0..1000 {
+        simulation.step();
+        other.step();
+    }
+    assert!(controllers(&simulation).iter().all(|each| !each.is_working));
+    assert!(
+        robots(&simulation)
+            .iter()
+            .all(|robot| robot.status == Status::Broken)
+    );
+    assert!(controllers(&other).iter().all(|each| each.is_working));
+    assert!(
+        robots(&other)
+            .iter()
+            .all(|robot| robot.status == Status::Active)
+    );
+}
+
+#[test]
+fn controllers_keep_their_goals_when_others_are_added_or_removed() {
+    let mut simulation = start(ONE);
+    (0..5).for_each(|_| simulation.step());
+    assert_eq!(owned(&simulation), [2, 2]);
+    let more = replaced(ONE, &[("count = 2\nprice = 3", "count = 3\nprice = 3")]);
+    simulation.change(scenario(&more)).unwrap();
+    simulation.step();
+    assert_eq!(owned(&simulation), [2, 2, 0]);
+    // Goals of a controller that is removed are issued to those that stay.
+    let fewer = replaced(ONE, &[("count = 2\nprice = 3", "count = 1\nprice = 3")]);
+    simulation.change(scenario(&fewer)).unwrap();
+    simulation.step();
+    assert_eq!(owned(&simulation), [4]);
+    let none = replaced(ONE, &[("count = 2\nprice = 3", "count = 0\nprice = 3")]);
+    simulation.change(scenario(&none)).unwrap();
+    simulation.step();
+    simulation.change(scenario(ONE)).unwrap();
+    simulation.step();
+    assert_eq!(owned(&simulation), [2, 2]);
+}
+
+#[test]
+fn the_memory_of_controllers_is_part_of_the_state_hash_and_of_snapshots() {
+    let mut simulation = start(ONE);
+    simulation.hash_decisions(1);
+    let before = simulation.state().clone();
+    simulation.step();
+    let (hash, decisions) = (simulation.hash(), simulation.state().decision_hash());
+    simulation.restore(before);
+    simulation.step();
+    assert_eq!(
+        (simulation.hash(), simulation.state().decision_hash()),
+        (hash, decisions)
+    );
+    let other = replaced(ONE, &[("count = 4", "count = 4\nvalue = 2")]);
+    let mut other = start(&other);
+    other.hash_decisions(1);
+    other.step();
+    assert_ne!(other.hash(), hash);
+    assert_ne!(other.state().decision_hash(), decisions);
+}
+
+#[test]
+fn robots_of_a_removed_kind_leave_the_ids_of_controllers_valid() {
+    let two = ONE.to_owned()
+        + "[robots.ant]\ncount = 1\nradius_m = 0.1\nstart = { kind = \"fixed\", at_m = [[3, 3]] }\n\
+           drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\nbrain = { behaviours = [] }\n";
+    let mut simulation = start(&two);
+    step_with(&mut simulation, [(id(1, 0), send(&[message(1.0)]))]);
+    assert_eq!(controllers(&simulation)[0].id, id(2, 0));
+    simulation.change(scenario(ONE)).unwrap();
+    assert_eq!(controllers(&simulation)[0].id, id(1, 0));
+    simulation.step();
+    assert_eq!(owned(&simulation), [2, 2]);
+}
+
+#[test]
+fn clocks_have_their_own_offset_and_drift() {
+    let time_s = |text: &str| {
+        let mut simulation = start(text);
+        (0..100).for_each(|_| simulation.step());
+        [0, 1].map(|robot| {
+            let percept = simulation.percept(id(0, robot)).unwrap();
+            percept.unwrap().time_s.unwrap()
+        })
+    };
+    assert_eq!(time_s(ONE), [10.0, 10.0]);
+    let drifting = replaced(
+        ONE,
+        &[(
+            "time_limit_s",
+            "max_offset_s = 3\nmax_drift = 0.01\ntime_limit_s",
+        )],
+    );
+    let times_s = time_s(&drifting);
+    assert!(times_s[0] != times_s[1] && times_s.iter().all(|time_s| (9.9..13.2).contains(time_s)));
+}

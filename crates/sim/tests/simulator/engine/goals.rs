@@ -1,0 +1,241 @@
+//! Goals are issued to controllers, and served by robots that report it.
+
+use crate::common::{go, id, replaced, send, start, step_with};
+use base::geometry::Point;
+use brain::{About, Command, CommitmentStatus, GoalId, Message, RobotId, issuer_of};
+use sim::judge::GoalOutcome;
+use sim::run::Goal;
+use sim::simulation::Simulation;
+
+const TWO: &str = r#"
+[clock]
+time_limit_s = 100
+[world]
+size_m = [40, 20]
+[robots.rover]
+count = 2
+radius_m = 0.2
+start = { kind = "fixed", at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+radio = { range_m = 50 }
+brain = { behaviours = [] }
+[controllers.base]
+count = 2
+start = { kind = "fixed", at_m = [[5, 5], [6, 5]] }
+radio = { range_m = 50 }
+[goals.spot]
+count = 3
+placement = { kind = "fixed", at_m = [[10, 10], [13, 10], [30, 10]] }
+within_m = 0.5
+"#;
+
+const ROVER: RobotId = RobotId { kind: 0, index: 0 };
+const OTHER: RobotId = RobotId { kind: 0, index: 1 };
+
+fn goal_id(number: u32) -> GoalId {
+    let places = [[10.0, 10.0], [13.0, 10.0], [30.0, 10.0]].map(Point::from);
+    GoalId {
+        issuer: issuer_of(&places),
+        number,
+    }
+}
+
+fn about(number: u32, status: CommitmentStatus) -> Message {
+    Message::to_all(About::Goal {
+        id: goal_id(number),
+        at: Point::default(),
+        status,
+    })
+}
+
+fn active(number: u32) -> Message {
+    about(number, CommitmentStatus::Active)
+}
+
+fn done(number: u32) -> Message {
+    about(number, CommitmentStatus::Done)
+}
+
+fn goals(simulation: &Simulation) -> Vec<Goal> {
+    let scenario = simulation.scenario();
+    simulation.state().each_goal(scenario).collect()
+}
+
+fn outcome(simulation: &Simulation) -> GoalOutcome {
+    simulation.outcome().goals.unwrap()
+}
+
+/// A step in which the first robot drives and sends.
+fn drive(simulation: &mut Simulation, speed_m_s: f64, messages: &[Message]) {
+    let command = Command {
+        outbox: messages.to_vec(),
+        ..go(speed_m_s, 0.0)
+    };
+    step_with(simulation, [(ROVER, command)]);
+}
+
+#[test]
+fn goals_are_issued_to_the_controllers_in_turn() {
+    let mut simulation = start(TWO);
+    simulation.step();
+    let controllers: Vec<_> = simulation.state().each_controller().collect();
+    let owned = controllers.iter().map(|controller| {
+        let goals = controller.goals.iter();
+        goals.map(|goal| goal.task.id).collect::<Vec<_>>()
+    });
+    let owned: Vec<_> = owned.collect();
+    assert_eq!(owned, [vec![goal_id(0), goal_id(2)], vec![goal_id(1)]]);
+    assert_eq!(controllers[0].id, id(1, 0));
+}
+
+#[test]
+fn a_controller_refuses_goals_beyond_its_maximum() {
+    let few = replaced(
+        TWO,
+        &[("count = 2\nstart", "count = 1\nmax_goals = 2\nstart")],
+    );
+    let few = few.replace(
+        "count = 1\nmax_goals = 2\nstart = { kind = \"fixed\", at_m = [[10",
+        "count = 2\nstart = { kind = \"fixed\", at_m = [[10",
+    );
+    let mut simulation = start(&few);
+    simulation.step();
+    assert_eq!(outcome(&simulation).goals_refused, 1);
+}
+
+#[test]
+fn goals_arrive_by_their_timetable() {
+    let text = replaced(
+        TWO,
+        &[("within_m", "arrive_s = 1\nevery_s = 0.5\nwithin_m")],
+    );
+    let mut simulation = start(&text);
+    (0..30).for_each(|_| simulation.step());
+    let issued = goals(&simulation)
+        .iter()
+        .map(|goal| goal.issued_s)
+        .collect::<Vec<_>>();
+    assert_eq!(issued, [Some(1.0), Some(1.5), Some(2.0)]);
+}
+
+#[test]
+fn a_goal_is_served_by_a_robot_that_reports_it_where_it_is() {
+    let mut simulation = start(TWO);
+    drive(&mut simulation, 0.0, &[done(0), done(1)]);
+    let served = goals(&simulation)
+        .iter()
+        .map(|goal| goal.served_by)
+        .collect::<Vec<_>>();
+    assert_eq!(served, [Some(ROVER), None, None]);
+    assert_eq!(outcome(&simulation).served, 1);
+}
+
+#[test]
+fn a_robot_that_reports_a_service_again_serves_once_and_another_one_serves_twice() {
+    let mut simulation = start(TWO);
+    for _ in 0..3 {
+        drive(&mut simulation, 0.0, &[done(0)]);
+    }
+    assert_eq!(outcome(&simulation).served_twice, 0);
+    // The other one is too far away.
+    step_with(&mut simulation, [(OTHER, send(&[done(0)]))]);
+    assert_eq!(outcome(&simulation).served_twice, 0);
+    let near = replaced(TWO, &[("[12, 12]", "[10.4, 10]")]);
+    let mut simulation = start(&near);
+    for robot in [ROVER, OTHER, OTHER] {
+        step_with(&mut simulation, [(robot, send(&[done(0)]))]);
+    }
+    let GoalOutcome {
+        served,
+        served_twice,
+        ..
+    } = outcome(&simulation);
+    assert_eq!((served, served_twice), (1, 1));
+}
+
+#[test]
+fn the_parts_of_the_time_of_a_goal_sum_to_its_total() {
+    let text = replaced(TWO, &[("within_m = 0.5", "within_m = 0.5\nservice_s = 1")]);
+    let mut simulation = start(&text);
+    // Waits for 1 s, sets out, stands for 0.5 s, drives 3 m, and serves for 1 s.
+    (0..10).for_each(|_| drive(&mut simulation, 0.0, &[]));
+    drive(&mut simulation, 0.0, &[active(1)]);
+    (0..5).for_each(|_| drive(&mut simulation, 0.0, &[]));
+    (0..30).for_each(|_| drive(&mut simulation, 1.0, &[]));
+    drive(&mut simulation, 0.0, &[done(1)]);
+    assert_eq!(outcome(&simulation).served, 0, "too early");
+    (0..10).for_each(|_| drive(&mut simulation, 0.0, &[active(1)]));
+    drive(&mut simulation, 0.0, &[done(1)]);
+    let outcome = outcome(&simulation);
+    let goal = goals(&simulation)[1];
+    assert_eq!(outcome.served, 1);
+    assert!((outcome.waiting_s - 1.0).abs() < 1e-9, "{outcome:?}");
+    assert!((outcome.blocked_s - 0.6).abs() < 1e-9, "{outcome:?}");
+    let parts = [
+        outcome.waiting_s,
+        outcome.travel_s,
+        outcome.blocked_s,
+        outcome.service_s,
+    ];
+    let total_s = goal.served_s.unwrap() - goal.issued_s.unwrap();
+    assert!(
+        (parts.iter().sum::<f64>() - total_s).abs() < 1e-9,
+        "{outcome:?}"
+    );
+    assert!(outcome.service_s >= 1.0, "{outcome:?}");
+}
+
+#[test]
+fn a_goal_is_not_served_after_its_deadline() {
+    let text = replaced(TWO, &[("within_m", "deadline_s = 1\nwithin_m")]);
+    let mut simulation = start(&text);
+    (0..12).for_each(|_| simulation.step());
+    drive(&mut simulation, 0.0, &[done(0)]);
+    let GoalOutcome {
+        served, expired, ..
+    } = outcome(&simulation);
+    assert_eq!((served, expired), (0, 3));
+}
+
+#[test]
+fn a_run_is_complete_when_all_goals_are_served() {
+    let one = replaced(TWO, &[("count = 3", "count = 1")]);
+    let mut simulation = start(&one);
+    simulation.step();
+    assert!(!simulation.state().is_over(simulation.scenario()));
+    drive(&mut simulation, 0.0, &[done(0)]);
+    assert!(simulation.state().is_over(simulation.scenario()));
+    assert!(!simulation.outcome().has_failed);
+    let mut part = start(&(TWO.to_owned() + "[end]\nwhen = \"served >= 1\"\n"));
+    drive(&mut part, 0.0, &[done(0)]);
+    assert!(part.state().is_over(part.scenario()));
+}
+
+#[test]
+fn messages_that_a_receiver_has_no_room_for_are_counted() {
+    let text = replaced(
+        TWO,
+        &[("range_m = 50 }", "range_m = 50, messages_per_step = 3 }")],
+    );
+    let text = replaced(
+        &text,
+        &[(
+            "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
+            "count = 0\nstart = { kind = \"fixed\", at_m = [[5",
+        )],
+    );
+    let slow = replaced(
+        &text,
+        &[(
+            "[controllers.base]",
+            "[robots.slow]\ncount = 1\nradius_m = 0.2\n\
+        start = { kind = \"fixed\", at_m = [[3, 3]] }\ndrive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n\
+        radio = { range_m = 50, messages_per_step = 1 }\nbrain = { behaviours = [] }\n[controllers.base]",
+        )],
+    );
+    let mut simulation = start(&slow);
+    drive(&mut simulation, 0.0, &[active(0), active(1), active(2)]);
+    let outcome = outcome(&simulation);
+    // The other rover receives all, and the slow robot one.
+    assert_eq!((outcome.messages_sent, outcome.messages_dropped), (3, 2));
+}
