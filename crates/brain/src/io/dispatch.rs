@@ -6,6 +6,7 @@ use super::body::RobotId;
 use super::goal_id::GoalId;
 use super::verdict::Verdict;
 
+use base::geometry::Point;
 use base::hash::Hash;
 use base::hashed::Hashed;
 use schemars::JsonSchema;
@@ -160,6 +161,12 @@ base::hashed!(Task {
 });
 
 impl Task {
+    /// Its position in the world.
+    #[must_use]
+    pub fn at(&self) -> Point {
+        Point::from(self.at_m.map(f64::from))
+    }
+
     /// Whether all of its numbers are finite and plausible.
     #[must_use]
     pub fn is_valid(&self) -> bool {

@@ -5,7 +5,6 @@ use super::Controller;
 use super::owned::Assigned;
 use crate::allocation::{Allocation, Market, Offer, Pair};
 use alloc::vec::Vec;
-use base::geometry::Point;
 use brain::{Award, Claim, Dispatch, GoalId, RobotId, Task};
 
 /// Maximum number of calls per step, and time after which a call is repeated, in seconds.
@@ -166,8 +165,7 @@ impl Controller {
     /// Distance from a robot to a goal; infinite if its position is unknown.
     pub(super) fn distance_m(&self, robot: RobotId, task: &Task) -> f64 {
         let at = self.picture.get(robot).and_then(|robot| robot.at);
-        let goal = Point::from(task.at_m.map(f64::from));
-        at.map_or(f64::INFINITY, |at| at.to(goal).length())
+        at.map_or(f64::INFINITY, |at| at.to(task.at()).length())
     }
 
     /// Awards a goal to a robot that has bid for it; one that has not is called alone.

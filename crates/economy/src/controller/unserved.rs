@@ -9,7 +9,7 @@ use brain::{Dispatch, GoalId, Reason, Refusal, RobotId};
 const PATIENCE_S: f64 = 10.0;
 
 impl Controller {
-    /// Offers goals without a bid to each robot alone; if all have refused, the goal rests.
+    /// Calls each robot alone for goals without a bid; if all have refused, the goal rests.
     pub(super) fn probe(&mut self) {
         if self.settings.allocation == Allocation::None || !self.may_grant() {
             return;
