@@ -237,10 +237,15 @@ def alias(name: str, value: str, description: str) -> str:
 def union_of_keys(name: str, schema: Schema) -> str:
     """Return the type of a dict with one of some keys, and the types of its values."""
     keys = [key for part in alternatives(schema) if (key := only_key(part))]
-    parts = {key.name: f"{name}{class_name(key.name)}" for key in keys}
+    inline = {key.name for key in keys if key.schema.get("type") == "object"}
+    parts = {
+        key.name: f"{name}{class_name(key.name)}" if key.name in inline else python(key.schema)
+        for key in keys
+    }
     inner = [
         record(parts[key.name], plain(part["description"]), fields(key.schema))
         for key, part in zip(keys, alternatives(schema), strict=True)
+        if key.name in inline
     ]
     lines = [f"class {name}(TypedDict, total=False):"]
     text = f"{plain(schema['description'])} It has one of these keys."

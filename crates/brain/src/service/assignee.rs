@@ -137,7 +137,7 @@ impl Assignee {
         }
         self.schedule.note(from, self.now_s);
         match dispatch {
-            Dispatch::Query => self.schedule.report_now(from, self.now_s),
+            Dispatch::Query {} => self.schedule.report_now(from, self.now_s),
             Dispatch::Call { number, task } if task.is_valid() => {
                 let is_only_one = received.message.to != RobotId::EVERYONE;
                 let offer = Offer::new(task, from, number, self.now_s);

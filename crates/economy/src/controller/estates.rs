@@ -95,7 +95,7 @@ impl Controller {
             return false;
         };
         owned.next_return_s = now_s + RETRY_S;
-        self.send(origin, Dispatch::Return(task));
+        self.send(origin, Dispatch::Restore(task));
         true
     }
 

@@ -23,7 +23,7 @@ impl Controller {
             let is_new = self.picture.get(id).is_none();
             self.picture.see(id, at, self.now_s);
             if is_new && self.settings.is_robot(id, self.own) {
-                self.send(id, Dispatch::Query);
+                self.send(id, Dispatch::Query {});
             }
         }
     }

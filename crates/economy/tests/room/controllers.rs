@@ -215,7 +215,7 @@ fn a_new_robot_that_a_controller_sees_is_queried() {
         ..Percept::default()
     };
     let sent = owner.agent.step(&percept).outbox;
-    assert!(sent.contains(&Message::to(ROBOT, About::Dispatch(Dispatch::Query))));
+    assert!(sent.contains(&Message::to(ROBOT, About::Dispatch(Dispatch::Query {}))));
 }
 #[test]
 fn an_old_percept_changes_nothing() {

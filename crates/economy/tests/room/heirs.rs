@@ -81,7 +81,7 @@ fn an_heir_answers_grants_and_inherits() {
     assert!(sent_any(&heir.wait(2.0), is_call));
     // The previous owner is in range again.
     let sent = heir.take(OWNER, Dispatch::Serial(1));
-    assert!(sent_any(&sent, |sent| matches!(sent, Dispatch::Return(_))));
+    assert!(sent_any(&sent, |sent| matches!(sent, Dispatch::Restore(_))));
     heir.take(OWNER, bind(99));
     assert_eq!(heir.agent.goals().count(), 0);
 }
@@ -110,7 +110,7 @@ fn an_heir_that_is_relieved_does_not_inherit() {
 fn a_returned_goal_is_owned_again_when_the_heir_grants_it() {
     let mut owner = bound();
     owner.wait(31.0);
-    let sent = owner.take(HEIR, Dispatch::Return(TASK));
+    let sent = owner.take(HEIR, Dispatch::Restore(TASK));
     let number = sent.iter().find_map(|(_, sent)| match sent {
         Dispatch::Bind(award) => Some(award.number),
         _ => None,

@@ -7,6 +7,7 @@ mod hand;
 mod heirs;
 mod missions;
 mod network;
+mod quality;
 mod robots;
 mod safety;
 mod team;

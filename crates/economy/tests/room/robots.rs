@@ -126,7 +126,7 @@ fn leases_that_differ_are_renewed_one_by_one() {
 
 #[test]
 fn a_query_is_answered_by_a_report() {
-    let sent = robot().take(OWNER, Dispatch::Query);
+    let sent = robot().take(OWNER, Dispatch::Query {});
     assert!(sent_any(
         &sent,
         |sent| matches!(sent, Dispatch::Report(report) if report.payload == 8)
