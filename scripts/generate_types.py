@@ -430,7 +430,8 @@ def javascript_of_kind(kind: str, schema: Schema) -> str:
             item = javascript(schema["items"])
             return f"({item})[]" if "|" in item else f"{item}[]"
         case "object" if "additionalProperties" in schema and "properties" not in schema:
-            return f"Record<string, {javascript(schema['additionalProperties'])}>"
+            values = schema["additionalProperties"]
+            return f"Record<string, {javascript(values) if values else 'never'}>"
         case "object":
             keys = (f"{key.name}: {javascript(key.schema)}" for key in fields(schema))
             return f"{{ {'; '.join(keys)} }}"

@@ -60,6 +60,223 @@ OrderAction: TypeAlias = Literal["assign", "withdraw"]
 """What a person orders."""
 
 
+Work: TypeAlias = Literal["visit", "search"]
+"""What a goal consists of."""
+
+
+class Task(TypedDict):
+    """A goal as it is described in messages.
+
+    Attributes:
+        id: Its id.
+        at_m: Its position in the world, in metres.
+        radius_m: A robot is there within this distance; of a search, the radius of the area.
+        value: Value of serving it, relative to other goals.
+        service_s: Time that a robot spends there.
+        due_s: Time from sending until its deadline; without one, `f32.MAX`.
+        work: What is to be done there.
+        capability: Number of the capability that a robot needs for it, as in
+            `Body.capabilities`; 0 if it needs none.
+    """
+
+    id: GoalId
+    at_m: Sequence[float]
+    radius_m: float
+    value: float
+    service_s: float
+    due_s: float
+    work: Work
+    capability: int
+
+
+class Report(TypedDict):
+    """The state of a robot.
+
+    Attributes:
+        at_m: Its position in the world, in metres.
+        speed_m_s: The speed at which it drives to goals.
+        battery: Remaining fraction of the battery's capacity, 0 to 1.
+        goals: Number of goals that it serves, of all controllers.
+        payload: Number of goals that it can serve in addition: its free payload.
+    """
+
+    at_m: Sequence[float]
+    speed_m_s: float
+    battery: float
+    goals: int
+    payload: int
+
+
+Verdict: TypeAlias = Literal["complete", "impossible", "approaching", "receding"]
+"""The state of a goal."""
+
+
+class Fitness(TypedDict):
+    """The progress of a robot towards a goal.
+
+    Attributes:
+        goal: The goal.
+        verdict: Its verdict.
+        remaining_s: Expected time until it has been served.
+    """
+
+    goal: GoalId
+    verdict: Verdict
+    remaining_s: float
+
+
+class Bid(TypedDict):
+    """A bid of a robot for a goal.
+
+    The confidence of its message is the probability that it serves it.
+
+    Attributes:
+        goal: The goal.
+        number: The number that the robot gave the bid.
+        time_s: Time by which the robot's path and service become longer.
+        energy: The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
+        call: The number of the call.
+    """
+
+    goal: GoalId
+    number: int
+    time_s: float
+    energy: float
+    call: int
+
+
+class Award(TypedDict):
+    """The award of a goal, or the grant of its ownership.
+
+    Attributes:
+        goal: The goal.
+        number: The number of the bid or request.
+        lease_s: Duration of the lease, from sending the bid or request, on the holder's clock.
+    """
+
+    goal: GoalId
+    number: int
+    lease_s: float
+
+
+class Claim(TypedDict):
+    """A goal, and the number of a request of the robot or controller that holds its lease.
+
+    Attributes:
+        goal: The goal.
+        number: The number that the holder gave its request, which is different for each.
+    """
+
+    goal: GoalId
+    number: int
+
+
+Reason: TypeAlias = Literal[
+    "unreachable",
+    "capability",
+    "deadline",
+    "battery",
+    "full",
+    "lease",
+    "out_of_service",
+    "no_robot",
+]
+"""Why a goal is not served."""
+
+
+class Refusal(TypedDict):
+    """Why a robot or a controller does not serve a goal.
+
+    Attributes:
+        goal: The goal.
+        number: The number of the bid or of the lease; of a refused call, that of the call.
+        reason: Why.
+    """
+
+    goal: GoalId
+    number: int
+    reason: Reason
+
+
+class Renewal(TypedDict):
+    """A request to renew all leases between two agents.
+
+    Attributes:
+        number: The number that the holder gave the request.
+        count: Number of leases.
+        hash: Hash of the goals.
+    """
+
+    number: int
+    count: int
+    hash: Sequence[int]
+
+
+class Seen(TypedDict):
+    """The position of a robot.
+
+    Attributes:
+        robot: The robot.
+        at_m: Its position in the world, in metres.
+    """
+
+    robot: RobotId
+    at_m: Sequence[float]
+
+
+class DispatchQuery(TypedDict):
+    """From a controller to robots: a request of a report."""
+
+
+class DispatchCall(TypedDict):
+    """From a controller to robots: a goal that they can bid for.
+
+    A call to one robot requests an answer, a bid or a refusal.
+
+    Attributes:
+        number: The number that the caller gave the offer; it is the same when the call is
+            repeated.
+        task: The goal.
+    """
+
+    number: int
+    task: Task
+
+
+class Dispatch(TypedDict, total=False):
+    """A message about a goal that a controller owns or awards.
+
+    It has one of these keys.
+    """
+
+    issue: Task
+    serial: int
+    query: DispatchQuery
+    report: Report
+    fitness: Fitness
+    call: DispatchCall
+    bid: Bid
+    award: Award
+    commit: Claim
+    refuse: Refusal
+    done: Claim
+    stuck: Refusal
+    release: Claim
+    withdraw: Claim
+    renew: Renewal
+    renewed: int
+    differs: int
+    renew_one: Claim
+    renewed_one: Claim
+    seen: Seen
+    entrust: Task
+    entrusted: Award
+    relieve: Claim
+    relieved: Claim
+    restore: Task
+    bind: Award
+
+
 class AboutItem(TypedDict):
     """An item.
 
@@ -129,6 +346,7 @@ class About(TypedDict, total=False):
     sender: AboutSender
     goal: AboutGoal
     order: AboutOrder
+    dispatch: Dispatch
 
 
 OrderVerdict: TypeAlias = Literal["pending", "approaching", "receding", "complete", "impossible"]
@@ -203,10 +421,6 @@ class BelievedRobot(TypedDict):
     at: Point
     velocity_m_s: Point
     age_s: float
-
-
-Verdict: TypeAlias = Literal["complete", "impossible", "approaching", "receding"]
-"""The state of a goal."""
 
 
 class GoalState(TypedDict):
@@ -380,6 +594,7 @@ class Body(TypedDict):
             each axis.
         item_kinds: Names of all kinds of items.
         others: Bodies of all kinds of robots, in the order in which ids count them.
+        capabilities: Numbers of its capabilities, from 1; goals require them by number.
         field: The area of its mission; without it, unknown.
     """
 
@@ -397,6 +612,7 @@ class Body(TypedDict):
     neighbour_noise_m: NotRequired[float]
     item_kinds: NotRequired[Sequence[str]]
     others: NotRequired[Sequence[Other]]
+    capabilities: NotRequired[Sequence[int]]
     field: NotRequired[Rectangle | None]
 
 
@@ -425,13 +641,15 @@ class SensorRequest(TypedDict):
 
 
 class Message(TypedDict):
-    """A message from one robot to others.
+    """A message from one robot or controller to others.
 
     Attributes:
+        to: The only receiver; without it, all that the message reaches.
         about: Its content.
         confidence: Confidence of the sender, 0 to 1.
     """
 
+    to: NotRequired[RobotId]
     about: About
     confidence: float
 
