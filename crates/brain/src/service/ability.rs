@@ -54,8 +54,3 @@ pub(crate) struct Moment<'s> {
     pub(crate) battery_s: f64,
     pub(crate) charge: Option<f64>,
 }
-
-/// The position of a goal.
-pub(crate) fn place(task: &Task) -> Point {
-    Point::from(task.at_m.map(f64::from))
-}

@@ -1,7 +1,7 @@
 //! The robot's half of the protocol: it bids for goals, serves those that it is awarded while it
 //! holds their leases, and reports.
 
-use super::ability::{Ability, Moment, place};
+use super::ability::{Ability, Moment};
 use super::bidding::{Bidder, Estimate};
 use super::failures::Failures;
 use super::finished::Finished;
@@ -137,7 +137,7 @@ impl Assignee {
         }
         self.schedule.note(from, self.now_s);
         match dispatch {
-            Dispatch::Query => self.schedule.report_now(from, self.now_s),
+            Dispatch::Query {} => self.schedule.report_now(from, self.now_s),
             Dispatch::Call { number, task } if task.is_valid() => {
                 let is_only_one = received.message.to != RobotId::EVERYONE;
                 let offer = Offer::new(task, from, number, self.now_s);
@@ -325,7 +325,7 @@ impl Assignee {
             let Offer {
                 owner, call, task, ..
             } = estimate.offer;
-            let standing = self.schedule.bid_to(owner);
+            let standing = self.schedule.bid_of(owner);
             let stands = standing
                 .is_some_and(|bid| bid.stands(task.id, call, self.jobs.version, self.now_s));
             if !stands {
@@ -425,7 +425,7 @@ impl Assignee {
     #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
     fn fitness(&self, owner: RobotId, ability: &Ability, at: Point) -> Option<Fitness> {
         let job = self.jobs.list.iter().find(|job| job.owner == owner)?;
-        let away_m = at.to(place(&job.task)).length();
+        let away_m = at.to(job.task.at()).length();
         let remaining_s = away_m / ability.speed_m_s + ability.work_s(&job.task) - job.served_s;
         Some(Fitness {
             goal: job.task.id,

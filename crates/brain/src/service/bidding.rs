@@ -1,6 +1,6 @@
 //! What a robot bids: the increment of the shortest path through its goals.
 
-use super::ability::{Ability, Moment, place};
+use super::ability::{Ability, Moment};
 use super::failures::Failures;
 use super::jobs::Jobs;
 use super::offers::Offer;
@@ -63,7 +63,7 @@ impl<'b> Bidder<'b> {
             return Err(Reason::Full);
         }
         let work_s = ability.work_s(task);
-        let time_s = self.tour.increment_m(place(task)) / ability.speed_m_s + work_s;
+        let time_s = self.tour.increment_m(task.at()) / ability.speed_m_s + work_s;
         let all_s = self.busy_s + time_s;
         if self.moment.battery_s < all_s {
             return Err(Reason::Battery);
@@ -82,7 +82,7 @@ impl<'b> Bidder<'b> {
 
     /// Time until the robot would be there, at the latest.
     fn arrival_s(&self, offer: &Offer) -> f64 {
-        let at = place(&offer.task);
+        let at = offer.task.at();
         let others_s = self.busy_s - self.tour.length_m / self.ability.speed_m_s;
         self.tour.arrival_m(at) / self.ability.speed_m_s + others_s
     }

@@ -97,8 +97,8 @@ impl Schedule {
         contact
     }
 
-    /// The last bid to a controller.
-    pub(crate) fn bid_to(&self, id: RobotId) -> Option<StandingBid> {
+    /// The last bid that a controller received.
+    pub(crate) fn bid_of(&self, id: RobotId) -> Option<StandingBid> {
         self.contacts.iter().find(|contact| contact.id == id)?.bid
     }
 

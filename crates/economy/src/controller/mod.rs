@@ -5,7 +5,7 @@
 //! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
-//!   [`colleagues`]: the other controllers.
+//!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`].
 
 mod arbitration;
 mod auction;
@@ -15,10 +15,12 @@ mod estates;
 mod heirs;
 mod owned;
 mod picture;
+mod presence;
 mod receive;
 mod tenures;
 mod trust;
 mod unserved;
+mod wards;
 
 use crate::settings::Settings;
 use alloc::sync::Arc;
@@ -27,10 +29,9 @@ use bids::Bids;
 use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
 use brain::{Reason, RobotId, Task, wait_s};
 use colleagues::Colleagues;
-use estates::Ward;
 use owned::{Heir, Owned};
 use picture::Picture;
-use tenures::Orphan;
+use wards::{Orphan, Ward};
 
 /// One controller: it owns goals, and awards them to robots.
 #[derive(Debug, Clone)]
@@ -261,12 +262,19 @@ impl Controller {
             .is_some_and(|until_s| self.now_s >= until_s)
     }
 
+    /// The time for which the next award of a goal waits, by the durations that messages have.
     fn service_wait_s(&self) -> f64 {
-        wait_s(self.settings.service_lease_s, self.settings.max_drift)
+        wait_s(
+            short(self.settings.service_lease_s).into(),
+            self.settings.max_drift,
+        )
     }
 
     fn owner_wait_s(&self) -> f64 {
-        wait_s(self.settings.owner_lease_s, self.settings.max_drift)
+        wait_s(
+            short(self.settings.owner_lease_s).into(),
+            self.settings.max_drift,
+        )
     }
 
     fn longest_wait_s(&self) -> f64 {
@@ -278,6 +286,12 @@ impl Controller {
         let claim = Claim { goal, number: 0 };
         self.send(RobotId::EVERYONE, Dispatch::Withdraw(claim));
     }
+}
+
+/// A duration as it is in messages.
+#[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+fn short(duration_s: f64) -> f32 {
+    duration_s as f32
 }
 
 /// The part of an heir that [`OwnedGoal`] shows.

@@ -2,6 +2,7 @@
 
 use super::Controller;
 use super::owned::{Heir, Owned};
+use super::wards::Orphan;
 use alloc::vec::Vec;
 use brain::{Claim, Dispatch, GoalId, Lease, Percept, RobotId, Task};
 
@@ -12,16 +13,6 @@ const RENEWAL_RETRY_S: f64 = 0.5;
 
 /// Maximum number of leases that are renewed one by one in a step.
 const MAX_RENEWALS: usize = 16;
-
-/// A goal that a controller owned until its lease ended.
-#[derive(Debug, Clone)]
-pub(super) struct Orphan {
-    pub(super) owned: Owned,
-    /// The request by which it would be owned again.
-    request: Option<u32>,
-}
-
-base::hashed!(Orphan { owned, request });
 
 impl Controller {
     /// Renews the leases of each heir.
