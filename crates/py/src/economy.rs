@@ -25,7 +25,7 @@ const NUMBERS: [(&str, NumberOf); 9] = [
 ];
 
 /// The goals of a run, by column: `name` (KIND/INDEX), `issuer` and `number` of the id, the numbers above, `served_by`,
-/// `served_twice` and `expired`.
+/// `served_twice` and `expired`. The robot of a goal that was not served is empty.
 #[pyfunction]
 pub(crate) fn goals<'py>(
     py: Python<'py>,
@@ -46,9 +46,12 @@ pub(crate) fn goals<'py>(
         dict.set_item(name, numbers.into_pyarray(py))?;
     }
     let robots = goals.iter().map(|goal| goal.served_by);
-    let robots = robots.map(|id| id.map(|id| name_of(scenario, id)));
+    let robots = robots.map(|id| id.map_or_else(String::new, |id| name_of(scenario, id)));
     dict.set_item("served_by", robots.collect::<Vec<_>>())?;
-    let flags = |of: fn(&Goal) -> bool| goals.iter().map(of).collect::<Vec<_>>();
+    let flags = |of: fn(&Goal) -> bool| {
+        let flags: Vec<bool> = goals.iter().map(of).collect();
+        flags.into_pyarray(py)
+    };
     dict.set_item("served_twice", flags(|goal| goal.is_served_twice))?;
     dict.set_item("expired", flags(|goal| goal.has_expired))?;
     Ok(dict)

@@ -423,7 +423,8 @@ class Simulation(Stepped):
         The columns are `name` (KIND/INDEX), `issuer` and `number` of its id in messages, `x_m`,
         `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
         `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
-        `blocked_s` (time for which it stood under way), `served_by`, `served_twice` and `expired`.
+        `blocked_s` (time for which it stood under way), `served_by` (empty if it was not served),
+        `served_twice` and `expired`.
         """
         goals: dict[str, Any] = _core.goals(self._run)
         return arrow.table(
