@@ -38,8 +38,9 @@ use wards::{Orphan, Ward};
 pub struct Controller {
     settings: Arc<Settings>,
     own: RobotId,
-    /// Its clock.
+    /// Its clock, and the time since the last step.
     now_s: f64,
+    step_s: f64,
     /// Until when it grants nothing, once it knows the time: an agent that restarts does not know
     /// what it granted before.
     silent_until_s: Option<f64>,
@@ -64,6 +65,7 @@ pub struct Controller {
 base::hashed!(Controller {
     own,
     now_s,
+    step_s,
     silent_until_s,
     numbers,
     goals,
@@ -103,6 +105,7 @@ impl Controller {
             settings,
             own: RobotId::default(),
             now_s: f64::NEG_INFINITY,
+            step_s: 0.0,
             silent_until_s: Some(f64::NEG_INFINITY),
             numbers: Numbers::default(),
             goals: Vec::new(),
@@ -141,6 +144,7 @@ impl Controller {
         if now_s < self.now_s {
             return;
         }
+        self.step_s = (now_s - self.now_s).min(1.0);
         (self.now_s, self.own) = (now_s, percept.id);
         let silent_s = self.longest_wait_s();
         self.silent_until_s.get_or_insert(now_s + silent_s);
