@@ -302,7 +302,11 @@ impl Assignee {
     /// Bids for the best offer of each controller, unless the last bid still stands.
     fn bid(&mut self, ability: &Ability, moment: &Moment) {
         let is_full = self.jobs.list.len() >= ability.max_goals;
-        if is_full || !self.schedule.is_turn(moment.percept) {
+        let versions = [self.offers.version, self.jobs.version];
+        if is_full
+            || self.offers.iter().next().is_none()
+            || !self.schedule.is_turn(moment.percept, versions, self.now_s)
+        {
             return;
         }
         let known = (&self.jobs, &self.failures);

@@ -16,6 +16,7 @@ mod jobs;
 mod lanes;
 pub(crate) mod numbers;
 mod offers;
+mod reach;
 mod schedule;
 pub(crate) mod served;
 mod set_hash;
