@@ -150,6 +150,7 @@ impl Controller {
         if !self.services.grant(robot, claim, wait_s, now_s) {
             return;
         }
+        self.awards += 1;
         let overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * f64::from(bid.time_s);
         let assigned = Assigned {
             robot,

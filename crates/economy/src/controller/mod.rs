@@ -59,6 +59,8 @@ pub struct Controller {
     next_round_s: f64,
     next_renewal_s: f64,
     refused: u32,
+    awards: u32,
+    lapses: u32,
     outbox: Vec<Message>,
 }
 
@@ -79,7 +81,9 @@ base::hashed!(Controller {
     bids,
     next_round_s,
     next_renewal_s,
-    refused
+    refused,
+    awards,
+    lapses
 } without { settings, outbox });
 
 /// A goal that a controller owns.
@@ -120,6 +124,8 @@ impl Controller {
             next_round_s: f64::NEG_INFINITY,
             next_renewal_s: f64::NEG_INFINITY,
             refused: 0,
+            awards: 0,
+            lapses: 0,
             outbox: Vec::new(),
         }
     }
@@ -203,6 +209,18 @@ impl Controller {
     #[must_use]
     pub fn refused(&self) -> u32 {
         self.refused
+    }
+
+    /// Number of awards, repeated ones not counted.
+    #[must_use]
+    pub fn awards(&self) -> u32 {
+        self.awards
+    }
+
+    /// Number of service leases that ended because the robot was silent.
+    #[must_use]
+    pub fn lapses(&self) -> u32 {
+        self.lapses
     }
 
     /// Owns a goal that a person has issued.
