@@ -51,6 +51,7 @@ impl Assignee {
         self.schedule.advance(self.now_s);
         self.offers.expire(self.now_s);
         self.stop_before_end(moment);
+        self.return_goals(ability, moment);
         for received in &moment.percept.inbox {
             self.receive(received, ability, moment);
         }
@@ -104,15 +105,34 @@ impl Assignee {
         self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
     }
 
-    /// Drops the goals whose lease ends before the next step, and those whose deadline has passed.
+    /// Drops the goals whose lease ends before the next step.
     fn stop_before_end(&mut self, moment: &Moment) {
         let step_s = moment.body.period_s.max(moment.elapsed_s.min(1.0));
         for goal in self.holder.expire(self.now_s + step_s) {
             self.jobs.remove(goal);
         }
-        let late = self.jobs.list.iter().find(|job| self.now_s > job.due_at_s);
-        if let Some(goal) = late.map(|job| job.task.id) {
-            self.report_failure(goal, Reason::Deadline);
+    }
+
+    /// Returns a goal whose deadline has passed, or for which the battery does not last.
+    fn return_goals(&mut self, ability: &Ability, moment: &Moment) {
+        let Some(at) = moment.at else {
+            return;
+        };
+        let needed_s = |job: &Job| {
+            let path_s = at.to(job.target(ability).0).length() / ability.speed_m_s;
+            path_s + job.left_s()
+        };
+        let hopeless = self.jobs.list.iter().find_map(|job| {
+            if self.now_s > job.due_at_s {
+                Some((job.task.id, Reason::Deadline))
+            } else if needed_s(job) > moment.battery_s {
+                Some((job.task.id, Reason::Battery))
+            } else {
+                None
+            }
+        });
+        if let Some((goal, reason)) = hopeless {
+            self.report_failure(goal, reason);
             self.release(goal);
         }
     }

@@ -200,6 +200,22 @@ fn a_robot_does_not_bid_for_a_goal_for_which_its_battery_does_not_last() {
 }
 
 #[test]
+fn a_robot_whose_battery_does_not_last_returns_its_goals_with_the_reason() {
+    let mut robot = Robot::new("", "");
+    robot.win();
+    let mut sent = Vec::new();
+    for step in 0..80 {
+        robot.battery = Some(1.0 - 0.012 * f64::from(step));
+        sent.extend(robot.step(&[], false));
+        robot.x = 0.0;
+    }
+    let is_reason = |sent: &Dispatch| matches!(sent, Dispatch::Stuck(refusal) if refusal.reason == Reason::Battery);
+    assert!(sent.iter().any(is_reason));
+    assert!(sent.iter().any(|sent| matches!(sent, Dispatch::Release(_))));
+    assert!(robot.brain.served_goals().is_empty());
+}
+
+#[test]
 fn the_state_of_service_is_part_of_the_hash() {
     let hash = |robot: &Robot| {
         let mut hash = base::hash::Hash::default();
