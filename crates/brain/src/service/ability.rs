@@ -3,6 +3,7 @@
 use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
+use crate::perception::beliefs::Map;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -47,6 +48,8 @@ impl Ability {
 pub(crate) struct Moment<'s> {
     pub(crate) percept: &'s Percept,
     pub(crate) body: &'s Body,
+    /// Its map, if it has one.
+    pub(crate) map: Option<&'s Map>,
     /// Its position, if known.
     pub(crate) at: Option<Point>,
     pub(crate) elapsed_s: f64,

@@ -48,7 +48,8 @@ impl Controller {
     /// Holds a round when it is due, and repeats awards without an answer.
     pub(super) fn award(&mut self) {
         self.repeat_awards();
-        if self.now_s < self.next_round_s || !self.may_grant() {
+        // At the nearest step.
+        if self.now_s < self.next_round_s - self.step_s / 2.0 || !self.may_grant() {
             return;
         }
         self.next_round_s = self.now_s + self.settings.auction_s / ROUNDS;
@@ -149,6 +150,7 @@ impl Controller {
         if !self.services.grant(robot, claim, wait_s, now_s) {
             return;
         }
+        self.awards += 1;
         let overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * f64::from(bid.time_s);
         let assigned = Assigned {
             robot,

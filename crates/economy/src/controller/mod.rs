@@ -38,8 +38,9 @@ use wards::{Orphan, Ward};
 pub struct Controller {
     settings: Arc<Settings>,
     own: RobotId,
-    /// Its clock.
+    /// Its clock, and the time since the last step.
     now_s: f64,
+    step_s: f64,
     /// Until when it grants nothing, once it knows the time: an agent that restarts does not know
     /// what it granted before.
     silent_until_s: Option<f64>,
@@ -58,12 +59,15 @@ pub struct Controller {
     next_round_s: f64,
     next_renewal_s: f64,
     refused: u32,
+    awards: u32,
+    lapses: u32,
     outbox: Vec<Message>,
 }
 
 base::hashed!(Controller {
     own,
     now_s,
+    step_s,
     silent_until_s,
     numbers,
     goals,
@@ -77,7 +81,9 @@ base::hashed!(Controller {
     bids,
     next_round_s,
     next_renewal_s,
-    refused
+    refused,
+    awards,
+    lapses
 } without { settings, outbox });
 
 /// A goal that a controller owns.
@@ -103,6 +109,7 @@ impl Controller {
             settings,
             own: RobotId::default(),
             now_s: f64::NEG_INFINITY,
+            step_s: 0.0,
             silent_until_s: Some(f64::NEG_INFINITY),
             numbers: Numbers::default(),
             goals: Vec::new(),
@@ -117,6 +124,8 @@ impl Controller {
             next_round_s: f64::NEG_INFINITY,
             next_renewal_s: f64::NEG_INFINITY,
             refused: 0,
+            awards: 0,
+            lapses: 0,
             outbox: Vec::new(),
         }
     }
@@ -150,6 +159,7 @@ impl Controller {
         if now_s < self.now_s {
             return;
         }
+        self.step_s = (now_s - self.now_s).min(1.0);
         (self.now_s, self.own) = (now_s, percept.id);
         let silent_s = self.longest_wait_s();
         self.silent_until_s.get_or_insert(now_s + silent_s);
@@ -208,6 +218,18 @@ impl Controller {
     #[must_use]
     pub fn refused(&self) -> u32 {
         self.refused
+    }
+
+    /// Number of awards, repeated ones not counted.
+    #[must_use]
+    pub fn awards(&self) -> u32 {
+        self.awards
+    }
+
+    /// Number of service leases that ended because the robot was silent.
+    #[must_use]
+    pub fn lapses(&self) -> u32 {
+        self.lapses
     }
 
     /// Owns a goal that a person has issued.

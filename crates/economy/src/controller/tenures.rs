@@ -94,7 +94,8 @@ impl Controller {
     /// An heir returns a goal: the answer is the request of the lease.
     pub(super) fn take_return(&mut self, from: RobotId, task: Task, percept: &Percept) {
         let is_own = self.goals.iter().any(|owned| owned.task.id == task.id);
-        if is_own || !task.is_valid() || !self.may_grant() {
+        let is_full = self.orphans.len() >= self.settings.max_goals as usize;
+        if is_own || is_full || !task.is_valid() || !self.may_grant() {
             return;
         }
         let goal = task.id;

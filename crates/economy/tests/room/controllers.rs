@@ -10,7 +10,7 @@ use brain::{
     About, Bid, Dispatch, Fitness, Message, Percept, Reason, Renewal, Report, RobotId, Seen, Task,
     Verdict,
 };
-use economy::Controller;
+use economy::{Controller, Settings};
 
 #[test]
 fn issue_of_the_operator_alone_makes_a_controller_own_a_goal_and_call_for_bids() {
@@ -234,4 +234,25 @@ fn an_old_percept_changes_nothing() {
         ),
         []
     );
+}
+
+#[test]
+fn a_controller_that_restarts_awards_nothing_for_the_longest_lease() {
+    let settings = Settings {
+        service_lease_s: 40.0,
+        max_drift: 0.0,
+        ..Settings::default()
+    };
+    let restarted = Controller::restarted(std::sync::Arc::new(settings));
+    let mut owner = controller(OWNER);
+    owner.agent = restarted;
+    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(ROBOT, bid_of(7));
+    let is_call = |sent: &Dispatch| matches!(sent, Dispatch::Call { .. });
+    assert!(!sent_any(&owner.wait(39.0), is_call));
+    assert_eq!(assignee_of(&owner), None);
+    assert!(sent_any(&owner.wait(2.0), is_call));
+    owner.take(ROBOT, bid_of(8));
+    owner.wait(2.0);
+    assert_eq!(assignee_of(&owner), Some(ROBOT));
 }
