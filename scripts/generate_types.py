@@ -10,7 +10,6 @@ import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
@@ -223,7 +222,7 @@ def typed_dict(name: str, schema: Schema) -> str:
         return alias("Json", "Any", description)
     if choices(schema):
         return alias(class_name(name), python(schema), description)
-    if all(map(only_key, dicts(schema) or [{}])):
+    if all(map(only_key, alternatives(schema) or [{}])):
         return union_of_keys(class_name(name), schema)
     if schema.get("type") != "object":
         return alias(class_name(name), python(schema), description)
@@ -237,33 +236,22 @@ def alias(name: str, value: str, description: str) -> str:
 
 def union_of_keys(name: str, schema: Schema) -> str:
     """Return the type of a dict with one of some keys, and the types of its values."""
-    keys = [key for part in dicts(schema) if (key := only_key(part))]
+    keys = [key for part in alternatives(schema) if (key := only_key(part))]
+    inline = {key.name for key in keys if key.schema.get("type") == "object"}
     parts = {
-        key.name: f"{name}{class_name(key.name)}" if fields(key.schema) else python(key.schema)
+        key.name: f"{name}{class_name(key.name)}" if key.name in inline else python(key.schema)
         for key in keys
     }
     inner = [
         record(parts[key.name], plain(part["description"]), fields(key.schema))
-        for key, part in zip(keys, dicts(schema), strict=True)
-        if fields(key.schema)
+        for key, part in zip(keys, alternatives(schema), strict=True)
+        if key.name in inline
     ]
-    words = [part["const"] for part in alternatives(schema) if "const" in part]
-    of_keys = f"{name}ByKey" if words else name
-    text = docstring(f"{plain(schema['description'])} It has one of these keys.")
-    if any(map(iskeyword, parts)):
-        entries = ", ".join(f'"{key}": {inside}' for key, inside in parts.items())
-        lines = [f'{of_keys} = TypedDict("{of_keys}", {{{entries}}}, total=False)', text]
-    else:
-        lines = [f"class {of_keys}(TypedDict, total=False):", textwrap.indent(text, "    ")]
-        lines += [f"    {key}: {inside}" for key, inside in parts.items()]
-    literal = f"Literal[{', '.join(map(repr, words))}] | {of_keys}"
-    either = [alias(name, literal, plain(schema["description"]))] if words else []
-    return "\n\n\n".join([*inner, "\n".join(lines), *either])
-
-
-def dicts(schema: Schema) -> list[Schema]:
-    """Return the alternatives of a schema that are no words."""
-    return [part for part in alternatives(schema) if "const" not in part]
+    lines = [f"class {name}(TypedDict, total=False):"]
+    text = f"{plain(schema['description'])} It has one of these keys."
+    lines.append(textwrap.indent(docstring(text), "    "))
+    lines += [f"    {key}: {inside}" for key, inside in parts.items()]
+    return "\n\n\n".join([*inner, "\n".join(lines)])
 
 
 def record(name: str, description: str, keys: list[Field], *, is_total: bool = False) -> str:
@@ -442,7 +430,8 @@ def javascript_of_kind(kind: str, schema: Schema) -> str:
             item = javascript(schema["items"])
             return f"({item})[]" if "|" in item else f"{item}[]"
         case "object" if "additionalProperties" in schema and "properties" not in schema:
-            return f"Record<string, {javascript(schema['additionalProperties'])}>"
+            values = schema["additionalProperties"]
+            return f"Record<string, {javascript(values) if values else 'never'}>"
         case "object":
             keys = (f"{key.name}: {javascript(key.schema)}" for key in fields(schema))
             return f"{{ {'; '.join(keys)} }}"

@@ -2,6 +2,7 @@
 
 use crate::metric_scenario::name_of;
 use crate::simulation::Simulation;
+use brain::{GoalId, Reason};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -24,7 +25,7 @@ const NUMBERS: [(&str, NumberOf); 9] = [
 ];
 
 /// The goals of a run, by column: `name` (KIND/INDEX), `issuer` and `number` of the id, the numbers above, `served_by`,
-/// `served_twice` and `expired`.
+/// `served_twice` and `expired`. The robot of a goal that was not served is empty.
 #[pyfunction]
 pub(crate) fn goals<'py>(
     py: Python<'py>,
@@ -45,16 +46,19 @@ pub(crate) fn goals<'py>(
         dict.set_item(name, numbers.into_pyarray(py))?;
     }
     let robots = goals.iter().map(|goal| goal.served_by);
-    let robots = robots.map(|id| id.map(|id| name_of(scenario, id)));
+    let robots = robots.map(|id| id.map_or_else(String::new, |id| name_of(scenario, id)));
     dict.set_item("served_by", robots.collect::<Vec<_>>())?;
-    let flags = |of: fn(&Goal) -> bool| goals.iter().map(of).collect::<Vec<_>>();
+    let flags = |of: fn(&Goal) -> bool| {
+        let flags: Vec<bool> = goals.iter().map(of).collect();
+        flags.into_pyarray(py)
+    };
     dict.set_item("served_twice", flags(|goal| goal.is_served_twice))?;
     dict.set_item("expired", flags(|goal| goal.has_expired))?;
     Ok(dict)
 }
 
 /// The controllers of a run, each as a dict with its `name` (KIND/INDEX), `x_m`, `y_m`, `aboard`, `range_m`, `working`,
-/// `refused`, and the `goals` that it owns as far as it knows.
+/// `refused`, the `goals` that it owns as far as it knows, and `orphans`.
 #[pyfunction]
 pub(crate) fn controllers<'py>(
     py: Python<'py>,
@@ -84,20 +88,35 @@ fn dict_of<'py>(
     dict.set_item("refused", controller.refused)?;
     let owned = controller.goals.iter().map(|owned| {
         let dict = PyDict::new(py);
-        let goal = goals.iter().find(|goal| goal.id == owned.task.id);
-        dict.set_item("goal", goal.map(|goal| goal_name(scenario, goal)))?;
+        dict.set_item("goal", name_of_goal(scenario, owned.task.id, goals))?;
         let [x_m, y_m] = owned.task.at_m;
         dict.set_item("x_m", x_m)?;
         dict.set_item("y_m", y_m)?;
         let assignee = owned.assignee.map(|(id, _)| name_of(scenario, id));
         dict.set_item("assignee", assignee)?;
         dict.set_item("lease_s", owned.assignee.map(|(_, lease_s)| lease_s))?;
+        dict.set_item("unserved", reason(owned.unserved))?;
         let heir = owned.heir.map(|(id, _)| name_of(scenario, id));
         dict.set_item("heir", heir)?;
         Ok(dict)
     });
     dict.set_item("goals", owned.collect::<PyResult<Vec<_>>>()?)?;
+    let orphans = controller.orphans.iter();
+    let orphans = orphans.map(|task| name_of_goal(scenario, task.id, goals));
+    dict.set_item("orphans", orphans.collect::<Vec<_>>())?;
     Ok(dict)
+}
+
+/// The word for a reason for which no robot can serve a goal.
+fn reason(why: Option<Reason>) -> Option<String> {
+    let word = serde_json::to_value(why?).ok()?;
+    word.as_str().map(str::to_owned)
+}
+
+/// The name of the goal of an id; `None` if it is not of the scenario.
+fn name_of_goal(scenario: &Scenario, id: GoalId, goals: &[Goal]) -> Option<String> {
+    let goal = goals.iter().find(|goal| goal.id == id);
+    goal.map(|goal| goal_name(scenario, goal))
 }
 
 /// The name of a goal: KIND/INDEX.

@@ -16,6 +16,7 @@ EVENTS = {
     "collisions",
     "false_alarms",
     "goals_refused",
+    "leases_lapsed",
     "messages_dropped",
     "messages_sent",
     "paints",

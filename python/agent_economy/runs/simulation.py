@@ -423,7 +423,8 @@ class Simulation(Stepped):
         The columns are `name` (KIND/INDEX), `issuer` and `number` of its id in messages, `x_m`,
         `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
         `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
-        `blocked_s` (time for which it stood under way), `served_by`, `served_twice` and `expired`.
+        `blocked_s` (time for which it stood under way), `served_by` (empty if it was not served),
+        `served_twice` and `expired`.
         """
         goals: dict[str, Any] = _core.goals(self._run)
         return arrow.table(
@@ -438,10 +439,11 @@ class Simulation(Stepped):
         """The controllers, with the goals that they own as far as they know.
 
         Each has `name` (KIND/INDEX), `x_m`, `y_m`, `aboard` (a robot, or None), `range_m`,
-        `working`, `refused` (the number of goals refused), and `goals`, each with `goal`
-        (KIND/INDEX, or None for a goal that is not of the scenario), `x_m`, `y_m`, `assignee` (the
-        robot that it is awarded to, or None), `lease_s` (the remaining time of that robot's
-        lease, or None) and `heir` (a controller, or None).
+        `working`, `refused` (the number of goals refused), `orphans` (names of goals that it owned
+        until their lease ended), and `goals`, each with `goal` (KIND/INDEX, or None for a goal that
+        is not of the scenario), `x_m`, `y_m`, `assignee` (the robot that it is awarded to, or
+        None), `lease_s` (the remaining time of that robot's lease, or None), `heir` (a controller,
+        or None) and `unserved` (why no robot can serve it, or None).
         """
         return _core.controllers(self._run)
 

@@ -224,6 +224,10 @@ class Seen(TypedDict):
     at_m: Sequence[float]
 
 
+class DispatchQuery(TypedDict):
+    """From a controller to robots: a request of a report."""
+
+
 class DispatchCall(TypedDict):
     """From a controller to robots: a goal that they can bid for.
 
@@ -239,45 +243,38 @@ class DispatchCall(TypedDict):
     task: Task
 
 
-DispatchByKey = TypedDict(
-    "DispatchByKey",
-    {
-        "issue": Task,
-        "serial": int,
-        "report": Report,
-        "fitness": Fitness,
-        "call": DispatchCall,
-        "bid": Bid,
-        "award": Award,
-        "commit": Claim,
-        "refuse": Refusal,
-        "done": Claim,
-        "stuck": Refusal,
-        "release": Claim,
-        "withdraw": Claim,
-        "renew": Renewal,
-        "renewed": int,
-        "differs": int,
-        "renew_one": Claim,
-        "renewed_one": Claim,
-        "seen": Seen,
-        "entrust": Task,
-        "entrusted": Award,
-        "relieve": Claim,
-        "relieved": Claim,
-        "return": Task,
-        "bind": Award,
-    },
-    total=False,
-)
-"""A message about a goal that a controller owns or awards.
+class Dispatch(TypedDict, total=False):
+    """A message about a goal that a controller owns or awards.
 
-It has one of these keys.
-"""
+    It has one of these keys.
+    """
 
-
-Dispatch: TypeAlias = Literal["query"] | DispatchByKey
-"""A message about a goal that a controller owns or awards."""
+    issue: Task
+    serial: int
+    query: DispatchQuery
+    report: Report
+    fitness: Fitness
+    call: DispatchCall
+    bid: Bid
+    award: Award
+    commit: Claim
+    refuse: Refusal
+    done: Claim
+    stuck: Refusal
+    release: Claim
+    withdraw: Claim
+    renew: Renewal
+    renewed: int
+    differs: int
+    renew_one: Claim
+    renewed_one: Claim
+    seen: Seen
+    entrust: Task
+    entrusted: Award
+    relieve: Claim
+    relieved: Claim
+    restore: Task
+    bind: Award
 
 
 class AboutItem(TypedDict):

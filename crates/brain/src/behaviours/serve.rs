@@ -39,7 +39,7 @@ impl Default for Serve {
         Self {
             speed_m_s: None,
             value: 1.0,
-            max_goals: 8,
+            max_goals: 4,
         }
     }
 }
@@ -84,6 +84,7 @@ impl Behaviour for Ready {
         let moment = Moment {
             percept: situation.percept,
             body: situation.body,
+            map: beliefs.map.as_ref(),
             at: beliefs.pose().map(|pose| pose.at),
             elapsed_s: situation.elapsed_s,
             battery_s: beliefs.battery_s(),

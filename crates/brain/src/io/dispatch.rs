@@ -6,6 +6,7 @@ use super::body::RobotId;
 use super::goal_id::GoalId;
 use super::verdict::Verdict;
 
+use base::geometry::Point;
 use base::hash::Hash;
 use base::hashed::Hashed;
 use schemars::JsonSchema;
@@ -14,17 +15,17 @@ use serde::{Deserialize, Serialize};
 /// Defines the messages, and their numbers in hashes.
 macro_rules! dispatch {
     ($($(#[doc = $purpose:literal])+ $number:literal $kind:ident
-        $(($content:ty))? $({$($(#[doc = $what:literal])+ $field:ident: $type:ty,)+})?,)+) => {
+        $(($content:ty))? $({$($(#[doc = $what:literal])+ $field:ident: $type:ty,)*})?,)+) => {
         /// A message about a goal that a controller owns or awards.
         #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(rename_all = "snake_case", deny_unknown_fields)]
         pub enum Dispatch {
-            $($(#[doc = $purpose])+ $kind $(($content))? $({$($(#[doc = $what])+ $field: $type,)+})?,)+
+            $($(#[doc = $purpose])+ $kind $(($content))? $({$($(#[doc = $what])+ $field: $type,)*})?,)+
         }
 
         impl Hashed for Dispatch {
             fn add_to(&self, hash: &mut Hash) {
-                $(dispatch!(@hash self hash $number $kind $(($content))? $({$($field)+})?);)+
+                $(dispatch!(@hash self hash $number $kind $(($content))? $({$($field)*})?);)+
             }
         }
     };
@@ -33,15 +34,10 @@ macro_rules! dispatch {
             ($number as u8, *content).add_to($hash);
         }
     };
-    (@hash $self:ident $hash:ident $number:literal $kind:ident {$($field:ident)+}) => {
-        if let Self::$kind { $($field),+ } = $self {
+    (@hash $self:ident $hash:ident $number:literal $kind:ident {$($field:ident)*}) => {
+        if let Self::$kind { $($field),* } = $self {
             ($number as u8).add_to($hash);
-            $($field.add_to($hash);)+
-        }
-    };
-    (@hash $self:ident $hash:ident $number:literal $kind:ident) => {
-        if let Self::$kind = $self {
-            ($number as u8).add_to($hash);
+            $($field.add_to($hash);)*
         }
     };
 }
@@ -52,7 +48,7 @@ dispatch! {
     /// From a controller to all: it is present, and has this serial number.
     1 Serial(u32),
     /// From a controller to robots: a request of a report.
-    2 Query,
+    2 Query {},
     /// From a robot to controllers: its state.
     3 Report(Report),
     /// From a robot to the owner of a goal that it serves: its progress.
@@ -104,7 +100,7 @@ dispatch! {
     /// The answer to it: it is no longer the heir.
     23 Relieved(Claim),
     /// From an heir that owns a goal to the previous owner: it can have it back.
-    24 Return(Task),
+    24 Restore(Task),
     /// From an owner to its heir: from now on, it owns the goal only while the heir renews its lease.
     /// The number is that of the answer to which it refers, the duration that of its longest service
     /// lease.
@@ -119,7 +115,7 @@ impl Dispatch {
             Self::Issue(task)
             | Self::Call { task, .. }
             | Self::Entrust(task)
-            | Self::Return(task) => Some(task),
+            | Self::Restore(task) => Some(task),
             _ => None,
         }
     }
@@ -160,6 +156,12 @@ base::hashed!(Task {
 });
 
 impl Task {
+    /// Its position in the world.
+    #[must_use]
+    pub fn at(&self) -> Point {
+        Point::from(self.at_m.map(f64::from))
+    }
+
     /// Whether all of its numbers are finite and plausible.
     #[must_use]
     pub fn is_valid(&self) -> bool {
@@ -375,7 +377,7 @@ mod tests {
             hash.value()
         };
         let all = [
-            Dispatch::Query,
+            Dispatch::Query {},
             Dispatch::Serial(7),
             Dispatch::Renewed(7),
             Dispatch::Commit(claim),

@@ -3,6 +3,7 @@
 use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
+use crate::perception::beliefs::Map;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -47,15 +48,12 @@ impl Ability {
 pub(crate) struct Moment<'s> {
     pub(crate) percept: &'s Percept,
     pub(crate) body: &'s Body,
+    /// Its map, if it has one.
+    pub(crate) map: Option<&'s Map>,
     /// Its position, if known.
     pub(crate) at: Option<Point>,
     pub(crate) elapsed_s: f64,
     /// Remaining time of the battery, and its charge if known.
     pub(crate) battery_s: f64,
     pub(crate) charge: Option<f64>,
-}
-
-/// The position of a goal.
-pub(crate) fn place(task: &Task) -> Point {
-    Point::from(task.at_m.map(f64::from))
 }

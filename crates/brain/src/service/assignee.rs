@@ -1,51 +1,41 @@
 //! The robot's half of the protocol: it bids for goals, serves those that it is awarded while it
 //! holds their leases, and reports.
 
-use super::ability::{Ability, Moment, place};
-use super::bidding::{Bidder, Estimate};
+use super::ability::{Ability, Moment};
 use super::failures::Failures;
 use super::finished::Finished;
-use super::holder::{Holder, Lease};
+use super::holder::Holder;
 use super::jobs::{Job, Jobs};
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
-use super::schedule::{Schedule, StandingBid};
+use super::schedule::Schedule;
 use crate::io::body::RobotId;
-use crate::io::dispatch::{Award, Claim, Dispatch, Fitness, Reason, Refusal, Report};
+use crate::io::dispatch::{Award, Claim, Dispatch, Reason};
 use crate::io::goal_id::GoalId;
 use crate::io::message::{About, Message};
-use crate::io::percept::{Percept, ReceivedMessage};
+use crate::io::percept::ReceivedMessage;
 use crate::io::verdict::Verdict;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// Minimum time between two attempts to renew, in seconds.
-const RETRY_S: f64 = 0.5;
-
-/// Leases are renewed when this part of their duration is left.
-const RENEWED_AT: f64 = 2.0 / 3.0;
-
 /// Time for which an impossible goal is served after all others, in seconds.
 const REST_S: f64 = 10.0;
-
-/// Maximum number of leases that are renewed one by one in a step.
-const MAX_RENEWALS: usize = 8;
 
 /// A robot as the assignee of goals.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Assignee {
     /// The robot's clock.
     pub(crate) now_s: f64,
-    numbers: Numbers,
+    pub(super) numbers: Numbers,
     pub(crate) holder: Holder,
     pub(crate) jobs: Jobs,
-    offers: Offers,
-    failures: Failures,
-    finished: Finished,
-    schedule: Schedule,
+    pub(super) offers: Offers,
+    pub(super) failures: Failures,
+    pub(super) finished: Finished,
+    pub(super) schedule: Schedule,
     /// The goal that it proposed last.
-    proposed: Option<GoalId>,
-    outbox: Vec<Message>,
+    pub(super) proposed: Option<GoalId>,
+    pub(super) outbox: Vec<Message>,
 }
 
 base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, proposed } without { outbox });
@@ -61,6 +51,7 @@ impl Assignee {
         self.schedule.advance(self.now_s);
         self.offers.expire(self.now_s);
         self.stop_before_end(moment);
+        self.return_goals(ability, moment);
         for received in &moment.percept.inbox {
             self.receive(received, ability, moment);
         }
@@ -110,19 +101,38 @@ impl Assignee {
             .retain(|contact| is_unchanged(contact.id));
     }
 
-    fn send(&mut self, to: RobotId, dispatch: Dispatch) {
+    pub(super) fn send(&mut self, to: RobotId, dispatch: Dispatch) {
         self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
     }
 
-    /// Drops the goals whose lease ends before the next step, and those whose deadline has passed.
+    /// Drops the goals whose lease ends before the next step.
     fn stop_before_end(&mut self, moment: &Moment) {
         let step_s = moment.body.period_s.max(moment.elapsed_s.min(1.0));
         for goal in self.holder.expire(self.now_s + step_s) {
             self.jobs.remove(goal);
         }
-        let late = self.jobs.list.iter().find(|job| self.now_s > job.due_at_s);
-        if let Some(goal) = late.map(|job| job.task.id) {
-            self.report_failure(goal, Reason::Deadline);
+    }
+
+    /// Returns a goal whose deadline has passed, or for which the battery does not last.
+    fn return_goals(&mut self, ability: &Ability, moment: &Moment) {
+        let Some(at) = moment.at else {
+            return;
+        };
+        let needed_s = |job: &Job| {
+            let path_s = at.to(job.target(ability).0).length() / ability.speed_m_s;
+            path_s + job.left_s()
+        };
+        let hopeless = self.jobs.list.iter().find_map(|job| {
+            if self.now_s > job.due_at_s {
+                Some((job.task.id, Reason::Deadline))
+            } else if needed_s(job) > moment.battery_s {
+                Some((job.task.id, Reason::Battery))
+            } else {
+                None
+            }
+        });
+        if let Some((goal, reason)) = hopeless {
+            self.report_failure(goal, reason);
             self.release(goal);
         }
     }
@@ -137,7 +147,7 @@ impl Assignee {
         }
         self.schedule.note(from, self.now_s);
         match dispatch {
-            Dispatch::Query => self.schedule.report_now(from, self.now_s),
+            Dispatch::Query {} => self.schedule.report_now(from, self.now_s),
             Dispatch::Call { number, task } if task.is_valid() => {
                 let is_only_one = received.message.to != RobotId::EVERYONE;
                 let offer = Offer::new(task, from, number, self.now_s);
@@ -174,17 +184,6 @@ impl Assignee {
                 Err(reason) => self.refuse(offer.owner, goal, offer.call.into(), reason),
             }
         }
-    }
-
-    fn estimate(
-        &self,
-        offer: &Offer,
-        ability: &Ability,
-        moment: &Moment,
-    ) -> Result<Estimate, Reason> {
-        let known = (&self.jobs, &self.failures);
-        let bidder = Bidder::new(ability, known, moment, self.now_s);
-        bidder.map_or(Err(Reason::Unreachable), |bidder| bidder.estimate(offer))
     }
 
     fn take_award(&mut self, from: RobotId, award: Award, ability: &Ability, moment: &Moment) {
@@ -297,166 +296,6 @@ impl Assignee {
             self.finished
                 .add(Claim { goal, number }, job.owner, self.now_s);
         }
-    }
-
-    /// Bids for the best offer of each controller, unless the last bid still stands.
-    fn bid(&mut self, ability: &Ability, moment: &Moment) {
-        let is_full = self.jobs.list.len() >= ability.max_goals;
-        if is_full || !self.schedule.is_turn(moment.percept) {
-            return;
-        }
-        let known = (&self.jobs, &self.failures);
-        let Some(bidder) = Bidder::new(ability, known, moment, self.now_s) else {
-            return;
-        };
-        let mut best: Vec<Estimate> = Vec::new();
-        for offer in self.offers.iter() {
-            let Ok(estimate) = bidder.estimate(offer) else {
-                continue;
-            };
-            let mut others = best.iter_mut();
-            match others.find(|other| other.offer.owner == offer.owner) {
-                Some(other) if estimate.cost_s() < other.cost_s() => *other = estimate,
-                Some(_) => {}
-                None => best.push(estimate),
-            }
-        }
-        for estimate in best {
-            let Offer {
-                owner, call, task, ..
-            } = estimate.offer;
-            let standing = self.schedule.bid_to(owner);
-            let stands = standing
-                .is_some_and(|bid| bid.stands(task.id, call, self.jobs.version, self.now_s));
-            if !stands {
-                self.send_bid(&estimate, moment.percept);
-            }
-        }
-    }
-
-    fn send_bid(&mut self, estimate: &Estimate, percept: &Percept) {
-        let Offer {
-            owner, call, task, ..
-        } = estimate.offer;
-        let number = self.numbers.next(percept);
-        self.holder
-            .request(number, owner, Some(task.id), self.now_s);
-        self.outbox.push(Message {
-            to: owner,
-            about: About::Dispatch(Dispatch::Bid(estimate.bid(number))),
-            confidence: estimate.confidence,
-        });
-        let bid = StandingBid {
-            goal: task.id,
-            call,
-            sent_s: self.now_s,
-            jobs: self.jobs.version,
-        };
-        self.schedule.set_bid(owner, bid);
-    }
-
-    /// Renews the leases of each controller when a third of one has passed.
-    fn renew(&mut self, percept: &Percept) {
-        for index in 0..self.schedule.contacts.len() {
-            let contact = &self.schedule.contacts[index];
-            let (id, next_s) = (contact.id, contact.next_renewal_s);
-            let is_due = |lease: &Lease| {
-                let is_own = lease.grantor == id;
-                is_own && lease.until_s - self.now_s < RENEWED_AT * lease.lasts_s
-            };
-            if self.now_s < next_s || !self.holder.leases().iter().any(is_due) {
-                continue;
-            }
-            let number = self.numbers.next(percept);
-            if let Some(renewal) = self.holder.renewal(id, number) {
-                self.holder.request(number, id, None, self.now_s);
-                self.send(id, Dispatch::Renew(renewal));
-                self.schedule.contacts[index].next_renewal_s = self.now_s + RETRY_S;
-            }
-        }
-    }
-
-    /// Renews the leases of a controller one by one, those that end first.
-    fn renew_each(&mut self, from: RobotId, percept: &Percept) {
-        let own = self.holder.leases().iter();
-        let own = own.filter(|lease| lease.grantor == from);
-        let mut own: Vec<Lease> = own.copied().collect();
-        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
-        for lease in own.into_iter().take(MAX_RENEWALS) {
-            let number = self.numbers.next(percept);
-            let goal = lease.goal;
-            self.holder.request(number, from, Some(goal), self.now_s);
-            self.send(from, Dispatch::RenewOne(Claim { goal, number }));
-        }
-    }
-
-    /// Reports the goals that have been served, and now and then the robot's state.
-    fn report(&mut self, ability: &Ability, moment: &Moment) {
-        let done: Vec<(RobotId, Claim)> = self.finished.due(self.now_s).collect();
-        for (owner, claim) in done {
-            self.send(owner, Dispatch::Done(claim));
-        }
-        let Some(at) = moment.at else {
-            return;
-        };
-        let receivers: Vec<RobotId> = self.schedule.due(self.now_s).collect();
-        for to in receivers {
-            self.send(to, Dispatch::Report(self.state(ability, moment, at)));
-            if let Some(fitness) = self.fitness(to, ability, at) {
-                self.send(to, Dispatch::Fitness(fitness));
-            }
-        }
-    }
-
-    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-    fn state(&self, ability: &Ability, moment: &Moment, at: Point) -> Report {
-        let goals = self.jobs.list.len();
-        let free = ability.max_goals.saturating_sub(goals);
-        Report {
-            at_m: [at.x as f32, at.y as f32],
-            speed_m_s: ability.speed_m_s as f32,
-            battery: moment.charge.unwrap_or(1.0) as f32,
-            goals: u16::try_from(goals).unwrap_or(u16::MAX),
-            payload: u16::try_from(free).unwrap_or(u16::MAX),
-        }
-    }
-
-    /// The progress towards the first goal of a controller.
-    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-    fn fitness(&self, owner: RobotId, ability: &Ability, at: Point) -> Option<Fitness> {
-        let job = self.jobs.list.iter().find(|job| job.owner == owner)?;
-        let away_m = at.to(place(&job.task)).length();
-        let remaining_s = away_m / ability.speed_m_s + ability.work_s(&job.task) - job.served_s;
-        Some(Fitness {
-            goal: job.task.id,
-            verdict: job.verdict,
-            remaining_s: remaining_s as f32,
-        })
-    }
-
-    fn report_failure(&mut self, goal: GoalId, reason: Reason) {
-        if let Some(lease) = self.holder.lease(goal) {
-            let (to, number) = (lease.grantor, lease.number);
-            self.send(
-                to,
-                Dispatch::Stuck(Refusal {
-                    goal,
-                    number,
-                    reason,
-                }),
-            );
-        }
-    }
-
-    fn refuse(&mut self, to: RobotId, goal: GoalId, number: u32, reason: Reason) {
-        self.send(
-            to,
-            Dispatch::Refuse(Refusal {
-                goal,
-                number,
-                reason,
-            }),
-        );
     }
 
     /// Ends a lease by message.

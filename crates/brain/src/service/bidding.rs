@@ -1,9 +1,10 @@
 //! What a robot bids: the increment of the shortest path through its goals.
 
-use super::ability::{Ability, Moment, place};
+use super::ability::{Ability, Moment};
 use super::failures::Failures;
 use super::jobs::Jobs;
 use super::offers::Offer;
+use super::reach::Reach;
 use crate::goals::precedence::reachable_probability;
 use crate::goals::tour::Tour;
 use crate::io::dispatch::{Bid, Reason};
@@ -15,6 +16,7 @@ pub(crate) struct Bidder<'b> {
     moment: &'b Moment<'b>,
     now_s: f64,
     tour: Tour,
+    reach: Reach<'b>,
     /// Time for all goals that it serves.
     busy_s: f64,
     is_full: bool,
@@ -37,7 +39,8 @@ impl<'b> Bidder<'b> {
         moment: &'b Moment<'b>,
         now_s: f64,
     ) -> Option<Self> {
-        let tour = jobs.tour(moment.at?);
+        let at = moment.at?;
+        let tour = jobs.tour(at);
         let work_s = jobs.list.iter().map(|job| ability.work_s(&job.task));
         Some(Self {
             busy_s: work_s.sum::<f64>() + tour.length_m / ability.speed_m_s,
@@ -47,6 +50,7 @@ impl<'b> Bidder<'b> {
             moment,
             now_s,
             tour,
+            reach: Reach::new(moment, at),
         })
     }
 
@@ -56,14 +60,14 @@ impl<'b> Bidder<'b> {
         if let Some(reason) = ability.lacks(task) {
             return Err(reason);
         }
-        if self.failures.is_resting(task.id, self.now_s) {
+        if self.failures.is_resting(task.id, self.now_s) || !self.reach.contains(task.at()) {
             return Err(Reason::Unreachable);
         }
         if self.is_full {
             return Err(Reason::Full);
         }
         let work_s = ability.work_s(task);
-        let time_s = self.tour.increment_m(place(task)) / ability.speed_m_s + work_s;
+        let time_s = self.tour.increment_m(task.at()) / ability.speed_m_s + work_s;
         let all_s = self.busy_s + time_s;
         if self.moment.battery_s < all_s {
             return Err(Reason::Battery);
@@ -82,7 +86,7 @@ impl<'b> Bidder<'b> {
 
     /// Time until the robot would be there, at the latest.
     fn arrival_s(&self, offer: &Offer) -> f64 {
-        let at = place(&offer.task);
+        let at = offer.task.at();
         let others_s = self.busy_s - self.tour.length_m / self.ability.speed_m_s;
         self.tour.arrival_m(at) / self.ability.speed_m_s + others_s
     }

@@ -1,6 +1,6 @@
 //! The goals that a robot serves, in the order in which it serves them.
 
-use super::ability::{Ability, place};
+use super::ability::Ability;
 use super::lanes;
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
@@ -57,7 +57,7 @@ impl Job {
             Work::Search => lanes::corner(&self.task, ability.lane_m, self.corners),
         };
         let near_m = (ability.lane_m / 4.0).clamp(0.2, 2.0);
-        corner.map_or((place(&self.task), radius_m), |corner| (corner, near_m))
+        corner.map_or((self.task.at(), radius_m), |corner| (corner, near_m))
     }
 
     /// Whether it remains only to be there for the time of service.
@@ -112,7 +112,7 @@ impl Jobs {
 
     /// The shortest path from a position through all goals.
     pub(crate) fn tour(&self, at: Point) -> Tour {
-        let places = self.list.iter().map(|job| place(&job.task));
+        let places = self.list.iter().map(|job| job.task.at());
         let places: Vec<Point> = places.collect();
         Tour::new(at, &places)
     }

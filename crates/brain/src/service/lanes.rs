@@ -15,10 +15,10 @@ pub(crate) fn corner(task: &Task, lane_m: f64, number: u32) -> Option<Point> {
         return None;
     }
     let up_m = radius_m * ((2.0 * lane + 1.0) / lanes - 1.0);
-    let half_m = libm::sqrt((radius_m * radius_m - up_m * up_m).max(0.0));
+    let side_m = libm::sqrt((radius_m * radius_m - up_m * up_m).max(0.0));
     let is_right = matches!(number % 4, 1 | 2);
-    let right_m = if is_right { half_m } else { -half_m };
-    let at = super::ability::place(task);
+    let right_m = if is_right { side_m } else { -side_m };
+    let at = task.at();
     Some(at.plus(Point {
         x: right_m,
         y: up_m,

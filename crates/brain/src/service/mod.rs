@@ -2,12 +2,14 @@
 //!
 //! * [`numbers`]: numbers of requests, which never repeat;
 //! * [`holder`] and [`grantor`]: the two halves of a lease, for robots and controllers;
-//! * [`assignee`]: the robot's half, a step as a table of contents, with [`bidding`], the [`jobs`]
-//!   that it serves, its known [`offers`], its [`failures`], and when it sends what ([`schedule`]).
+//! * [`assignee`]: the robot's half, a step as a table of contents, with [`bids`],
+//!   [`renewals`] and [`reporting`], the [`jobs`] that it serves, its known [`offers`], its
+//!   [`failures`], and when it sends what ([`schedule`]).
 
 pub(crate) mod ability;
 pub(crate) mod assignee;
 mod bidding;
+mod bids;
 mod failures;
 mod finished;
 pub(crate) mod grantor;
@@ -16,6 +18,9 @@ mod jobs;
 mod lanes;
 pub(crate) mod numbers;
 mod offers;
+mod reach;
+mod renewals;
+mod reporting;
 mod schedule;
 pub(crate) mod served;
 mod set_hash;

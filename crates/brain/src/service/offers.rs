@@ -16,9 +16,11 @@ const LIFE_S: f64 = 60.0;
 pub(crate) struct Offers {
     /// By the times of their last calls, the oldest first.
     list: Vec<Offer>,
+    /// Number of changes.
+    pub(crate) version: u32,
 }
 
-base::hashed!(Offers { list });
+base::hashed!(Offers { list, version });
 
 /// A goal for which a controller has called for bids.
 #[derive(Debug, Clone, Copy)]
@@ -55,16 +57,23 @@ impl Offer {
 impl Offers {
     /// Notes a call; returns whether it is new.
     pub(crate) fn put(&mut self, offer: Offer) -> bool {
-        let known = self.remove(offer.task.id);
+        let known = self.take(offer.task.id);
         if self.list.len() == MAX_OFFERS {
             self.list.remove(0);
         }
         self.list.push(offer);
         let is_same = |known: &Offer| known.call == offer.call && known.owner == offer.owner;
-        !known.as_ref().is_some_and(is_same)
+        let is_new = !known.as_ref().is_some_and(is_same);
+        self.version = self.version.wrapping_add(is_new.into());
+        is_new
     }
 
-    pub(crate) fn remove(&mut self, goal: GoalId) -> Option<Offer> {
+    pub(crate) fn remove(&mut self, goal: GoalId) {
+        let is_known = self.take(goal).is_some();
+        self.version = self.version.wrapping_add(is_known.into());
+    }
+
+    fn take(&mut self, goal: GoalId) -> Option<Offer> {
         let index = self.list.iter().position(|offer| offer.task.id == goal)?;
         Some(self.list.remove(index))
     }

@@ -8,6 +8,9 @@ use alloc::vec::Vec;
 /// A bid is repeated after this time, because its lease counts from sending it, in seconds.
 const BID_LIFE_S: f64 = 4.0;
 
+/// Bids are computed again after this time, in seconds.
+const BID_PERIOD_S: f64 = 1.0;
+
 /// Time between two reports to a controller, in seconds.
 const REPORT_PERIOD_S: f64 = 3.0;
 
@@ -67,9 +70,15 @@ impl StandingBid {
 pub(crate) struct Schedule {
     pub(crate) contacts: Vec<Contact>,
     steps: u32,
+    /// Versions of offers and goals at the last bids, and when these were computed.
+    bid_for: Option<([u32; 2], f64)>,
 }
 
-base::hashed!(Schedule { contacts, steps });
+base::hashed!(Schedule {
+    contacts,
+    steps,
+    bid_for
+});
 
 impl Schedule {
     /// Counts a step, and forgets silent controllers.
@@ -97,8 +106,8 @@ impl Schedule {
         contact
     }
 
-    /// The last bid to a controller.
-    pub(crate) fn bid_to(&self, id: RobotId) -> Option<StandingBid> {
+    /// The last bid that a controller received.
+    pub(crate) fn bid_of(&self, id: RobotId) -> Option<StandingBid> {
         self.contacts.iter().find(|contact| contact.id == id)?.bid
     }
 
@@ -109,10 +118,17 @@ impl Schedule {
         }
     }
 
-    /// Whether it is the robot's turn to bid.
-    pub(crate) fn is_turn(&self, percept: &Percept) -> bool {
+    /// Whether it is the robot's turn to bid, and offers or goals have changed or some time has passed.
+    pub(crate) fn is_turn(&mut self, percept: &Percept, versions: [u32; 2], now_s: f64) -> bool {
         let turns = (percept.team_size / BIDS_PER_STEP).clamp(1, MAX_TURNS);
-        self.steps % turns == percept.id.index % turns
+        let is_same =
+            |(known, at_s): &([u32; 2], f64)| *known == versions && now_s < at_s + BID_PERIOD_S;
+        let is_turn = self.steps % turns == percept.id.index % turns
+            && !self.bid_for.as_ref().is_some_and(is_same);
+        if is_turn {
+            self.bid_for = Some((versions, now_s));
+        }
+        is_turn
     }
 
     /// The controllers to which a report is due.

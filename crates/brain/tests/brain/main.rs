@@ -12,6 +12,7 @@ mod layers;
 mod orders;
 mod percepts;
 mod poses;
+mod serve;
 mod times;
 mod trust;
 

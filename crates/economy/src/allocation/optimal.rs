@@ -45,27 +45,35 @@ pub(super) fn choose(market: &Market) -> Vec<Pair> {
 #[must_use]
 pub fn assignment([rows, columns]: [usize; 2], costs: &[f64]) -> Vec<Option<usize>> {
     let at = |row: usize, column: usize| costs.get(row * columns + column).copied();
-    let allowed = |row, column| at(row, column).filter(|cost| cost.is_finite());
+    let allowed = |row: usize, column: usize| at(row, column).filter(|cost| cost.is_finite());
+    // Without the rows and columns that cannot be assigned, which would make all paths long.
+    let own = |row: &usize| (0..columns).any(|column| allowed(*row, column).is_some());
+    let left: Vec<usize> = (0..rows).filter(own).collect();
+    let other = |column: &usize| left.iter().any(|row| allowed(*row, *column).is_some());
+    let right: Vec<usize> = (0..columns).filter(other).collect();
     let most = costs.iter().filter(|cost| cost.is_finite());
     let most = most.fold(0.0, |most: f64, cost| most.max(cost.abs()));
     // A forbidden pair costs more than any assignment without it.
     #[expect(clippy::cast_precision_loss, reason = "some thousands")]
-    let forbidden = 2.0 * (most + 1.0) * (rows.min(columns) + 1) as f64;
-    let cost = |row, column| allowed(row, column).unwrap_or(forbidden);
+    let forbidden = 2.0 * (most + 1.0) * (left.len().min(right.len()) + 1) as f64;
+    let cost = |row: usize, column: usize| allowed(left[row], right[column]).unwrap_or(forbidden);
     let mut column_of = alloc::vec![None; rows];
-    if rows <= columns {
-        for (column, row) in Paths::new(columns).assigned(rows, cost) {
-            column_of[row] = Some(column);
-        }
-    } else {
-        for (row, column) in Paths::new(rows).assigned(columns, |column, row| cost(row, column)) {
-            column_of[row] = Some(column);
-        }
-    }
-    for (row, column) in column_of.iter_mut().enumerate() {
-        *column = column.filter(|column| allowed(row, *column).is_some());
+    for (row, column) in pairs([left.len(), right.len()], cost) {
+        let (row, column) = (left[row], right[column]);
+        column_of[row] = allowed(row, column).map(|_| column);
     }
     column_of
+}
+
+/// The rows and columns of the assignment with the smallest sum of costs.
+fn pairs([rows, columns]: [usize; 2], cost: impl Fn(usize, usize) -> f64) -> Vec<(usize, usize)> {
+    if rows <= columns {
+        let assigned = Paths::new(columns).assigned(rows, cost);
+        assigned.map(|(column, row)| (row, column)).collect()
+    } else {
+        let assigned = Paths::new(rows).assigned(columns, |column, row| cost(row, column));
+        assigned.collect()
+    }
 }
 
 /// The search for augmenting paths, with at least as many columns as rows.

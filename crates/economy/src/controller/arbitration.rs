@@ -141,6 +141,7 @@ impl Controller {
     pub(super) fn lost_assignee(&mut self, goal: GoalId, robot: RobotId) {
         let is_open = self.goal_mut(goal).is_some_and(|owned| !owned.is_done);
         if is_open {
+            self.lapses += 1;
             self.picture.learn(robot, false, self.now_s);
             self.reopen(Claim { goal, number: 0 });
         }

@@ -3,9 +3,9 @@
 
 use super::Controller;
 use super::owned::Assigned;
+use super::picture::Robot;
 use crate::allocation::{Allocation, Market, Offer, Pair};
 use alloc::vec::Vec;
-use base::geometry::Point;
 use brain::{Award, Claim, Dispatch, GoalId, RobotId, Task};
 
 /// Maximum number of calls per step, and time after which a call is repeated, in seconds.
@@ -48,126 +48,91 @@ impl Controller {
     /// Holds a round when it is due, and repeats awards without an answer.
     pub(super) fn award(&mut self) {
         self.repeat_awards();
-        if self.now_s < self.next_round_s || !self.may_grant() {
+        // At the nearest step.
+        if self.now_s < self.next_round_s - self.step_s / 2.0 || !self.may_grant() {
             return;
         }
         self.next_round_s = self.now_s + self.settings.auction_s / ROUNDS;
-        let (goals, robots) = (self.goals_on_offer(), self.present_robots());
+        let goals = self.goals_on_offer();
+        let robots: Vec<Robot> = self.picture.present().copied().collect();
         let market = self.market(&goals, &robots);
         for Pair { goal, robot } in self.settings.allocation.choose(&market) {
-            self.award_to(goals[goal], robots[robot]);
+            self.award_to(goals[goal].id, robots[robot].id);
         }
     }
 
     /// The goals without an assignee whose auction has lasted long enough.
-    fn goals_on_offer(&self) -> Vec<GoalId> {
+    fn goals_on_offer(&self) -> Vec<Task> {
         let is_ripe = |called_s: f64| self.now_s >= called_s + self.settings.auction_s;
         let goals = self.goals.iter().filter(|owned| {
-            let is_free = self.services.grant_of(owned.task.id).is_none();
-            owned.is_on_offer(self.now_s) && is_free && owned.called_s.is_some_and(is_ripe)
+            owned.is_on_offer(self.now_s)
+                && owned.called_s.is_some_and(is_ripe)
+                && self.services.grant_of(owned.task.id).is_none()
+                && self.owns_at(owned.task.id, self.now_s)
         });
-        let owns = |goal: &GoalId| self.owns_at(*goal, self.now_s);
-        goals.map(|owned| owned.task.id).filter(owns).collect()
+        goals.map(|owned| owned.task).collect()
     }
 
-    fn present_robots(&self) -> Vec<RobotId> {
-        self.picture.present().map(|robot| robot.id).collect()
-    }
-
-    fn market(&self, goals: &[GoalId], robots: &[RobotId]) -> Market {
-        let is_idle = robots.iter().map(|robot| {
-            let is_holder = |id: &RobotId| {
-                self.services
-                    .grants()
-                    .iter()
-                    .any(|grant| grant.holder == *id)
-            };
-            !is_holder(robot)
-                && self
-                    .picture
-                    .get(*robot)
-                    .is_some_and(|robot| robot.goals == 0)
-        });
+    fn market(&self, goals: &[Task], robots: &[Robot]) -> Market {
+        let grants = self.services.grants();
+        let is_idle = robots
+            .iter()
+            .map(|robot| robot.goals == 0 && !grants.iter().any(|grant| grant.holder == robot.id));
         let mut market = Market {
             goals: goals.len(),
             is_idle: is_idle.collect(),
-            offers: Vec::new(),
+            offers: self.bid_offers(goals, robots).collect(),
         };
         if self.settings.allocation == Allocation::Optimal {
             self.add_estimates(&mut market, goals, robots);
         }
-        self.add_bids(&mut market, goals, robots);
         market
     }
 
-    /// Bids, instead of the estimates of their pairs.
-    fn add_bids(&self, market: &mut Market, goals: &[GoalId], robots: &[RobotId]) {
-        for standing in self.bids.iter() {
-            let goal = goals.iter().position(|goal| *goal == standing.bid.goal);
-            let robot = robots.iter().position(|robot| *robot == standing.robot);
-            let (Some(goal), Some(robot)) = (goal, robot) else {
-                continue;
-            };
-            let Some(owned) = self.goals.iter().find(|owned| owned.task.id == goals[goal]) else {
-                continue;
-            };
-            let pair = Pair { goal, robot };
-            market.offers.retain(|offer| offer.pair != pair);
-            market.offers.push(Offer {
-                pair,
-                cost_s: self.cost_s(
-                    standing.robot,
-                    &owned.task,
+    /// The bids of robots that are present, for goals on offer.
+    fn bid_offers(&self, goals: &[Task], robots: &[Robot]) -> impl Iterator<Item = Offer> {
+        self.bids.iter().filter_map(|standing| {
+            let goal = goals.iter().position(|task| task.id == standing.bid.goal)?;
+            let robot = robots.iter().position(|robot| robot.id == standing.robot)?;
+            let (bidder, task) = (&robots[robot], &goals[goal]);
+            Some(Offer {
+                pair: Pair { goal, robot },
+                cost_s: cost_s(
+                    bidder,
+                    task,
                     [standing.bid.time_s.into(), standing.confidence],
                 ),
-                distance_m: self.distance_m(standing.robot, &owned.task),
+                distance_m: bidder.distance_m(task),
                 is_bid: true,
-            });
-        }
+            })
+        })
     }
 
-    /// Costs of idle robots by distance and speed, except where they have declined.
-    fn add_estimates(&self, market: &mut Market, goals: &[GoalId], robots: &[RobotId]) {
-        for (goal, id) in goals.iter().enumerate() {
-            let Some(owned) = self.goals.iter().find(|owned| owned.task.id == *id) else {
-                continue;
-            };
-            for (robot, id) in robots
-                .iter()
-                .enumerate()
-                .filter(|(robot, _)| market.is_idle[*robot])
-            {
-                let distance_m = self.distance_m(*id, &owned.task);
-                let speed_m_s = self.picture.get(*id).map_or(1.0, |robot| robot.speed_m_s);
-                let time_s = distance_m / speed_m_s + f64::from(owned.task.service_s);
-                if distance_m.is_finite() && !owned.is_declined_by(*id, self.now_s) {
+    /// Adds the costs of idle robots by distance and speed, where they have neither bid nor declined.
+    fn add_estimates(&self, market: &mut Market, goals: &[Task], robots: &[Robot]) {
+        let mut has_bid = alloc::vec![false; goals.len() * robots.len()];
+        for Offer { pair, .. } in &market.offers {
+            has_bid[pair.goal * robots.len() + pair.robot] = true;
+        }
+        let owned = self.goals.iter().filter_map(|owned| {
+            let goal = goals.iter().position(|task| task.id == owned.task.id)?;
+            Some((goal, owned))
+        });
+        for (goal, owned) in owned {
+            for (robot, bidder) in robots.iter().enumerate() {
+                let is_new = market.is_idle[robot] && !has_bid[goal * robots.len() + robot];
+                let distance_m = bidder.distance_m(&owned.task);
+                let time_s = distance_m / bidder.speed_m_s + f64::from(owned.task.service_s);
+                if is_new && time_s.is_finite() && !owned.is_declined_by(bidder.id, self.now_s) {
                     market.offers.push(Offer {
                         pair: Pair { goal, robot },
-                        cost_s: self.cost_s(*id, &owned.task, [time_s, 1.0]),
+                        cost_s: cost_s(bidder, &owned.task, [time_s, 1.0]),
                         distance_m,
                         is_bid: false,
                     });
                 }
             }
         }
-    }
-
-    /// Expected time divided by confidence, trust and value.
-    pub(super) fn cost_s(
-        &self,
-        robot: RobotId,
-        task: &Task,
-        [time_s, confidence]: [f64; 2],
-    ) -> f64 {
-        let value = f64::from(task.value).max(1e-6);
-        time_s / (confidence * self.picture.trust_of(robot) * value)
-    }
-
-    /// Distance from a robot to a goal; infinite if its position is unknown.
-    pub(super) fn distance_m(&self, robot: RobotId, task: &Task) -> f64 {
-        let at = self.picture.get(robot).and_then(|robot| robot.at);
-        let goal = Point::from(task.at_m.map(f64::from));
-        at.map_or(f64::INFINITY, |at| at.to(goal).length())
     }
 
     /// Awards a goal to a robot that has bid for it; one that has not is called alone.
@@ -185,6 +150,7 @@ impl Controller {
         if !self.services.grant(robot, claim, wait_s, now_s) {
             return;
         }
+        self.awards += 1;
         let overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * f64::from(bid.time_s);
         let assigned = Assigned {
             robot,
@@ -243,4 +209,10 @@ impl Controller {
             self.send(robot, Dispatch::Award(award));
         }
     }
+}
+
+/// Expected time divided by confidence, trust and value.
+fn cost_s(robot: &Robot, task: &Task, [time_s, confidence]: [f64; 2]) -> f64 {
+    let value = f64::from(task.value).max(1e-6);
+    time_s / (confidence * robot.trust.value() * value)
 }

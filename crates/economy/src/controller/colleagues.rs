@@ -1,32 +1,24 @@
 //! The other controllers.
 
-use super::Controller;
 use alloc::vec::Vec;
-use base::geometry::Point;
-use brain::{Dispatch, Percept, RobotId, Seen};
-
-/// Time between two messages of presence, in seconds.
-const PRESENCE_PERIOD_S: f64 = 2.0;
+use brain::RobotId;
 
 /// A controller is out of range when nothing has been received of it for this time, in seconds.
 const LIFE_S: f64 = 8.0;
 
-/// Maximum number of robots whose position is reported with each message of presence.
-const MAX_SEEN: usize = 4;
-
 /// The other controllers in range.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Colleagues {
-    list: Vec<Colleague>,
+    pub(super) list: Vec<Colleague>,
     /// When the next message of presence is due; at once without it.
-    next_s: Option<f64>,
+    pub(super) next_s: Option<f64>,
 }
 
 base::hashed!(Colleagues { list, next_s });
 
 #[derive(Debug, Clone, Copy)]
-struct Colleague {
-    id: RobotId,
+pub(super) struct Colleague {
+    pub(super) id: RobotId,
     serial: u32,
     received_s: f64,
 }
@@ -36,11 +28,6 @@ base::hashed!(Colleague {
     serial,
     received_s
 });
-
-/// The serial number of a controller: that of its kind, then that within the kind.
-fn serial(id: RobotId) -> u32 {
-    u32::from(id.kind) << 24 | id.index & 0x00ff_ffff
-}
 
 impl Colleagues {
     pub(super) fn note(&mut self, id: RobotId, serial: u32, now_s: f64) {
@@ -67,53 +54,4 @@ impl Colleagues {
         let highest = all.max_by_key(|colleague| (colleague.serial, colleague.id));
         highest.map(|colleague| colleague.id)
     }
-}
-
-impl Controller {
-    /// Takes the robots that its own sensors detect into its picture; new ones are to report.
-    pub(super) fn sense(&mut self, percept: &Percept) {
-        for (id, at) in seen(percept) {
-            let is_new = self.picture.get(id).is_none();
-            self.picture.see(id, at, self.now_s);
-            if is_new && self.settings.is_robot(id, self.own) {
-                self.send(id, Dispatch::Query);
-            }
-        }
-    }
-
-    /// Reports its presence, and the positions of robots that it sees, to other controllers.
-    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-    pub(super) fn present(&mut self, percept: &Percept) {
-        if self
-            .colleagues
-            .next_s
-            .is_some_and(|next_s| self.now_s < next_s)
-        {
-            return;
-        }
-        self.colleagues.next_s = Some(self.now_s + PRESENCE_PERIOD_S);
-        self.send(RobotId::EVERYONE, Dispatch::Serial(serial(self.own)));
-        let others = self.colleagues.list.iter();
-        let others: Vec<RobotId> = others.map(|colleague| colleague.id).collect();
-        for (robot, at) in seen(percept).take(MAX_SEEN) {
-            let at_m = [at.x as f32, at.y as f32];
-            for other in &others {
-                self.send(*other, Dispatch::Seen(Seen { robot, at_m }));
-            }
-        }
-    }
-}
-
-/// The robots that its sensors detect, and their positions in the world.
-fn seen(percept: &Percept) -> impl Iterator<Item = (RobotId, Point)> {
-    let own = percept.position.map(|position| position.value);
-    let heading_rad = percept.heading_rad.map_or(0.0, |heading| heading.value);
-    percept.neighbours.iter().filter_map(move |neighbour| {
-        let towards_rad = heading_rad + neighbour.bearing_rad;
-        let way = Point {
-            x: libm::cos(towards_rad),
-            y: libm::sin(towards_rad),
-        };
-        Some((neighbour.id, own?.plus(way.times(neighbour.range_m))))
-    })
 }

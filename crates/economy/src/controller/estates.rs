@@ -4,29 +4,8 @@
 use super::Controller;
 use super::heirs::{MAX_LEASE_S, RETRY_S};
 use super::owned::{Heir, Owned};
+use super::wards::Ward;
 use brain::{Award, Claim, Dispatch, GoalId, Percept, Renewal, RobotId, Task, wait_s};
-
-/// A goal of another controller, of which this one is the heir.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ward {
-    task: Task,
-    due_at_s: f64,
-    owner: RobotId,
-    /// Number of the answer that the owner has to name.
-    number: u32,
-    is_bound: bool,
-    /// How long the owner's service leases can last after its own lease.
-    service_wait_s: f64,
-}
-
-base::hashed!(Ward {
-    task,
-    due_at_s,
-    owner,
-    number,
-    is_bound,
-    service_wait_s
-});
 
 impl Controller {
     /// Takes the description of a goal of which it is to be the heir.
@@ -116,7 +95,7 @@ impl Controller {
             return false;
         };
         owned.next_return_s = now_s + RETRY_S;
-        self.send(origin, Dispatch::Return(task));
+        self.send(origin, Dispatch::Restore(task));
         true
     }
 

@@ -17,7 +17,7 @@
 //! heir's `Relieved` ends that. If the lease ends, the heir owns the goal, and awards it when the
 //! longest service lease of the previous owner has ended, too; if the heir is lost as well, the goal is
 //! orphaned. An heir that owns the goal of a controller that is in range again returns it: it sends
-//! `Return`, and the answer is `Bind`.
+//! `Restore`, and the answer is `Bind`.
 
 use super::Controller;
 use super::owned::Heir;

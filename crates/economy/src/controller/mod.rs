@@ -5,7 +5,7 @@
 //! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
-//!   [`colleagues`]: the other controllers.
+//!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`].
 
 mod arbitration;
 mod auction;
@@ -15,10 +15,12 @@ mod estates;
 mod heirs;
 mod owned;
 mod picture;
+mod presence;
 mod receive;
 mod tenures;
 mod trust;
 mod unserved;
+mod wards;
 
 use crate::settings::Settings;
 use alloc::sync::Arc;
@@ -27,18 +29,18 @@ use bids::Bids;
 use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
 use brain::{Reason, RobotId, Task, wait_s};
 use colleagues::Colleagues;
-use estates::Ward;
 use owned::{Heir, Owned};
 use picture::Picture;
-use tenures::Orphan;
+use wards::{Orphan, Ward};
 
 /// One controller: it owns goals, and awards them to robots.
 #[derive(Debug, Clone)]
 pub struct Controller {
     settings: Arc<Settings>,
     own: RobotId,
-    /// Its clock.
+    /// Its clock, and the time since the last step.
     now_s: f64,
+    step_s: f64,
     /// Until when it grants nothing, once it knows the time: an agent that restarts does not know
     /// what it granted before.
     silent_until_s: Option<f64>,
@@ -57,12 +59,15 @@ pub struct Controller {
     next_round_s: f64,
     next_renewal_s: f64,
     refused: u32,
+    awards: u32,
+    lapses: u32,
     outbox: Vec<Message>,
 }
 
 base::hashed!(Controller {
     own,
     now_s,
+    step_s,
     silent_until_s,
     numbers,
     goals,
@@ -76,7 +81,9 @@ base::hashed!(Controller {
     bids,
     next_round_s,
     next_renewal_s,
-    refused
+    refused,
+    awards,
+    lapses
 } without { settings, outbox });
 
 /// A goal that a controller owns.
@@ -102,6 +109,7 @@ impl Controller {
             settings,
             own: RobotId::default(),
             now_s: f64::NEG_INFINITY,
+            step_s: 0.0,
             silent_until_s: Some(f64::NEG_INFINITY),
             numbers: Numbers::default(),
             goals: Vec::new(),
@@ -116,6 +124,8 @@ impl Controller {
             next_round_s: f64::NEG_INFINITY,
             next_renewal_s: f64::NEG_INFINITY,
             refused: 0,
+            awards: 0,
+            lapses: 0,
             outbox: Vec::new(),
         }
     }
@@ -149,6 +159,7 @@ impl Controller {
         if now_s < self.now_s {
             return;
         }
+        self.step_s = (now_s - self.now_s).min(1.0);
         (self.now_s, self.own) = (now_s, percept.id);
         let silent_s = self.longest_wait_s();
         self.silent_until_s.get_or_insert(now_s + silent_s);
@@ -209,6 +220,18 @@ impl Controller {
         self.refused
     }
 
+    /// Number of awards, repeated ones not counted.
+    #[must_use]
+    pub fn awards(&self) -> u32 {
+        self.awards
+    }
+
+    /// Number of service leases that ended because the robot was silent.
+    #[must_use]
+    pub fn lapses(&self) -> u32 {
+        self.lapses
+    }
+
     /// Owns a goal that a person has issued.
     fn own(&mut self, task: Task) {
         let is_known = self.goals.iter().any(|owned| owned.task.id == task.id);
@@ -261,12 +284,19 @@ impl Controller {
             .is_some_and(|until_s| self.now_s >= until_s)
     }
 
+    /// The time for which the next award of a goal waits, by the durations that messages have.
     fn service_wait_s(&self) -> f64 {
-        wait_s(self.settings.service_lease_s, self.settings.max_drift)
+        wait_s(
+            short(self.settings.service_lease_s).into(),
+            self.settings.max_drift,
+        )
     }
 
     fn owner_wait_s(&self) -> f64 {
-        wait_s(self.settings.owner_lease_s, self.settings.max_drift)
+        wait_s(
+            short(self.settings.owner_lease_s).into(),
+            self.settings.max_drift,
+        )
     }
 
     fn longest_wait_s(&self) -> f64 {
@@ -278,6 +308,12 @@ impl Controller {
         let claim = Claim { goal, number: 0 };
         self.send(RobotId::EVERYONE, Dispatch::Withdraw(claim));
     }
+}
+
+/// A duration as it is in messages.
+#[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+fn short(duration_s: f64) -> f32 {
+    duration_s as f32
 }
 
 /// The part of an heir that [`OwnedGoal`] shows.

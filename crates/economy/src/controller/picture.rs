@@ -3,7 +3,7 @@
 use super::trust::Trust;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use brain::{Report, RobotId};
+use brain::{Report, RobotId, Task};
 
 /// A robot is forgotten when nothing has been received of it for this time, in seconds, except for
 /// the trust in it.
@@ -45,6 +45,14 @@ base::hashed!(Robot {
     trust
 });
 
+impl Robot {
+    /// Distance to a goal; infinite if its position is unknown.
+    pub(super) fn distance_m(&self, task: &Task) -> f64 {
+        self.at
+            .map_or(f64::INFINITY, |at| at.to(task.at()).length())
+    }
+}
+
 impl Picture {
     /// The robots from which messages are received.
     pub(super) fn present(&self) -> impl Iterator<Item = &Robot> {
@@ -53,11 +61,6 @@ impl Picture {
 
     pub(super) fn get(&self, id: RobotId) -> Option<&Robot> {
         self.robots.iter().find(|robot| robot.id == id)
-    }
-
-    pub(super) fn trust_of(&self, id: RobotId) -> f64 {
-        self.get(id)
-            .map_or_else(|| Trust::default().value(), |robot| robot.trust.value())
     }
 
     /// Notes a message of a robot; returns whether it was not present before.

@@ -191,7 +191,7 @@ impl Controller {
             Dispatch::Differs(number) => self.renew_tenures_one_by_one(from, number, percept),
             Dispatch::Relieve(claim) => self.take_relief(from, claim),
             Dispatch::Relieved(claim) => self.take_relieved(from, claim),
-            Dispatch::Return(task) => self.take_return(from, task, percept),
+            Dispatch::Restore(task) => self.take_return(from, task, percept),
             _ => {}
         }
     }

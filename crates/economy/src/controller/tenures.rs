@@ -2,6 +2,7 @@
 
 use super::Controller;
 use super::owned::{Heir, Owned};
+use super::wards::Orphan;
 use alloc::vec::Vec;
 use brain::{Claim, Dispatch, GoalId, Lease, Percept, RobotId, Task};
 
@@ -12,16 +13,6 @@ const RENEWAL_RETRY_S: f64 = 0.5;
 
 /// Maximum number of leases that are renewed one by one in a step.
 const MAX_RENEWALS: usize = 16;
-
-/// A goal that a controller owned until its lease ended.
-#[derive(Debug, Clone)]
-pub(super) struct Orphan {
-    pub(super) owned: Owned,
-    /// The request by which it would be owned again.
-    request: Option<u32>,
-}
-
-base::hashed!(Orphan { owned, request });
 
 impl Controller {
     /// Renews the leases of each heir.
@@ -103,7 +94,8 @@ impl Controller {
     /// An heir returns a goal: the answer is the request of the lease.
     pub(super) fn take_return(&mut self, from: RobotId, task: Task, percept: &Percept) {
         let is_own = self.goals.iter().any(|owned| owned.task.id == task.id);
-        if is_own || !task.is_valid() || !self.may_grant() {
+        let is_full = self.orphans.len() >= self.settings.max_goals as usize;
+        if is_own || is_full || !task.is_valid() || !self.may_grant() {
             return;
         }
         let goal = task.id;

@@ -1,6 +1,7 @@
 //! Goals that no robot can serve: reported once with the reason, and tried again later.
 
 use super::Controller;
+use super::picture::Robot;
 use crate::allocation::Allocation;
 use alloc::vec::Vec;
 use brain::{Dispatch, GoalId, Reason, Refusal, RobotId};
@@ -9,7 +10,7 @@ use brain::{Dispatch, GoalId, Reason, Refusal, RobotId};
 const PATIENCE_S: f64 = 10.0;
 
 impl Controller {
-    /// Offers goals without a bid to each robot alone; if all have refused, the goal rests.
+    /// Calls each robot alone for goals without a bid; if all have refused, the goal rests.
     pub(super) fn probe(&mut self) {
         if self.settings.allocation == Allocation::None || !self.may_grant() {
             return;
@@ -35,21 +36,17 @@ impl Controller {
             self.give_up(goal, Reason::Deadline);
             return;
         }
-        let willing = self
-            .picture
-            .present()
-            .filter(|robot| !owned.is_declined_by(robot.id, now_s));
-        let willing: Vec<(RobotId, u16)> = willing.map(|robot| (robot.id, robot.payload)).collect();
+        let robots = self.picture.present().copied();
+        let robots = robots.filter(|robot| !owned.is_declined_by(robot.id, now_s));
+        let willing: Vec<Robot> = robots.collect();
         let has_robots = self.picture.present().next().is_some();
-        let free = willing.iter().filter(|(_, payload)| *payload > 0);
-        let nearest = free.min_by(|(one, _), (other, _)| {
-            let distance_m = |id: RobotId| self.distance_m(id, &task);
-            distance_m(*one)
-                .total_cmp(&distance_m(*other))
-                .then(one.cmp(other))
+        let free = willing.iter().filter(|robot| robot.payload > 0);
+        let nearest = free.min_by(|one, other| {
+            let by_distance = one.distance_m(&task).total_cmp(&other.distance_m(&task));
+            by_distance.then(one.id.cmp(&other.id))
         });
         match nearest {
-            Some((robot, _)) => self.call_to(goal, *robot),
+            Some(robot) => self.call_to(goal, robot.id),
             // The others serve the maximum number of goals, but not forever.
             None if !willing.is_empty() => {}
             None if has_robots => {

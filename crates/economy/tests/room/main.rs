@@ -2,7 +2,12 @@
 
 #![expect(clippy::unwrap_used, clippy::expect_used, reason = "tests may panic")]
 
+mod controllers;
+mod hand;
+mod heirs;
 mod missions;
 mod network;
+mod quality;
+mod robots;
 mod safety;
 mod team;

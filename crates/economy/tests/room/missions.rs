@@ -75,6 +75,8 @@ fn a_robot_that_is_lost_loses_its_goals_to_the_others() {
     team.crash_robot(0);
     team.run_until_done(12, 600.0);
     assert_eq!(team.done(), 12);
+    let controller = team.controller(0);
+    assert!(controller.lapses() > 0 && controller.awards() == 12 + controller.lapses());
 }
 
 #[test]

@@ -20,6 +20,9 @@ const GOALS: u32 = 4;
 struct Adversary {
     seed: u64,
     weather: Weather,
+    /// Durations of leases: short, so that many end.
+    service_lease_s: f64,
+    owner_lease_s: f64,
     /// Probabilities per step of a crash, a restart, and a change of the radio.
     crash: f64,
     restart: f64,
@@ -34,22 +37,23 @@ fn adversary() -> impl Strategy<Value = Adversary> {
         max_delay_s,
     });
     let faults = (0.0..0.02_f64, 0.01..0.1_f64, 0.0..0.05_f64);
-    (any::<u64>(), weather, faults).prop_map(|(seed, weather, (crash, restart, change))| {
-        Adversary {
-            seed,
-            weather,
-            crash,
-            restart,
-            change,
-        }
+    let leases = (3.0..8.0_f64, 3.0..8.0_f64);
+    (any::<u64>(), weather, leases, faults).prop_map(|(seed, weather, leases, faults)| Adversary {
+        seed,
+        weather,
+        service_lease_s: leases.0,
+        owner_lease_s: leases.1,
+        crash: faults.0,
+        restart: faults.1,
+        change: faults.2,
     })
 }
 
-/// Short leases and clocks that drift much, so that many leases end.
-fn settings() -> Settings {
+/// Clocks drift much.
+fn settings(adversary: &Adversary) -> Settings {
     Settings {
-        service_lease_s: 5.0,
-        owner_lease_s: 6.0,
+        service_lease_s: adversary.service_lease_s,
+        owner_lease_s: adversary.owner_lease_s,
         auction_s: 0.3,
         max_drift: 0.1,
         robot_kinds: 1,
@@ -97,7 +101,12 @@ fn counts(team: &Team, goal: GoalId, true_s: f64) -> [usize; 2] {
 
 /// Steps in which each goal had an owner, and in which it had an assignee.
 fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
-    let mut team = Team::new([3, 3], &settings(), adversary.weather, adversary.seed);
+    let mut team = Team::new(
+        [3, 3],
+        &settings(adversary),
+        adversary.weather,
+        adversary.seed,
+    );
     // Too far to be served.
     team.issue_random(GOALS, 1e6);
     let mut sums = [0, 0];
@@ -147,6 +156,8 @@ fn the_adversary_does_not_prevent_ownership_and_service() {
             duplication: 0.3,
             max_delay_s: 3.0,
         },
+        service_lease_s: 5.0,
+        owner_lease_s: 6.0,
         crash: 0.001,
         restart: 0.05,
         change: 0.02,

@@ -60,7 +60,7 @@ pub(crate) struct Team {
     /// The goals that any controller has known to be done.
     done: BTreeSet<GoalId>,
     brain: Brain,
-    dice: Stream,
+    random_stream: Stream,
 }
 
 pub(crate) const fn robot_id(index: u32) -> RobotId {
@@ -120,11 +120,11 @@ impl Team {
         weather: Weather,
         seed: u64,
     ) -> Self {
-        let mut dice = random(seed ^ 0x5eed);
+        let mut random_stream = random(seed ^ 0x5eed);
         let mut clock = || {
-            let drift = settings.max_drift * (2.0 * unit(&mut dice) - 1.0);
+            let drift = settings.max_drift * (2.0 * unit(&mut random_stream) - 1.0);
             Clock {
-                offset_s: 100.0 * (unit(&mut dice) - 0.5),
+                offset_s: 100.0 * (unit(&mut random_stream) - 0.5),
                 rate: 1.0 + drift,
             }
         };
@@ -135,8 +135,8 @@ impl Team {
             id: robot_id(index),
             brain: Some(brain.clone()),
             at: Point {
-                x: 100.0 * unit(&mut dice),
-                y: 100.0 * unit(&mut dice),
+                x: 100.0 * unit(&mut random_stream),
+                y: 100.0 * unit(&mut random_stream),
             },
             heading_rad: 0.0,
             clock: clocks[index as usize],
@@ -162,7 +162,7 @@ impl Team {
             issued: Vec::new(),
             done: BTreeSet::new(),
             brain,
-            dice,
+            random_stream,
         }
     }
 
@@ -170,7 +170,7 @@ impl Team {
     pub(crate) fn issue_random(&mut self, count: u32, size_m: f64) {
         for number in 0..count {
             #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-            let mut along_m = || (size_m * unit(&mut self.dice)) as f32;
+            let mut along_m = || (size_m * unit(&mut self.random_stream)) as f32;
             let at_m = [along_m(), along_m()];
             let station = number as usize % self.stations.len();
             self.issue(station, task(number, at_m));
@@ -191,7 +191,7 @@ impl Team {
 
     /// From 0 to 1.
     pub(crate) fn unit(&mut self) -> f64 {
-        unit(&mut self.dice)
+        unit(&mut self.random_stream)
     }
 
     pub(crate) fn crash_robot(&mut self, index: usize) {
@@ -270,7 +270,7 @@ impl Team {
 
     fn step_robot(&mut self, index: usize) {
         let inbox = self.network.arrived(self.robots[index].id, self.now_s);
-        let random_words = [0; 4].map(|_: u32| self.dice.next_u32());
+        let random_words = [0; 4].map(|_: u32| self.random_stream.next_u32());
         #[expect(clippy::cast_possible_truncation, reason = "few robots")]
         let team_size = self.robots.len() as u32;
         let robot = &mut self.robots[index];
@@ -308,7 +308,7 @@ impl Team {
             age_s: 0.0,
             message: Message::to(id, About::Dispatch(Dispatch::Issue(*task))),
         }));
-        let random_words = [0; 4].map(|_: u32| self.dice.next_u32());
+        let random_words = [0; 4].map(|_: u32| self.random_stream.next_u32());
         let station = &mut self.stations[index];
         let Some(controller) = station.controller.as_mut() else {
             return;

@@ -87,6 +87,13 @@ fn messages() -> Vec<Column> {
             of(|goals| goals.goals_refused.into()),
         )
         .with_capped_term("goals_refused", 20, 100.0),
+        Column::new(
+            "leases_lapsed",
+            Whole,
+            |_| Bounds::NOT_NEGATIVE,
+            of(|goals| goals.leases_lapsed.into()),
+        )
+        .with_capped_term("leases_lapsed", 21, 1000.0),
     ]
 }
 

@@ -28,6 +28,8 @@ pub struct GoalOutcome {
     pub messages_dropped: u64,
     /// Goals that controllers refused because they owned their maximum number.
     pub goals_refused: u32,
+    /// Leases of robots that ended because they were not renewed.
+    pub leases_lapsed: u32,
 }
 
 impl GoalOutcome {
@@ -45,6 +47,7 @@ impl GoalOutcome {
             messages_sent: tally.messages_sent,
             messages_dropped: tally.messages_dropped,
             goals_refused: moment.goals_refused,
+            leases_lapsed: moment.leases_lapsed,
         }
     }
 }

@@ -19,6 +19,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) goals: &'a Goals,
     /// Goals that controllers have refused.
     pub(crate) goals_refused: u32,
+    /// Service leases that ended because the robot was silent.
+    pub(crate) leases_lapsed: u32,
     pub(crate) discs: &'a [Disc],
     pub(crate) orientations: &'a [Orientation],
     pub(crate) body_states: &'a [BodyState],

@@ -6,7 +6,7 @@ use crate::clock::seconds;
 use crate::judge::goal_tally::is_late;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{GoalId, RobotId};
+use brain::{GoalId, RobotId, Task};
 use economy::OwnedGoal;
 
 /// A goal of a run; times are `None` for what has not happened.
@@ -59,6 +59,8 @@ pub struct Controller {
     pub refused: u32,
     /// The goals that it owns, as far as it knows.
     pub goals: Vec<OwnedGoal>,
+    /// The goals that it owned until their lease ended, because the heir did not renew it.
+    pub orphans: Vec<Task>,
 }
 
 impl State {
@@ -109,6 +111,7 @@ impl State {
                 is_working: participant.is_working(&self.body_states),
                 refused: agent.controller.refused(),
                 goals: agent.controller.goals().collect(),
+                orphans: agent.controller.orphans().collect(),
             }
         })
     }

@@ -19,6 +19,7 @@ use base::noise::Noise;
 use base::placement::EntityClass;
 use base::random::Entity;
 use brain::RobotId;
+use economy::Controller;
 
 /// One run, between two steps.
 #[derive(Debug, Clone)]
@@ -140,16 +141,17 @@ impl State {
     }
 
     pub(super) fn moment<'a>(&'a self, scenario: &'a Scenario) -> Moment<'a> {
+        let counted = |of: fn(&Controller) -> u32| {
+            let controllers = self.controllers.iter();
+            controllers.map(|agent| of(&agent.controller)).sum()
+        };
         Moment {
             scenario,
             tick: self.tick,
             items: &self.items,
             goals: &self.goals,
-            goals_refused: self
-                .controllers
-                .iter()
-                .map(|agent| agent.controller.refused())
-                .sum(),
+            goals_refused: counted(Controller::refused),
+            leases_lapsed: counted(Controller::lapses),
             tally: &self.tally,
             discs: &self.discs,
             orientations: &self.orientations,

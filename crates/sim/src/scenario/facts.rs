@@ -29,6 +29,12 @@ impl Scenario {
                 format!("{}{clutter}", kind.count),
             )
         });
+        let goals = self.goals.iter();
+        let goals = goals.map(|kind| (format!("goals {}", kind.name), kind.count.to_string()));
+        let controllers = self.controllers.iter();
+        let controllers =
+            controllers.map(|kind| (format!("controllers {}", kind.name), kind.count.to_string()));
+        let items = items.chain(goals).chain(controllers);
         let end = self.end.iter().filter(|end| !end.is_default());
         let end = end.map(|end| ("complete when".to_owned(), end.comparison.to_string()));
         let facts = [("world".to_owned(), world), ("clock".to_owned(), clock)];

@@ -8,6 +8,7 @@
 
 mod canyon;
 mod crossing;
+mod economy;
 mod errands;
 mod home;
 mod moving;

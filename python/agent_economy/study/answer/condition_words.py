@@ -16,6 +16,7 @@ COUNTS = {
     "expired": ("goal expired", "goals expired"),
     "found": ("target found", "targets found"),
     "goals_refused": ("goal refused", "goals refused"),
+    "leases_lapsed": ("lease lapsed", "leases lapsed"),
     "messages_dropped": ("message dropped", "messages dropped"),
     "messages_sent": ("message sent", "messages sent"),
     "missed": ("target missed", "targets missed"),

@@ -1,0 +1,84 @@
+//! Which goals a robot can reach, by its map.
+
+use super::ability::Moment;
+use crate::navigation::path::Wavefront;
+use crate::perception::beliefs::Map;
+use base::geometry::Point;
+
+/// An obstacle may lie this much farther away than the centre of its cell, as a fraction of the cell.
+const TIGHT_CLEARANCE: f64 = 0.5;
+
+/// The places that are connected to the robot's position. Unknown places count as free.
+pub(crate) struct Reach<'m> {
+    known: Option<(&'m Map, Wavefront)>,
+}
+
+impl<'m> Reach<'m> {
+    pub(crate) fn new(moment: &Moment<'m>, at: Point) -> Self {
+        let has_obstacles = |map: &&Map| map.occupancy.occupied().next().is_some();
+        let map = moment.map.filter(has_obstacles);
+        let known = map.map(|map| {
+            let mut wavefront = Wavefront::default();
+            let clearance_m = moment.body.radius_m - TIGHT_CLEARANCE * map.field.cell_m;
+            let whole = (&map.field, &map.occupancy);
+            wavefront.expand(whole, at, clearance_m.max(0.0), |_, _| true);
+            (map, wavefront)
+        });
+        Self { known }
+    }
+
+    /// Whether a place is connected to the robot's position.
+    pub(crate) fn contains(&self, place: Point) -> bool {
+        self.known.as_ref().is_none_or(|(map, wavefront)| {
+            let cell = map.field.nearest_cell(place);
+            wavefront.cell_distance_m(&map.field, cell).is_some()
+                || wavefront.exit(&map.field, &map.occupancy, place).is_some()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::body::Body;
+    use crate::io::percept::Percept;
+    use crate::perception::beliefs::coverage_map::tests::map;
+    use crate::perception::beliefs::occupancy::Ray;
+    use base::geometry::Segment;
+
+    #[test]
+    fn a_place_within_walls_is_out_of_reach_and_one_outside_is_not() {
+        let mut map = map();
+        let (percept, body) = (Percept::default(), Body::default());
+        let corner = |x: f64, y: f64| Point { x, y };
+        // A room of 4 m x 4 m around (10, 10), seen from within.
+        for along in (0..=80).map(|step| 8.0 + 0.05 * f64::from(step)) {
+            let walls = [
+                corner(along, 8.0),
+                corner(along, 12.0),
+                corner(8.0, along),
+                corner(12.0, along),
+            ];
+            for to in walls {
+                let free = Segment {
+                    from: corner(10.0, 10.0),
+                    to,
+                };
+                let hit = Some(to);
+                (0..5).for_each(|_| map.occupancy.add_ray(&map.field, &Ray { free, hit }));
+            }
+        }
+        let moment = Moment {
+            percept: &percept,
+            body: &body,
+            map: Some(&map),
+            at: None,
+            elapsed_s: 0.1,
+            battery_s: f64::INFINITY,
+            charge: None,
+        };
+        let reach = Reach::new(&moment, corner(3.0, 3.0));
+        assert!(!reach.contains(corner(10.0, 10.0)));
+        assert!(reach.contains(corner(15.0, 15.0)));
+    }
+}

@@ -1,0 +1,80 @@
+//! What a robot reports to controllers.
+
+use super::ability::{Ability, Moment};
+use super::assignee::Assignee;
+use crate::io::body::RobotId;
+use crate::io::dispatch::{Claim, Dispatch, Fitness, Reason, Refusal, Report};
+use crate::io::goal_id::GoalId;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+impl Assignee {
+    /// Reports the goals that have been served, and now and then the robot's state.
+    pub(super) fn report(&mut self, ability: &Ability, moment: &Moment) {
+        let done: Vec<(RobotId, Claim)> = self.finished.due(self.now_s).collect();
+        for (owner, claim) in done {
+            self.send(owner, Dispatch::Done(claim));
+        }
+        let Some(at) = moment.at else {
+            return;
+        };
+        let receivers: Vec<RobotId> = self.schedule.due(self.now_s).collect();
+        for to in receivers {
+            self.send(to, Dispatch::Report(self.state(ability, moment, at)));
+            if let Some(fitness) = self.fitness(to, ability, at) {
+                self.send(to, Dispatch::Fitness(fitness));
+            }
+        }
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    pub(super) fn state(&self, ability: &Ability, moment: &Moment, at: Point) -> Report {
+        let goals = self.jobs.list.len();
+        let free = ability.max_goals.saturating_sub(goals);
+        Report {
+            at_m: [at.x as f32, at.y as f32],
+            speed_m_s: ability.speed_m_s as f32,
+            battery: moment.charge.unwrap_or(1.0) as f32,
+            goals: u16::try_from(goals).unwrap_or(u16::MAX),
+            payload: u16::try_from(free).unwrap_or(u16::MAX),
+        }
+    }
+
+    /// The progress towards the first goal of a controller.
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    pub(super) fn fitness(&self, owner: RobotId, ability: &Ability, at: Point) -> Option<Fitness> {
+        let job = self.jobs.list.iter().find(|job| job.owner == owner)?;
+        let away_m = at.to(job.task.at()).length();
+        let remaining_s = away_m / ability.speed_m_s + ability.work_s(&job.task) - job.served_s;
+        Some(Fitness {
+            goal: job.task.id,
+            verdict: job.verdict,
+            remaining_s: remaining_s as f32,
+        })
+    }
+
+    pub(super) fn report_failure(&mut self, goal: GoalId, reason: Reason) {
+        if let Some(lease) = self.holder.lease(goal) {
+            let (to, number) = (lease.grantor, lease.number);
+            self.send(
+                to,
+                Dispatch::Stuck(Refusal {
+                    goal,
+                    number,
+                    reason,
+                }),
+            );
+        }
+    }
+
+    pub(super) fn refuse(&mut self, to: RobotId, goal: GoalId, number: u32, reason: Reason) {
+        self.send(
+            to,
+            Dispatch::Refuse(Refusal {
+                goal,
+                number,
+                reason,
+            }),
+        );
+    }
+}

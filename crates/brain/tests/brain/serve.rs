@@ -1,0 +1,229 @@
+//! Serving the goals of controllers, beside other behaviours.
+
+use crate::{body, brain, now, percept_at};
+use brain::{
+    About, Award, Body, Brain, Claim, Dispatch, GoalId, Message, Other, Percept, Reason,
+    ReceivedMessage, RobotId, Task, Work,
+};
+
+const OWNER: RobotId = RobotId { kind: 1, index: 0 };
+
+const TASK: Task = Task {
+    id: GoalId {
+        issuer: RobotId::OPERATOR,
+        number: 0,
+    },
+    at_m: [10.0, 0.0],
+    radius_m: 0.5,
+    value: 1.0,
+    service_s: 1.0,
+    due_s: f32::MAX,
+    work: Work::Visit,
+    capability: 0,
+};
+
+/// A robot that is stepped with messages of a controller.
+struct Robot {
+    brain: Brain,
+    time_s: f64,
+    x: f64,
+    battery: Option<f64>,
+}
+
+impl Robot {
+    fn new(below: &str, above: &str) -> Self {
+        let spec = format!(
+            r#"{{"limit_speed_to_stopping_distance": false, "behaviours": [{below} {{"kind": "serve"}} {above}]}}"#
+        );
+        let body = Body {
+            others: vec![Other::default()],
+            ..body()
+        };
+        Self {
+            brain: brain(&spec, body),
+            time_s: 0.0,
+            x: 0.0,
+            battery: None,
+        }
+    }
+
+    /// A step; returns the messages about goals.
+    fn step(&mut self, messages: &[Dispatch], touches: bool) -> Vec<Dispatch> {
+        self.time_s += 0.1;
+        let inbox = messages.iter().map(|dispatch| ReceivedMessage {
+            from: OWNER,
+            age_s: 0.0,
+            message: Message::to_all(About::Dispatch(*dispatch)),
+        });
+        let percept = Percept {
+            time_s: Some(self.time_s),
+            inbox: inbox.collect(),
+            touch: now(touches),
+            battery: self.battery.and_then(now),
+            ..percept_at(self.x, 0.0, 0.0)
+        };
+        let command = self.brain.step(&percept);
+        self.x += 0.1 * command.motion.speed_m_s;
+        let sent = command.outbox.into_iter();
+        let sent = sent.filter_map(|message| match message.about {
+            About::Dispatch(dispatch) => Some(dispatch),
+            _ => None,
+        });
+        sent.collect()
+    }
+
+    fn speed_m_s(&self) -> f64 {
+        self.brain.last_command().motion.speed_m_s
+    }
+
+    /// Bids for the goal and is awarded it, for a long time.
+    fn win(&mut self) {
+        let sent = self.step(&[CALL], false);
+        let number = sent.iter().find_map(|sent| match sent {
+            Dispatch::Bid(bid) => Some(bid.number),
+            _ => None,
+        });
+        let award = Award {
+            goal: TASK.id,
+            number: number.unwrap(),
+            lease_s: 3600.0,
+        };
+        self.step(&[Dispatch::Award(award)], false);
+        assert_eq!(self.brain.served_goals().len(), 1);
+    }
+}
+
+const CALL: Dispatch = Dispatch::Call {
+    number: 0,
+    task: TASK,
+};
+
+#[test]
+fn without_an_award_the_behaviours_below_are_active() {
+    let mut robot = Robot::new(r#"{"kind": "cruise", "speed_m_s": 0.3},"#, "");
+    robot.step(&[], false);
+    assert!((robot.speed_m_s() - 0.3).abs() < 1e-9);
+    robot.win();
+    robot.step(&[], false);
+    assert!(robot.speed_m_s() > 0.5);
+}
+
+#[test]
+fn avoidance_outranks_service() {
+    let mut robot = Robot::new("", r#", {"kind": "avoid"}"#);
+    robot.win();
+    robot.step(&[], false);
+    assert!(robot.speed_m_s() > 0.5);
+    (0..10).for_each(|_| {
+        robot.step(&[], true);
+    });
+    assert!(robot.speed_m_s() <= 0.0, "{}", robot.speed_m_s());
+}
+
+#[test]
+fn a_robot_drives_to_its_goal_stays_for_the_service_and_reports_that() {
+    let mut robot = Robot::new("", "");
+    robot.win();
+    let mut arrived_s = None;
+    for _ in 0..400 {
+        let sent = robot.step(&[], false);
+        if robot.x > 9.5 && arrived_s.is_none() {
+            arrived_s = Some(robot.time_s);
+        }
+        if sent
+            .iter()
+            .any(|sent| matches!(sent, Dispatch::Done(claim) if claim.goal == TASK.id))
+        {
+            let served_s = robot.time_s - arrived_s.unwrap();
+            assert!((1.0..1.5).contains(&served_s), "{served_s}");
+            assert!(robot.brain.served_goals().is_empty());
+            return;
+        }
+    }
+    panic!("not done");
+}
+
+#[test]
+fn a_robot_that_does_not_come_nearer_reports_that_it_is_stuck_and_does_not_bid_again_soon() {
+    let mut robot = Robot::new("", "");
+    robot.win();
+    let mut reasons = Vec::new();
+    let mut number = 0;
+    for _ in 0..400 {
+        let sent = robot.step(&[], false);
+        robot.x = 0.0;
+        for each in sent {
+            if let Dispatch::Stuck(refusal) = each {
+                reasons.push(refusal.reason);
+                number = refusal.number;
+            }
+        }
+    }
+    assert_eq!(reasons, [Reason::Unreachable]);
+    let goal = TASK.id;
+    let to = RobotId::default();
+    robot.time_s += 0.1;
+    let withdrawal = ReceivedMessage {
+        from: OWNER,
+        age_s: 0.0,
+        message: Message::to(
+            to,
+            About::Dispatch(Dispatch::Withdraw(Claim { goal, number })),
+        ),
+    };
+    let percept = Percept {
+        time_s: Some(robot.time_s),
+        inbox: vec![withdrawal],
+        ..percept_at(0.0, 0.0, 0.0)
+    };
+    robot.brain.step(&percept);
+    assert!(robot.brain.served_goals().is_empty());
+    let sent: Vec<Dispatch> = (0..50).flat_map(|_| robot.step(&[CALL], false)).collect();
+    assert!(!sent.iter().any(|sent| matches!(sent, Dispatch::Bid(_))));
+}
+
+#[test]
+fn a_robot_does_not_bid_for_a_goal_for_which_its_battery_does_not_last() {
+    for (per_step, bids) in [(0.02, false), (0.001, true)] {
+        let mut robot = Robot::new("", "");
+        let mut charge = 1.0;
+        let mut sent = Vec::new();
+        for step in 0..80 {
+            charge -= if step < 60 { per_step / 2.0 } else { 0.0 };
+            robot.battery = Some(charge);
+            let call: &[Dispatch] = if step == 70 { &[CALL] } else { &[] };
+            sent.extend(robot.step(call, false));
+        }
+        let has_bid = sent.iter().any(|sent| matches!(sent, Dispatch::Bid(_)));
+        assert_eq!(has_bid, bids, "{per_step}");
+    }
+}
+
+#[test]
+fn a_robot_whose_battery_does_not_last_returns_its_goals_with_the_reason() {
+    let mut robot = Robot::new("", "");
+    robot.win();
+    let mut sent = Vec::new();
+    for step in 0..80 {
+        robot.battery = Some(1.0 - 0.012 * f64::from(step));
+        sent.extend(robot.step(&[], false));
+        robot.x = 0.0;
+    }
+    let is_reason = |sent: &Dispatch| matches!(sent, Dispatch::Stuck(refusal) if refusal.reason == Reason::Battery);
+    assert!(sent.iter().any(is_reason));
+    assert!(sent.iter().any(|sent| matches!(sent, Dispatch::Release(_))));
+    assert!(robot.brain.served_goals().is_empty());
+}
+
+#[test]
+fn the_state_of_service_is_part_of_the_hash() {
+    let hash = |robot: &Robot| {
+        let mut hash = base::hash::Hash::default();
+        robot.brain.hash_beliefs(&mut hash);
+        hash.value()
+    };
+    let [mut one, mut other] = [(); 2].map(|()| Robot::new("", ""));
+    one.step(&[CALL], false);
+    other.step(&[], false);
+    assert_ne!(hash(&one), hash(&other));
+}

@@ -1,0 +1,209 @@
+//! Agents that are stepped by hand, and messages for them.
+
+use crate::team::{STEP_S, brain, goal_id, robot_id, station_id};
+use base::geometry::Point;
+use brain::{
+    About, Award, Bid, Brain, Claim, Command, Dispatch, Message, Percept, Reading, Reason,
+    ReceivedMessage, Refusal, RobotId, Task,
+};
+use economy::{Controller, Settings};
+use std::sync::Arc;
+
+pub(crate) const ROBOT: RobotId = robot_id(0);
+pub(crate) const OTHER: RobotId = robot_id(1);
+pub(crate) const OWNER: RobotId = station_id(0);
+pub(crate) const HEIR: RobotId = station_id(1);
+
+/// An agent that is stepped by hand.
+pub(crate) struct Hand<A> {
+    pub(crate) agent: A,
+    id: RobotId,
+    pub(crate) now_s: f64,
+}
+
+pub(crate) trait Agent {
+    fn step(&mut self, percept: &Percept) -> Command;
+}
+
+impl Agent for Controller {
+    fn step(&mut self, percept: &Percept) -> Command {
+        let mut command = Command::default();
+        self.step_into(percept, &mut command);
+        command
+    }
+}
+
+impl Agent for Brain {
+    fn step(&mut self, percept: &Percept) -> Command {
+        Brain::step(self, percept)
+    }
+}
+
+impl<A: Agent> Hand<A> {
+    /// A step with messages; returns those that it sends about goals, and their receivers.
+    pub(crate) fn step(
+        &mut self,
+        inbox: &[(RobotId, RobotId, Dispatch)],
+    ) -> Vec<(RobotId, Dispatch)> {
+        self.now_s += STEP_S;
+        let inbox = inbox.iter().map(|(from, to, dispatch)| ReceivedMessage {
+            from: *from,
+            age_s: 0.0,
+            message: Message::to(*to, About::Dispatch(*dispatch)),
+        });
+        let percept = Percept {
+            time_s: Some(self.now_s),
+            id: self.id,
+            position: now(Point::default()),
+            heading_rad: now(0.0),
+            inbox: inbox.collect(),
+            ..Percept::default()
+        };
+        let sent = self.agent.step(&percept).outbox.into_iter();
+        let sent = sent.filter_map(|message| match message.about {
+            About::Dispatch(dispatch) => Some((message.to, dispatch)),
+            _ => None,
+        });
+        sent.collect()
+    }
+
+    /// The same with one message to the agent.
+    pub(crate) fn take(&mut self, from: RobotId, dispatch: Dispatch) -> Vec<(RobotId, Dispatch)> {
+        self.step(&[(from, self.id, dispatch)])
+    }
+
+    /// Steps without messages for a time; returns what it sends.
+    pub(crate) fn wait(&mut self, time_s: f64) -> Vec<(RobotId, Dispatch)> {
+        let end_s = self.now_s + time_s;
+        let mut sent = Vec::new();
+        while self.now_s < end_s {
+            sent.extend(self.step(&[]));
+        }
+        sent
+    }
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "fields of percepts are optional")]
+pub(crate) const fn now<T>(value: T) -> Option<Reading<T>> {
+    Some(Reading { value, age_s: 0.0 })
+}
+
+pub(crate) fn controller(id: RobotId) -> Hand<Controller> {
+    let settings = Settings {
+        max_drift: 0.0,
+        ..Settings::default()
+    };
+    Hand {
+        agent: Controller::new(Arc::new(settings)),
+        id,
+        now_s: 0.0,
+    }
+}
+
+/// A robot that has received the call of a goal 10 m away.
+pub(crate) fn robot() -> Hand<Brain> {
+    Hand {
+        agent: brain(&[], ""),
+        id: ROBOT,
+        now_s: 0.0,
+    }
+}
+
+pub(crate) const CALL: Dispatch = Dispatch::Call {
+    number: 4,
+    task: Task {
+        at_m: [10.0, 0.0],
+        ..TASK
+    },
+};
+
+pub(crate) const TASK: Task = Task {
+    id: brain::GoalId {
+        issuer: RobotId::OPERATOR,
+        number: 0,
+    },
+    at_m: [10.0, 0.0],
+    radius_m: 1.0,
+    value: 1.0,
+    service_s: 1.0,
+    due_s: f32::MAX,
+    work: brain::Work::Visit,
+    capability: 0,
+};
+
+pub(crate) fn claim(number: u32) -> Claim {
+    Claim {
+        goal: goal_id(0),
+        number,
+    }
+}
+
+pub(crate) fn award(number: u32) -> Dispatch {
+    Dispatch::Award(Award {
+        goal: goal_id(0),
+        number,
+        lease_s: 20.0,
+    })
+}
+
+pub(crate) fn refusal(number: u32, reason: Reason) -> Refusal {
+    Refusal {
+        goal: goal_id(0),
+        number,
+        reason,
+    }
+}
+
+/// The first bid of what is sent.
+pub(crate) fn bid(sent: &[(RobotId, Dispatch)]) -> Option<Bid> {
+    sent.iter().find_map(|(_, dispatch)| match dispatch {
+        Dispatch::Bid(bid) => Some(*bid),
+        _ => None,
+    })
+}
+
+/// A robot that serves the goal, and the number of its bid.
+pub(crate) fn assignee() -> (Hand<Brain>, u32) {
+    let mut robot = robot();
+    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let number = bid(&sent).unwrap().number;
+    assert!(
+        robot
+            .take(OWNER, award(number))
+            .contains(&(OWNER, Dispatch::Commit(claim(number))))
+    );
+    (robot, number)
+}
+
+pub(crate) fn sent_any(sent: &[(RobotId, Dispatch)], is_meant: impl Fn(&Dispatch) -> bool) -> bool {
+    sent.iter().any(|(_, dispatch)| is_meant(dispatch))
+}
+
+/// A controller that owns the goal, and has received a bid of a robot.
+pub(crate) fn owner() -> Hand<Controller> {
+    let mut owner = controller(OWNER);
+    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.step(&[(ROBOT, OWNER, bid_of(7))]);
+    owner
+}
+
+pub(crate) fn bid_of(number: u32) -> Dispatch {
+    Dispatch::Bid(Bid {
+        goal: goal_id(0),
+        number,
+        time_s: 6.0,
+        energy: 0.0,
+        call: 0,
+    })
+}
+
+/// A controller that has awarded the goal to a robot.
+pub(crate) fn awarder() -> Hand<Controller> {
+    let mut owner = owner();
+    assert!(owner.wait(2.0).contains(&(ROBOT, award(7))));
+    owner
+}
+
+pub(crate) fn assignee_of(owner: &Hand<Controller>) -> Option<RobotId> {
+    Some(owner.agent.goals().next()?.assignee?.0)
+}

@@ -1,0 +1,173 @@
+//! The effect of each message on a robot.
+
+use crate::hand::{
+    CALL, HEIR, OTHER, OWNER, TASK, assignee, award, bid, claim, refusal, robot, sent_any,
+};
+use crate::network::Weather;
+use crate::team::{Team, goal_id, task};
+use base::geometry::Point;
+use brain::{Dispatch, Reason, Renewal, RobotId, Task};
+use economy::Settings;
+
+#[test]
+fn a_call_is_answered_by_a_bid_with_the_time_and_the_number_of_the_call() {
+    let mut robot = robot();
+    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let bid = bid(&sent).unwrap();
+    assert_eq!((bid.goal, bid.call), (goal_id(0), 4));
+    assert!((f64::from(bid.time_s) - 6.0).abs() < 1e-6, "{bid:?}");
+}
+
+#[test]
+fn a_call_of_a_robot_or_with_absurd_numbers_is_no_offer() {
+    let absurd = Task {
+        at_m: [f32::NAN, 0.0],
+        ..TASK
+    };
+    let absurd = Dispatch::Call {
+        number: 4,
+        task: absurd,
+    };
+    for (from, call) in [(OTHER, CALL), (OWNER, absurd)] {
+        let mut robot = robot();
+        assert_eq!(bid(&robot.step(&[(from, RobotId::EVERYONE, call)])), None);
+    }
+}
+
+#[test]
+fn a_call_to_one_robot_is_answered_by_a_refusal_with_the_reason() {
+    let late = Task { due_s: 3.0, ..TASK };
+    let special = Task {
+        capability: 3,
+        ..TASK
+    };
+    for (task, reason) in [(late, Reason::Deadline), (special, Reason::Capability)] {
+        let sent = robot().take(OWNER, Dispatch::Call { number: 4, task });
+        assert!(
+            sent.contains(&(OWNER, Dispatch::Refuse(refusal(4, reason)))),
+            "{sent:?}"
+        );
+    }
+}
+
+#[test]
+fn an_award_makes_a_robot_drive_and_one_that_answers_no_bid_is_refused() {
+    let (mut driver, _) = assignee();
+    assert_eq!(driver.agent.served_goals().len(), 1);
+    let sent = robot().take(OWNER, award(5));
+    assert!(sent.contains(&(OWNER, Dispatch::Refuse(refusal(5, Reason::Lease)))));
+    driver.wait(1.0);
+    assert!(driver.agent.last_command().motion.speed_m_s > 0.0);
+}
+
+#[test]
+fn a_withdrawal_ends_the_service_and_is_answered_by_a_release() {
+    let (mut robot, number) = assignee();
+    robot.take(OTHER, Dispatch::Withdraw(claim(number)));
+    robot.take(HEIR, Dispatch::Withdraw(claim(number)));
+    robot.take(OWNER, Dispatch::Withdraw(claim(number.wrapping_sub(1))));
+    assert_eq!(robot.agent.served_goals().len(), 1);
+    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(number)));
+    assert!(sent_any(&sent, |sent| matches!(sent, Dispatch::Release(_))));
+    assert_eq!(robot.agent.served_goals().len(), 0);
+    // The award has no effect any more.
+    robot.take(OWNER, award(number));
+    assert_eq!(robot.agent.served_goals().len(), 0);
+}
+
+#[test]
+fn a_withdrawal_to_all_ends_the_offer_and_not_the_service() {
+    let mut bidder = robot();
+    bidder.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    bidder.step(&[(OWNER, RobotId::EVERYONE, Dispatch::Withdraw(claim(0)))]);
+    assert_eq!(bid(&bidder.wait(6.0)), None);
+    let (mut robot, _) = assignee();
+    robot.step(&[(OWNER, RobotId::EVERYONE, Dispatch::Withdraw(claim(0)))]);
+    assert_eq!(robot.agent.served_goals().len(), 1);
+}
+
+#[test]
+fn a_service_ends_with_its_lease_unless_it_is_renewed() {
+    let (mut idle, _) = assignee();
+    idle.wait(19.0);
+    assert_eq!(idle.agent.served_goals().len(), 1);
+    idle.wait(1.5);
+    assert_eq!(idle.agent.served_goals().len(), 0);
+    let (mut renewed, _) = assignee();
+    let sent = renewed.wait(8.0);
+    let number = sent.iter().rev().find_map(|(_, sent)| match sent {
+        Dispatch::Renew(Renewal {
+            number, count: 1, ..
+        }) => Some(*number),
+        _ => None,
+    });
+    renewed.take(OWNER, Dispatch::Renewed(number.unwrap()));
+    renewed.wait(14.0);
+    assert_eq!(renewed.agent.served_goals().len(), 1);
+}
+
+#[test]
+fn leases_that_differ_are_renewed_one_by_one() {
+    let (mut robot, _) = assignee();
+    let sent = robot.wait(8.0);
+    let number = sent.iter().rev().find_map(|(_, sent)| match sent {
+        Dispatch::Renew(renewal) => Some(renewal.number),
+        _ => None,
+    });
+    let sent = robot.take(OWNER, Dispatch::Differs(number.unwrap()));
+    let one = sent.iter().find_map(|(_, sent)| match sent {
+        Dispatch::RenewOne(claim) => Some(*claim),
+        _ => None,
+    });
+    robot.take(OWNER, Dispatch::RenewedOne(one.unwrap()));
+    robot.wait(14.0);
+    assert_eq!(robot.agent.served_goals().len(), 1);
+}
+
+#[test]
+fn a_query_is_answered_by_a_report() {
+    let sent = robot().take(OWNER, Dispatch::Query {});
+    assert!(sent_any(
+        &sent,
+        |sent| matches!(sent, Dispatch::Report(report) if report.payload == 8)
+    ));
+    let (mut robot, _) = assignee();
+    let sent = robot.wait(4.0);
+    assert!(sent_any(
+        &sent,
+        |sent| matches!(sent, Dispatch::Fitness(fitness) if fitness.remaining_s > 3.0)
+    ));
+}
+
+#[test]
+fn a_searched_area_is_driven_lane_by_lane() {
+    let mut team = Team::new([1, 1], &Settings::default(), Weather::default(), 2);
+    team.issue(
+        0,
+        Task {
+            work: brain::Work::Search,
+            radius_m: 8.0,
+            ..task(0, [50.0, 50.0])
+        },
+    );
+    let mut visited = Vec::new();
+    for _ in 0..2000 {
+        team.step();
+        visited.push(team.robots[0].at);
+        if team.done() == 1 {
+            break;
+        }
+    }
+    assert_eq!(team.done(), 1);
+    for [x, y] in [
+        [50.0, 43.0],
+        [50.0, 50.0],
+        [46.0, 53.0],
+        [54.0, 47.0],
+        [50.0, 57.0],
+    ] {
+        let place = Point { x, y };
+        let nearest_m = visited.iter().map(|at| at.to(place).length());
+        assert!(nearest_m.fold(f64::INFINITY, f64::min) < 1.3, "{place:?}");
+    }
+}

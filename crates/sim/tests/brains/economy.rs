@@ -1,0 +1,115 @@
+//! Goals that controllers award to robots.
+
+use crate::scenario;
+use brain::RobotId;
+use sim::judge::GoalOutcome;
+use sim::run::Goal;
+use sim::simulation::Simulation;
+
+/// Three robots in a yard, of which two have an arm, and a controller with nine goals.
+const YARD: &str = r#"
+[clock]
+step_s = 0.2
+time_limit_s = 300
+[world]
+size_m = [60, 60]
+[goals.spot]
+count = 9
+within_m = 1
+placement = { kind = "fixed", at_m = [[5, 5], [50, 8], [12, 50], [30, 35], [55, 55], [8, 30], [40, 20], [20, 15], [33, 56]] }
+[controllers.base]
+count = 1
+start = { kind = "fixed", at_m = [[30, 30]] }
+radio = { range_m = 90, messages_per_step = 20 }
+[robots.arm]
+count = 2
+capabilities = ["arm"]
+radius_m = 0.25
+start = { kind = "fixed", at_m = [[28, 30], [32, 30]] }
+drive = { max_speed_m_s = 2, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 120 }
+radio = { range_m = 90, messages_per_step = 20 }
+sensors.gps = { kind = "position", noise_m = 0.1 }
+sensors.compass = { kind = "heading", noise_deg = 1 }
+sensors.sonar = { kind = "range", rays = 16, range_m = 4 }
+brain = { behaviours = [{ kind = "serve" }, { kind = "avoid" }] }
+[robots.eye]
+count = 1
+radius_m = 0.25
+start = { kind = "fixed", at_m = [[30, 27]] }
+drive = { max_speed_m_s = 2, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 120 }
+radio = { range_m = 90, messages_per_step = 20 }
+sensors.gps = { kind = "position", noise_m = 0.1 }
+sensors.compass = { kind = "heading", noise_deg = 1 }
+sensors.sonar = { kind = "range", rays = 16, range_m = 4 }
+brain = { behaviours = [{ kind = "serve" }, { kind = "avoid" }] }
+"#;
+
+fn finished(text: &str) -> (Vec<Goal>, GoalOutcome) {
+    let mut simulation = Simulation::new(scenario(text), 1, 0).unwrap();
+    let outcome = simulation.finish().goals.unwrap();
+    let goals = simulation.state().each_goal(simulation.scenario());
+    (goals.collect(), outcome)
+}
+
+#[test]
+fn every_goal_of_a_controller_is_served_once() {
+    let (goals, outcome) = finished(YARD);
+    assert_eq!((outcome.served, outcome.served_twice), (9, 0));
+    assert!(goals.iter().all(|goal| goal.awarded_s <= goal.began_s));
+    let robots = goals.iter().filter_map(|goal| goal.served_by);
+    let robots: std::collections::BTreeSet<RobotId> = robots.collect();
+    assert!(robots.len() > 1, "{robots:?}");
+}
+
+#[test]
+fn robots_stay_for_the_time_of_service() {
+    let text = YARD.replace("within_m = 1\n", "within_m = 1\nservice_s = 5\n");
+    let (_, outcome) = finished(&text);
+    assert_eq!(outcome.served, 9);
+    assert!((4.6..8.0).contains(&outcome.service_s), "{outcome:?}");
+}
+
+#[test]
+fn only_robots_with_the_capability_serve_a_goal() {
+    let text = YARD.replace("within_m = 1\n", "within_m = 1\nrequires = \"arm\"\n");
+    let (goals, outcome) = finished(&text);
+    assert_eq!(outcome.served, 9);
+    assert!(
+        goals
+            .iter()
+            .all(|goal| goal.served_by.is_some_and(|id| id.kind == 0))
+    );
+}
+
+#[test]
+fn goals_of_robots_that_break_down_are_served_by_others() {
+    let broken = "count = 1\nmean_time_between_failures_s = 10\nradius_m";
+    let text = YARD.replace("count = 1\nradius_m", broken);
+    let (goals, outcome) = finished(&text);
+    assert_eq!(outcome.served, 9, "{goals:?}");
+}
+
+#[test]
+fn goals_are_served_although_clocks_differ_and_messages_are_lost() {
+    let text = YARD
+        .replace(
+            "step_s = 0.2",
+            "step_s = 0.2\nmax_offset_s = 100\nmax_drift = 0.01",
+        )
+        .replace(
+            "messages_per_step = 20",
+            "messages_per_step = 20, loss_probability = 0.3",
+        );
+    let (_, outcome) = finished(&text);
+    assert_eq!(outcome.served, 9);
+}
+
+#[test]
+fn without_controllers_robots_that_only_serve_do_nothing() {
+    let text = YARD.replace(
+        "count = 1\nstart = { kind = \"fixed\", at_m = [[30, 30]] }",
+        "count = 0\nstart = { kind = \"fixed\", at_m = [] }",
+    );
+    let (_, outcome) = finished(&text);
+    assert_eq!((outcome.served, outcome.goals_refused), (0, 0));
+}
