@@ -18,7 +18,10 @@ impl Controller {
         let now_s = self.now_s;
         let waiting = self.goals.iter().filter(|owned| {
             let is_free = owned.assigned.is_none() && owned.is_on_offer(now_s);
-            is_free && owned.called_s.is_some() && now_s >= owned.without_bid_s + PATIENCE_S
+            let since_s = owned
+                .called_s
+                .map(|called_s| called_s.max(owned.without_bid_s));
+            is_free && since_s.is_some_and(|since_s| now_s >= since_s + PATIENCE_S)
         });
         let waiting: Vec<GoalId> = waiting.map(|owned| owned.task.id).collect();
         for goal in waiting {
