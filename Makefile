@@ -10,7 +10,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection verify-requirement fuzz golden schemas \
-	picture page-pictures bench-page examples replication validation brain-comparison goals web lint quick \
+	picture page-pictures bench-page examples replication validation brain-comparison economy verify-leases goals web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test drive-browser clean
 
 help: ## List the targets
@@ -121,6 +121,13 @@ validation: .venv/installed ## Regenerate docs/validation.md and its charts
 
 brain-comparison: .venv/installed ## Regenerate docs/brain-comparison.md and its charts (takes minutes)
 	$(BIN)/python scripts/brain_comparison.py
+
+economy: .venv/installed ## Regenerate docs/economy.md and its charts (takes minutes)
+	$(BIN)/python scripts/economy.py
+
+# Longer than the schedules of `make test`.
+verify-leases: ## Verify the leases of goals: 10,000 schedules of lost, late and repeated messages
+	SCHEDULES=10000 cargo test --release --locked -p agent-economy-economy --test room safety
 
 golden: ## Check that an unoptimised and a release build give the same runs, byte for byte
 	cargo test --locked --profile unoptimised -p agent-economy-sim --test simulator golden
