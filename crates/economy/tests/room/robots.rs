@@ -129,7 +129,7 @@ fn a_query_is_answered_by_a_report() {
     let sent = robot().take(OWNER, Dispatch::Query {});
     assert!(sent_any(
         &sent,
-        |sent| matches!(sent, Dispatch::Report(report) if report.payload == 8)
+        |sent| matches!(sent, Dispatch::Report(report) if report.payload == 4)
     ));
     let (mut robot, _) = assignee();
     let sent = robot.wait(4.0);

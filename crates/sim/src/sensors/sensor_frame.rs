@@ -28,12 +28,12 @@ pub(crate) enum NoisePurpose {
     EchoPlace = 7,
     /// The error of a measured heading.
     Orientation = 8,
-    /// The clock of a robot or controller; not a sensor's.
-    Clock = 9,
-    /// Whether a robot or controller fails; not a sensor's.
-    Failure = 10,
     /// Which of too many messages are received; not a sensor's.
-    Inbox = 11,
+    Inbox = 9,
+    /// The clock of a robot or controller; not a sensor's.
+    Clock = 10,
+    /// Whether a robot or controller fails; not a sensor's.
+    Failure = 11,
 }
 
 /// Purposes of one sensor are numbered from here.
