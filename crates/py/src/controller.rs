@@ -9,6 +9,7 @@ use crate::percept_check::of_controller;
 use base::error::{InputError, InputErrors};
 use brain::{Command, Percept, Reason, RobotId, Task};
 use economy::{OwnedGoal, Settings};
+use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -126,4 +127,14 @@ fn as_owned(goal: OwnedGoal) -> Owned {
         owner_lease_s: goal.heir.map(|(_, lease_s)| lease_s),
         unserved: goal.unserved,
     }
+}
+
+/// The column of each row in the assignment with the most pairs and, among those, the smallest sum of costs; None for a
+/// row without a column. A cost that is not finite forbids its pair.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "PyO3 passes an owned array")]
+pub(crate) fn assignment(costs: PyReadonlyArray2<f64>) -> Vec<Option<usize>> {
+    let costs = costs.as_array();
+    let by_rows: Vec<f64> = costs.iter().copied().collect();
+    economy::assignment([costs.nrows(), costs.ncols()], &by_rows)
 }

@@ -55,7 +55,7 @@ mod _core {
         Configuration, read_configuration, run_block, run_one, scenario_warnings,
     };
     #[pymodule_export]
-    use crate::controller::Controller;
+    use crate::controller::{Controller, assignment};
     #[pymodule_export]
     use crate::document::Document;
     #[pymodule_export]

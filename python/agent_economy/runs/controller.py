@@ -9,11 +9,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal, TypedDict, cast
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from agent_economy import _core
 from agent_economy.scenario import Scenario, as_scenario, validation
 from agent_economy.types.brain import Command, Percept, Reason, RobotId, Task
 
-__all__ = ["Controller", "ControllerSettings", "OwnedGoal"]
+__all__ = ["Controller", "ControllerSettings", "OwnedGoal", "assignment"]
 
 
 class ControllerSettings(TypedDict, total=False):
@@ -146,3 +149,31 @@ class Controller:
         controller = cls.__new__(cls)
         vars(controller)["_controller"] = compiled
         return controller
+
+
+def assignment(costs: ArrayLike) -> list[int | None]:
+    """Return the assignment of rows to different columns by which the rule `optimal` awards goals.
+
+    It has the maximum number of pairs and, among those, the smallest sum of costs. The same costs
+    always give the same assignment.
+
+    Args:
+        costs: Costs of the pairs, shape (rows, columns). One that is not finite forbids its pair.
+
+    Returns:
+        The column of each row; None for a row without one.
+
+    Raises:
+        InputError: If the costs are not a matrix of numbers.
+
+    Example:
+        >>> assignment([[4, 1, 3], [2, 0, 5]])
+        [1, 0]
+    """
+    name, allowed = "costs", "a matrix of numbers, one row per goal and one column per robot"
+    try:
+        matrix = np.asarray(costs, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise _core.refusal(name, costs, allowed) from None
+    validation.check(matrix.ndim == 2, name, costs, allowed)  # noqa: PLR2004  (a matrix)
+    return _core.assignment(matrix)
