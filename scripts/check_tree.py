@@ -27,6 +27,7 @@ CRATE_USES = {
         "agent-economy-base",
         "agent-economy-brain",
         "agent-economy-classic",
+        "agent-economy-economy",
         "agent-economy-protocol",
         "agent-economy-select",
         "agent-economy-sim",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from agent_economy.runs.batch import Batch
     from agent_economy.runs.brain import Brain
     from agent_economy.runs.classic_simulation import ClassicSimulation
+    from agent_economy.runs.controller import Controller
     from agent_economy.runs.outcome import Outcome
     from agent_economy.runs.simulation import Simulation
     from agent_economy.scenario import Scenario
@@ -27,6 +28,7 @@ __all__ = [
     "Batch",
     "Brain",
     "ClassicSimulation",
+    "Controller",
     "InputError",
     "Outcome",
     "Recording",
@@ -46,6 +48,7 @@ _HOMES = {
     "Batch": "agent_economy.runs.batch",
     "Brain": "agent_economy.runs.brain",
     "ClassicSimulation": "agent_economy.runs.classic_simulation",
+    "Controller": "agent_economy.runs.controller",
     "InputError": "agent_economy._core",
     "Outcome": "agent_economy.runs.outcome",
     "Recording": "agent_economy.recording",

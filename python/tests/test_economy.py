@@ -1,5 +1,9 @@
 """Goals and controllers of runs in Python."""
 
+from pathlib import Path
+from typing import Any
+
+import numpy as np
 import pytest
 
 import agent_economy as ae
@@ -65,3 +69,114 @@ def test_the_clocks_of_a_run_do_not_change(scenario: ae.Scenario) -> None:
     simulation = ae.Simulation(scenario, seed=1)
     with pytest.raises(ae.InputError, match="clock.max_drift"):
         simulation.change("clock.max_drift", 0.01)
+
+
+def test_a_controller_stepped_outside_the_run_gives_the_same_run(scenario: ae.Scenario) -> None:
+    inside, outside = (ae.Simulation(scenario, seed=1) for _ in range(2))
+    controller = ae.Controller.of(scenario, "base")
+    for _ in range(200):
+        inside.step()
+        percept = outside.percept("base/0")
+        assert percept is not None
+        outside.step(commands={"base/0": controller.step(percept)})
+    assert np.array_equal(inside.poses, outside.poses)
+    assert inside.goals == outside.goals
+    assert len(controller.goals) == len(inside.controllers[0]["goals"])
+
+
+def test_the_percept_of_a_controller_does_not_change_the_run(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    before = simulation.hash
+    percept = simulation.percept("base/0")
+    assert percept is not None
+    assert len(percept["inbox"]) == 12
+    assert (simulation.percept("base/0"), simulation.hash) == (percept, before)
+
+
+def test_a_recording_repeats_the_commands_of_a_controller(
+    scenario: ae.Scenario, mcap: Path
+) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    controller = ae.Controller({"allocation": "nearest"})
+    with ae.Recording(simulation, mcap) as recording:
+        for _ in range(100):
+            percept = simulation.percept("base/0")
+            assert percept is not None
+            recording.step(commands={"base/0": controller.step(percept)})
+    assert any(goal["assignee"] for goal in controller.goals)
+    assert ae.replay(mcap).agrees
+
+
+def test_an_unknown_controller_is_named_with_the_known_ones(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    for call in (simulation.percept, simulation.fail):
+        with pytest.raises(ae.InputError, match=r"robots and controllers: rover/0.*base/0"):
+            call("base/1")
+    command = ae.Controller().step(percept_of_a_controller())
+    with pytest.raises(ae.InputError, match=r'commands = "bse/0".*did you mean base/0'):
+        simulation.step(commands={"bse/0": command})
+
+
+def percept_of_a_controller() -> Any:
+    """Return a percept without messages."""
+    return {"time_s": 0.0, "id": {"kind": 1, "index": 0}}
+
+
+def test_a_robot_that_fails_on_command_is_broken_and_others_serve_its_goals(
+    scenario: ae.Scenario,
+) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    simulation.step(100)
+    simulation.fail("rover/2")
+    assert simulation.status.tolist() == ["active", "active", "broken", "active"]
+    at = simulation.poses[2]
+    simulation.finish()
+    assert np.array_equal(simulation.poses[2], at)
+    assert simulation.outcome().row["served"] == 12
+
+
+def test_a_failure_on_command_equals_one_at_random(scenario: ae.Scenario) -> None:
+    random = scenario.replace("robots.rover.mean_time_between_failures_s", 100)
+    simulation = ae.Simulation(random, seed=1)
+    while (simulation.status == "active").all():
+        before = simulation.snapshot()
+        simulation.step()
+    (failed,) = np.flatnonzero(simulation.status == "broken").tolist()
+    # From here on, no other robot fails.
+    simulation.change("robots.rover.mean_time_between_failures_s", 1e12)
+    simulation.step(200)
+    at_random = simulation.poses, simulation.goals
+    simulation.restore(before)
+    simulation.change("robots.rover.mean_time_between_failures_s", 1e12)
+    simulation.step()
+    simulation.fail(f"rover/{failed}")
+    simulation.step(200)
+    assert np.array_equal(simulation.poses, at_random[0])
+    assert simulation.goals == at_random[1]
+
+
+def test_a_controller_that_fails_on_command_is_silent(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    simulation.step(10)
+    simulation.fail("base/0")
+    assert not simulation.controllers[0]["working"]
+    assert simulation.percept("base/0") is None
+    assert simulation.changes[-1].path == "controllers.base.failed"
+
+
+def test_a_replay_repeats_failures_on_command(scenario: ae.Scenario, mcap: Path) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    with ae.Recording(simulation, mcap) as recording:
+        recording.step(50)
+        simulation.fail("rover/1")
+        simulation.fail("base/0")
+        recording.step(50)
+    replayed = ae.replay(mcap)
+    assert replayed.agrees
+    assert replayed.hash == f"{simulation.hash:016x}"
+
+
+def test_an_external_body_does_not_fail_on_command(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1, external=["rover/0"])
+    with pytest.raises(ae.InputError, match='name = "rover/0": must be a robot whose body'):
+        simulation.fail("rover/0")

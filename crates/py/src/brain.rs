@@ -116,7 +116,7 @@ fn field_too_large(body: &Body) -> Option<InputError> {
 }
 
 /// Reads a dict that is checked like a document; None counts as missing. `name` is its path in errors.
-fn read<T: DeserializeOwned + JsonSchema>(
+pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     name: &str,
     given: &Bound<PyAny>,
     errors: &mut Vec<InputError>,

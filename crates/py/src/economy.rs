@@ -98,6 +98,7 @@ fn dict_of<'py>(
         dict.set_item("unserved", reason(owned.unserved))?;
         let heir = owned.heir.map(|(id, _)| name_of(scenario, id));
         dict.set_item("heir", heir)?;
+        dict.set_item("owner_lease_s", owned.heir.map(|(_, lease_s)| lease_s))?;
         Ok(dict)
     });
     dict.set_item("goals", owned.collect::<PyResult<Vec<_>>>()?)?;

@@ -2,7 +2,7 @@
 
 use crate::convert;
 use crate::message_check::Kinds;
-use crate::metric_scenario::{name_of, robot_of};
+use crate::metric_scenario::{name_of, participant_of, robot_of};
 use crate::percept_check::fitting;
 use base::document::path_of;
 use base::error::{InputError, InputErrors};
@@ -15,7 +15,7 @@ use sim::scenario::Scenario;
 use sim::simulation::Simulation as Run;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A value for each of several robots.
+/// A value for each of several robots or controllers.
 pub(crate) type ByRobot<T> = BTreeMap<RobotId, T>;
 
 /// Reads the percepts and commands of a step. The kinds in `in_python` have Python brains.
@@ -34,24 +34,26 @@ pub(crate) fn read(
         Some(brain) => fitting(at, percept, brain.body()),
         None => Ok(percept),
     };
-    let percepts = by_robot(scenario, ("percepts", percepts), fits, &mut errors);
+    let named = |name: &str| robot_of(scenario, "percepts", name);
+    let percepts = by_robot(("percepts", percepts), named, fits, &mut errors);
     let kinds = Kinds::of_scenario(scenario);
     let allowed = |at: &str, _, command| kinds.command(at, command);
-    let commands = by_robot(scenario, ("commands", commands), allowed, &mut errors);
+    let named = |name: &str| participant_of(scenario, "commands", name);
+    let commands = by_robot(("commands", commands), named, allowed, &mut errors);
     errors.extend(commands_of_external(run, &percepts, &commands));
     errors.extend(without_brain(scenario, &percepts, in_python));
     InputErrors::or(errors, Some((percepts, commands)))
 }
 
 fn by_robot<T: DeserializeOwned + JsonSchema>(
-    scenario: &Scenario,
     (argument, given): (&str, &Bound<PyDict>),
+    named: impl Fn(&str) -> Result<RobotId, InputError>,
     fits: impl Fn(&str, RobotId, T) -> Result<T, InputError>,
     errors: &mut Vec<InputError>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
         let name = convert::text(&name);
-        let id = robot_of(scenario, argument, &name)?;
+        let id = named(&name)?;
         let at = path_of(argument, &name);
         Ok((id, fits(&at, id, convert::read(&at, &given)?)?))
     };

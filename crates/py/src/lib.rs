@@ -9,6 +9,7 @@ mod classic_simulation;
 mod classic_trace;
 mod commands;
 mod configuration;
+mod controller;
 mod convert;
 mod document;
 mod economy;
@@ -53,6 +54,8 @@ mod _core {
     use crate::configuration::{
         Configuration, read_configuration, run_block, run_one, scenario_warnings,
     };
+    #[pymodule_export]
+    use crate::controller::{Controller, assignment};
     #[pymodule_export]
     use crate::document::Document;
     #[pymodule_export]

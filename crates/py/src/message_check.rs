@@ -27,6 +27,14 @@ impl Kinds {
         }
     }
 
+    /// Any kinds: for an agent that knows none.
+    pub(crate) fn any() -> Self {
+        Self {
+            items: usize::MAX,
+            robots: None,
+        }
+    }
+
     /// An error, unless there is the kind of an item; `at` is its path.
     pub(crate) fn item(&self, at: &str, kind: u16) -> Option<InputError> {
         unless_below(self.items, at, kind.into(), "item")

@@ -31,18 +31,44 @@ pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
 
 /// The robot of a name; `path` is the path of errors.
 pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, InputError> {
+    id_in(&scenario.team(), "robots", path, name)
+}
+
+/// The robot or controller of a name; `path` is the path of errors.
+pub(crate) fn participant_of(
+    scenario: &Scenario,
+    path: &str,
+    name: &str,
+) -> Result<RobotId, InputError> {
+    let mut all = scenario.team();
+    let robots = all.len();
+    all.extend(scenario.controller_team());
+    let what = if all.len() > robots {
+        "robots and controllers"
+    } else {
+        "robots"
+    };
+    id_in(&all, what, path, name)
+}
+
+/// The id of a name among kinds, in the order of their numbers, with their counts; `what` they are, in errors.
+fn id_in(
+    team: &[(String, u32)],
+    what: &str,
+    path: &str,
+    name: &str,
+) -> Result<RobotId, InputError> {
     let (kind, index) = name.rsplit_once('/').unwrap_or((name, ""));
-    let team = scenario.team();
     let place = team.iter().position(|(known, _)| known == kind);
     let id = place.zip(index.parse().ok()).and_then(|(place, index)| {
         let is_there = index < team[place].1 && name == format!("{kind}/{index}");
         let kind = u8::try_from(place).ok()?;
         is_there.then_some(RobotId { kind, index })
     });
-    id.ok_or_else(|| no_robot(&team, path, name))
+    id.ok_or_else(|| unknown(team, what, path, name))
 }
 
-fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> InputError {
+fn unknown(team: &[(String, u32)], what: &str, path: &str, name: &str) -> InputError {
     let there = team.iter().filter(|(_, count)| *count > 0);
     let (kind, index) = name.rsplit_once('/').unwrap_or((name, "0"));
     let kinds = there.clone().map(|(kind, _)| kind.as_str());
@@ -61,7 +87,7 @@ fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> InputError {
         _ => format!("{kind}/0 to {kind}/{}", count - 1),
     });
     let names: Vec<String> = names.collect();
-    let allowed = format!("one of the run's robots: {}", names.join(", "));
+    let allowed = format!("one of the run's {what}: {}", names.join(", "));
     InputError {
         suggestion,
         ..InputError::new(path.to_owned(), Some(format!("{name:?}")), allowed)

@@ -1,8 +1,8 @@
-//! Rejects percepts that a body cannot have: an error in a driver that a brain would not notice.
+//! Rejects percepts that a body or a controller cannot have: an error in a driver that the agent would not notice.
 
 use crate::message_check::Kinds;
 use base::error::InputError;
-use brain::{Body, Percept, Scan};
+use brain::{Body, Percept, RobotId, Scan};
 
 /// `percept`, if `body` can have it; `at` is its path in errors.
 pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept, InputError> {
@@ -10,6 +10,28 @@ pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept
         Some(error) => Err(error),
         None => Ok(percept),
     }
+}
+
+/// `percept`, if a controller can have it where robots have this number of kinds, 0 if it is unknown; `at` is its path
+/// in errors.
+pub(crate) fn of_controller(
+    at: &str,
+    percept: Percept,
+    robot_kinds: u8,
+) -> Result<Percept, InputError> {
+    let (first, no_robot) = (robot_kinds.max(1), RobotId::OPERATOR.kind);
+    let kind = percept.id.kind;
+    let error = if (first..no_robot).contains(&kind) {
+        unknown_kind(at, &percept, &Kinds::any())
+    } else {
+        let allowed = format!(
+            "a number from {first} to {}: kinds of controllers are numbered after those of robots",
+            no_robot - 1
+        );
+        let path = format!("{at}.id.kind");
+        Some(InputError::new(path, Some(kind.to_string()), allowed))
+    };
+    error.map_or(Ok(percept), Err)
 }
 
 fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<InputError> {

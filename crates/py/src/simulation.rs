@@ -6,7 +6,7 @@ use crate::convert;
 use crate::error::{input_error, no_room_error};
 use crate::external;
 use crate::long_work::interruptible;
-use crate::metric_scenario::{MetricScenario, id_of, name_of};
+use crate::metric_scenario::{MetricScenario, id_of, name_of, participant_of};
 use crate::python_brain::{self, PythonBrain};
 use crate::snapshot::Measured;
 use base::engine::Runner;
@@ -150,20 +150,41 @@ impl Simulation {
         external::write(py, run.scenario(), &decided)
     }
 
-    /// The percept of a robot in the next step; None if its brain does not run in that step.
+    /// The percept of a robot or controller in the next step; None if it does not run in that step.
     fn percept<'py>(
         &self,
         py: Python<'py>,
         robot: &Bound<'py, PyAny>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let mut run = self.locked(py)?;
-        let id = id_of(run.scenario(), robot)?;
+        let id = participant_of(run.scenario(), "robot", &convert::text(robot));
+        let id = id.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         let work = robots(&run);
         let percept = self.advance(py, &mut run, work, |run, _| run.percept(id))?;
         let percept = percept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         percept
             .map(|percept| convert::write(py, &percept))
             .transpose()
+    }
+
+    /// The path of the scenario's key that lists the failed robots or controllers of a kind, and the index of one of
+    /// them, by its name.
+    fn failure(&self, py: Python, name: &str) -> PyResult<(String, u32)> {
+        let run = self.locked(py)?;
+        let scenario = run.scenario();
+        let id = participant_of(scenario, "name", name);
+        let id = id.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
+        let mut robots = run.state().each_robot(scenario);
+        if robots.any(|robot| robot.id == id && robot.is_external) {
+            let allowed = "a robot whose body is simulated: an external body does not fail here";
+            let given = Some(format!("{name:?}"));
+            let error = InputError::new("name".to_owned(), given, allowed.to_owned());
+            return Err(input_error(&InputErrors(vec![error]), ""));
+        }
+        let is_robot = usize::from(id.kind) < scenario.team().len();
+        let group = if is_robot { "robots" } else { "controllers" };
+        let kind = name.rsplit_once('/').map_or(name, |(kind, _)| kind);
+        Ok((format!("{group}.{kind}.failed"), id.index))
     }
 
     /// The beliefs and goals of a robot; None if its brain has no beliefs.

@@ -16,6 +16,7 @@ from agent_economy.recording.foxglove import WORLD as FRAME
 from agent_economy.recording.foxglove import color, cube, scene
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Floats, Items
+from agent_economy.recording.logged import Logged
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import OBSTACLE, WALL_M, half_turn_of
 from agent_economy.runs.brain import Command
@@ -56,7 +57,7 @@ class ClassicMoments:
         file: File,
         simulation: ClassicSimulation,
         _: Sequence[str],
-        logged: set[str],
+        logged: Logged,
         time_ns: int,
     ) -> None:
         """Write the static topics and the first step; see `engines.Engine`."""
@@ -66,7 +67,7 @@ class ClassicMoments:
         self._changes = len(simulation.changes)
         self._names = simulation.robots
         self._frames = Frames(self._names)
-        self._items = Items(file, items(), {"item": True}, logged)
+        self._items = Items(file, items(), {"item": True}, logged.finds)
         self._colours: list[int] = []
         robots = len(self._names)
         bodies = {"radius_m": [RADIUS] * robots, "is_flying": [False] * robots}

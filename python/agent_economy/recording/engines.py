@@ -7,6 +7,7 @@ from agent_economy.recording import classic_writer, metric_writer
 from agent_economy.recording.classic_writer import ClassicMoments
 from agent_economy.recording.file import File
 from agent_economy.recording.inputs import ExternalInputs
+from agent_economy.recording.logged import Logged
 from agent_economy.recording.metric_writer import MetricMoments
 from agent_economy.runs.brain import Command
 from agent_economy.runs.classic_simulation import ClassicSimulation
@@ -45,7 +46,7 @@ class Engine(NamedTuple):
         errors: Returns the errors of the names of robots whose percepts are to be recorded.
     """
 
-    moments: Callable[[File, Any, Sequence[str], set[str], int], Moments]
+    moments: Callable[[File, Any, Sequence[str], Logged, int], Moments]
     errors: Callable[[Any, Sequence[str]], list[str]]
 
 

@@ -9,11 +9,13 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.brain_topics import BrainTopics
+from agent_economy.recording.economy_topic import EconomyTopic
 from agent_economy.recording.fields import hash_text
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log, scene
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Items
+from agent_economy.recording.logged import Logged
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import grid, still
 from agent_economy.runs.brain import Command
@@ -56,7 +58,7 @@ class MetricMoments:
         file: File,
         simulation: Simulation,
         percepts: Sequence[str],
-        logged: set[str],
+        logged: Logged,
         time_ns: int,
     ) -> None:
         """Write the static topics and the first step; see `engines.Engine`."""
@@ -64,6 +66,7 @@ class MetricMoments:
         self._brains = BrainTopics(file, simulation, percepts, setting["bodies"])
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
+        self._economy = EconomyTopic(file, simulation, logged.warnings)
         self._file, self._simulation = file, simulation
         self._changes = len(simulation.changes)
         self._names = simulation.robots
@@ -72,7 +75,7 @@ class MetricMoments:
         document = simulation.scenario.to_dict()
         kinds = document.get("items", {})
         target = {name: kind.get("target", True) for name, kind in kinds.items()}
-        self._items = Items(file, simulation.items, target, logged)
+        self._items = Items(file, simulation.items, target, logged.finds)
         self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document, setting["shapes"]), time_ns), time_ns)
@@ -125,6 +128,7 @@ class MetricMoments:
             "stopped": int((moment["status"] != 0).sum()),
         }
         self._file.write_json("/run", run, time_ns)
+        self._economy.write(time_ns)
 
     def _write_bodies(self, moment: Moment, time_ns: int) -> None:
         rows = zip(self._names, STATUSES[moment["status"]], *self._bodies.values(), strict=True)

@@ -13,6 +13,7 @@ from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import SECOND_NS, log
 from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
 from agent_economy.recording.inputs import ExternalInputs
+from agent_economy.recording.logged import Logged
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Stepped
@@ -73,7 +74,7 @@ class Recording:
         self._flushed_ns = self._clock.time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
         self._files: set[str] = set()
-        self._logged: set[str] = set()
+        self._logged = Logged()
         if simulation.decision_hash is None:
             simulation.hash_decisions()
         write_identity(self._file, simulation)

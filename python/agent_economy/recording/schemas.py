@@ -31,7 +31,7 @@ def of_object(title: str, description: str, properties: Mapping[str, Schema]) ->
 
 
 def each(description: str, kind: Schema = NUMBER) -> Schema:
-    """Return the schema of a list with one entry per robot."""
+    """Return the schema of a list with one entry per robot, goal or controller."""
     return {"type": "array", "items": kind, "description": description}
 
 
@@ -111,6 +111,50 @@ CLASSIC_ROBOTS = of_object(
             {"enum": ["blue", "yellow", "red"]},
         ),
     },
+)
+
+TEXT_OR_NULL = {"type": ["string", "null"]}
+NUMBER_OR_NULL = {"type": ["number", "null"]}
+
+STATES = ["later", "unowned", "open", "awarded", "orphaned", "served", "expired"]
+
+OWNED: dict[str, Schema] = {
+    "name": each("Name, KIND/INDEX.", STRING),
+    "x_m": each("Position."),
+    "y_m": each("Position."),
+    "state": each("State; later: it has not arrived yet.", {"enum": STATES}),
+    "owner": each("The controller that owns it, as far as that one knows.", TEXT_OR_NULL),
+    "assignee": each("The robot that it is awarded to.", TEXT_OR_NULL),
+    "lease_s": each("Remaining time of that robot's lease.", NUMBER_OR_NULL),
+    "heir": each("The controller that renews the owner's lease.", TEXT_OR_NULL),
+    "owner_lease_s": each("Remaining time of the owner's lease.", NUMBER_OR_NULL),
+    "unserved": each("Why no robot can serve it at present.", TEXT_OR_NULL),
+}
+
+CONTROLLERS: dict[str, Schema] = {
+    "name": each("Name, KIND/INDEX.", STRING),
+    "x_m": each("Position."),
+    "y_m": each("Position."),
+    "range_m": each("Range of the radio."),
+    "working": each("Whether it sends and receives.", {"type": "boolean"}),
+    "refused": each("Number of goals that it refused.", INTEGER),
+}
+
+
+def of_lists(properties: Mapping[str, Schema]) -> Schema:
+    """Return the schema of a part with exactly these lists."""
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(properties),
+        "additionalProperties": False,
+    }
+
+
+ECONOMY = of_object(
+    "agent_economy.Economy",
+    "Goals and controllers; all lists of one part have the same order.",
+    {"goals": of_lists(OWNED), "controllers": of_lists(CONTROLLERS)},
 )
 
 INPUT = of_object(

@@ -125,8 +125,9 @@ class Simulation(Stepped):
         Args:
             steps: Number of steps, 0 or more; 1 with percepts or commands.
             percepts: Percepts of external bodies, by robot name.
-            commands: Commands for other robots, by robot name. A command replaces the decision of
-                the robot's brain in this step, and holds until the brain steps again.
+            commands: Commands for other robots and for controllers, by name. A command replaces the
+                decision of the robot's brain in this step, and holds until the brain steps again.
+                It replaces the step of a controller, which then misses the messages of this step.
 
         Returns:
             The commands of the robots in `percepts`, by name. Empty and broken robots have none.
@@ -158,17 +159,18 @@ class Simulation(Stepped):
         return cast("dict[str, Command]", self._run.decided)
 
     def percept(self, robot: str) -> Percept | None:
-        """Return the percept of a robot in the next step. It does not change the run.
+        """Return the percept of a robot or controller in the next step. It does not change the run.
 
         Args:
-            robot: Name of the robot.
+            robot: Name of the robot or controller.
 
         Returns:
             None if its brain does not step then, because of its rate or because the robot is empty
-            or broken, or if its body is external. The range of a ray without a return is None.
+            or broken, or if its body is external; of a controller, None if it has failed. The range
+            of a ray without a return is None.
 
         Raises:
-            InputError: If there is no such robot.
+            InputError: If there is no such robot or controller.
         """
         return cast("Percept | None", self._run.percept(robot))
 
@@ -320,6 +322,25 @@ class Simulation(Stepped):
             self.scenario, self._brains = changed, brains
             self._changes += (Change(tick, path, value),)
 
+    def fail(self, name: str) -> None:
+        """Let a robot or controller fail now, as `mean_time_between_failures_s` does.
+
+        A robot is broken from then on; a controller neither sends nor receives. It is a change of
+        `robots.KIND.failed` or `controllers.KIND.failed`, and in `changes` as such.
+
+        Args:
+            name: Name of the robot or controller, KIND/INDEX.
+
+        Raises:
+            InputError: If there is none of that name, or the robot has an external body.
+        """
+        validation.of_type("name", name, str, "the name of a robot or controller")
+        with self._lock:
+            path, index = self._run.failure(name)
+            group, kind, key = path.split(".")
+            failed = self.scenario.to_dict()[group][kind].get(key, [])
+            self.change(path, sorted({*failed, index}))
+
     def hash_decisions(self, start: int = 0) -> None:
         """Hash all decisions from now on: see `decision_hash`. It changes nothing else.
 
@@ -443,7 +464,8 @@ class Simulation(Stepped):
         until their lease ended), and `goals`, each with `goal` (KIND/INDEX, or None for a goal that
         is not of the scenario), `x_m`, `y_m`, `assignee` (the robot that it is awarded to, or
         None), `lease_s` (the remaining time of that robot's lease, or None), `heir` (a controller,
-        or None) and `unserved` (why no robot can serve it, or None).
+        or None), `owner_lease_s` (the remaining time of the owner's lease, or None) and `unserved`
+        (why no robot can serve it, or None).
         """
         return _core.controllers(self._run)
 

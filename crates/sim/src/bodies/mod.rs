@@ -65,6 +65,10 @@ pub struct RobotSpec {
     /// Mean time until a robot breaks down, in seconds. Without it, robots only break in collisions.
     #[schemars(range(min = 0.001, max = 1e12))]
     pub mean_time_between_failures_s: Option<f64>,
+    /// Indices of robots that have failed: from the start, or from when this changes in a run. They stay
+    /// broken when their index is removed. Others than those of the team have no effect.
+    #[serde(default)]
+    pub failed: Vec<u32>,
     /// The sensors, each under a name of your choice.
     #[serde(default)]
     pub sensors: BTreeMap<String, SensorSpec>,

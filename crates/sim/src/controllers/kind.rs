@@ -18,6 +18,7 @@ pub(crate) struct ControllerKind {
     pub(crate) radio: Radio,
     pub(crate) price: f64,
     pub(crate) mean_time_between_failures_s: Option<f64>,
+    pub(crate) failed: Vec<u32>,
     pub(crate) settings: Arc<Settings>,
 }
 
@@ -49,6 +50,7 @@ impl ControllerKind {
             radio: Radio::new(&spec.radio, step_s),
             price: spec.price,
             mean_time_between_failures_s: spec.mean_time_between_failures_s,
+            failed: spec.failed.clone(),
             settings: Arc::new(spec.settings(max_drift, robot_kinds)),
         }
     }

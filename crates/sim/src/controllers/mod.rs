@@ -28,6 +28,10 @@ pub struct ControllerSpec {
     /// Mean time until a controller fails, in seconds; it is silent from then on. Without it, none fails.
     #[schemars(range(min = 0.001, max = 1e12))]
     pub mean_time_between_failures_s: Option<f64>,
+    /// Indices of controllers that have failed: from the start, or from when this changes in a run. They
+    /// stay silent when their index is removed. Others than those of the team have no effect.
+    #[serde(default)]
+    pub failed: Vec<u32>,
     /// The rule by which it allocates its goals to robots.
     #[serde(default)]
     pub allocation: Allocation,

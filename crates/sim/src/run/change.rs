@@ -51,6 +51,7 @@ impl State {
             agent.renumber_robots(&ids);
         }
         next.keep_controllers(self, to, &old_controllers, &ids);
+        next.fail_named(to);
         next.make_room(to, &starts)?;
         let kept = next.keep_items(self, from, to)?;
         let removed = removed(self, &old);

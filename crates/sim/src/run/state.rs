@@ -73,6 +73,7 @@ impl State {
         };
         state.place_robots(scenario)?;
         state.controllers = place_controllers(scenario, (seed, run), &state.ids)?;
+        state.fail_named(scenario);
         Ok(state)
     }
 

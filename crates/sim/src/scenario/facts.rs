@@ -12,6 +12,13 @@ impl Scenario {
             .collect()
     }
 
+    /// Names and counts of the kinds of controllers, in the order in which ids count them.
+    #[must_use]
+    pub fn controller_team(&self) -> Vec<(String, u32)> {
+        let kinds = self.controllers.iter();
+        kinds.map(|kind| (kind.name.clone(), kind.count)).collect()
+    }
+
     /// What is the same in all runs, as text.
     pub(crate) fn facts(&self) -> Vec<(String, String)> {
         let size = self.world.size();

@@ -5,6 +5,8 @@ use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::controllers::kind::ControllerKind;
 use brain::{Brain, RobotId};
+use economy::Settings;
+use std::sync::Arc;
 
 impl Scenario {
     /// Names of the kinds of robots, in the order in which ids count them.
@@ -64,6 +66,12 @@ impl Scenario {
     #[expect(clippy::cast_possible_truncation, reason = "255 kinds at most")]
     pub(crate) fn controller_number(&self, kind: usize) -> u8 {
         (self.kinds.len() + kind) as u8
+    }
+
+    /// The settings of a kind of controllers, by its index among these kinds.
+    #[must_use]
+    pub fn controller_settings(&self, kind: usize) -> Option<&Arc<Settings>> {
+        self.controllers.get(kind).map(|kind| &kind.settings)
     }
 
     /// The kind of a controller of a run.

@@ -20,6 +20,7 @@ use crate::run::agent::Agent;
 use crate::run::placing::NoRoom;
 use crate::run::state::State;
 use crate::scenario::Scenario;
+use crate::step::direct::ControllerScratch;
 use crate::step::external::ExternalInputs;
 use crate::step::neighbours::Neighbours;
 use crate::step::pending_decisions::PendingDecision;
@@ -46,9 +47,9 @@ pub struct Simulation {
     probe: Probe,
 }
 
-/// There is no such robot in the run.
+/// There is no such robot or controller in the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("there is no robot {} of kind {}", .0.index, .0.kind)]
+#[error("there is no robot or controller {} of kind {}", .0.index, .0.kind)]
 pub struct NoRobot(pub RobotId);
 
 impl Simulation {
@@ -87,10 +88,10 @@ impl Simulation {
     }
 
     /// Takes one step with percepts of external bodies, and with commands that replace the decisions
-    /// of other brains; returns the commands that brains decided for external bodies.
+    /// of other brains and of controllers; returns the commands that brains decided for external bodies.
     ///
     /// # Errors
-    /// If there is no such robot; then no step is taken.
+    /// If there is no such robot or controller; then no step is taken.
     pub fn step_with(
         &mut self,
         percepts: BTreeMap<RobotId, Percept>,
@@ -142,14 +143,18 @@ impl Simulation {
         self.scratch.decided()
     }
 
-    /// What a robot will perceive in the next step; `None` if its brain does not step in it, or if
-    /// its body is external or cannot move any more.
+    /// What a robot or controller will perceive in the next step; `None` if its brain does not step in it, if
+    /// its body is external or cannot move any more, or if the controller does not work.
     ///
     /// # Errors
-    /// If there is no such robot.
+    /// If there is no such robot or controller.
     pub fn percept(&mut self, id: RobotId) -> Result<Option<Percept>, NoRobot> {
-        let robot = self.number(id)?;
-        Ok(self.scratch.percept(&self.scenario, &mut self.state, robot))
+        let number = self.participant(id)?;
+        let (scenario, state) = (&self.scenario, &mut self.state);
+        Ok(match number.checked_sub(state.robots()) {
+            None => self.scratch.percept(scenario, state, number),
+            Some(controller) => ControllerScratch::percept(scenario, state, controller),
+        })
     }
 
     /// Takes steps until the run is over.
@@ -231,8 +236,8 @@ impl Simulation {
         commands: BTreeMap<RobotId, Command>,
     ) -> Result<ExternalInputs, NoRobot> {
         let mut external = ExternalInputs {
-            percepts: self.numbered(percepts)?,
-            commands: self.numbered(commands)?,
+            percepts: numbered(percepts, |id| self.number(id))?,
+            commands: numbered(commands, |id| self.participant(id))?,
             ..ExternalInputs::default()
         };
         for robot in external.percepts.keys() {
@@ -274,14 +279,25 @@ impl Simulation {
         moved_m
     }
 
-    fn numbered<T>(&self, given: BTreeMap<RobotId, T>) -> Result<BTreeMap<usize, T>, NoRobot> {
-        given
-            .into_iter()
-            .map(|(id, what)| Ok((self.number(id)?, what)))
-            .collect()
+    /// The number of a robot or controller among all participants.
+    fn participant(&self, id: RobotId) -> Result<usize, NoRobot> {
+        let controllers = &self.state.controllers;
+        self.number(id).or_else(|no_robot| {
+            let place = controllers.binary_search_by_key(&id, |agent| agent.participant.id);
+            let place = place.map_err(|_| no_robot)?;
+            Ok(self.state.robots() + place)
+        })
     }
 
     pub(super) fn number(&self, id: RobotId) -> Result<usize, NoRobot> {
         self.state.ids.binary_search(&id).map_err(|_| NoRobot(id))
     }
+}
+
+fn numbered<T>(
+    given: BTreeMap<RobotId, T>,
+    number: impl Fn(RobotId) -> Result<usize, NoRobot>,
+) -> Result<BTreeMap<usize, T>, NoRobot> {
+    let entries = given.into_iter();
+    entries.map(|(id, what)| Ok((number(id)?, what))).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::decide::WorkerScratch;
 use super::decision_hash::decision_hash;
+use super::external::ExternalInputs;
 use crate::bodies::body_state::BodyState;
 use crate::radio::channel::Outgoing;
 use crate::run::controller::ControllerAgent;
@@ -26,11 +27,12 @@ struct Moment<'a> {
 }
 
 impl ControllerScratch {
-    /// Lets all controllers step. Their messages and decisions are added to those of the last robots.
+    /// Lets all controllers step for which there is no external command. Their messages and decisions are added to
+    /// those of the last robots.
     pub(crate) fn step(
         &mut self,
-        scenario: &Scenario,
-        state: &mut State,
+        (scenario, state): (&Scenario, &mut State),
+        external: &ExternalInputs,
         results: &mut WorkerScratch,
     ) {
         let moment = Moment {
@@ -44,13 +46,37 @@ impl ControllerScratch {
                 continue;
             }
             self.perceive(&moment, agent);
-            agent.controller.step_into(&self.percept, &mut self.command);
+            match external.commands.get(&number) {
+                Some(command) => self.command.clone_from(command),
+                None => agent.controller.step_into(&self.percept, &mut self.command),
+            }
             if hashes_decisions {
                 let hash = decision_hash(number, Some(&self.percept), &self.command);
                 results.decisions.push(hash);
             }
             self.send(number, agent, &mut results.outbox);
         }
+    }
+
+    /// What a controller will perceive in the next step; `None` if it does not work.
+    pub(crate) fn percept(
+        scenario: &Scenario,
+        state: &State,
+        controller: usize,
+    ) -> Option<Percept> {
+        let mut state = state.clone();
+        state.issue_goals(scenario);
+        let moment = Moment {
+            scenario,
+            tick: state.tick,
+            body_states: &state.body_states,
+        };
+        let agent = &mut state.controllers[controller];
+        let mut scratch = Self::default();
+        agent.participant.is_working(moment.body_states).then(|| {
+            scratch.perceive(&moment, agent);
+            scratch.percept
+        })
     }
 
     /// Fills the percept of a controller.

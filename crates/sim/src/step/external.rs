@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 /// External inputs of one step of a run.
 #[derive(Debug, Clone, Default)]
 pub struct ExternalInputs {
-    /// By the number of the robot, as are commands.
+    /// By the number of the robot.
     pub(crate) percepts: BTreeMap<usize, Percept>,
     /// External bodies whose percept is not later than the one before: their last motion is repeated.
     pub(crate) repeated: Vec<usize>,
+    /// By the number of the participant: robots first, then controllers.
     pub(crate) commands: BTreeMap<usize, Command>,
     pub(crate) decisions: PendingDecisions,
 }

@@ -6,7 +6,7 @@ mod decide;
 mod decision_hash;
 pub(crate) mod delegated;
 mod destination;
-mod direct;
+pub(crate) mod direct;
 mod encounters;
 pub(crate) mod external;
 mod flock_step;

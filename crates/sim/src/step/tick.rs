@@ -83,7 +83,7 @@ impl StepScratch {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
             state.issue_goals(scenario);
-            self.direct(scenario, state);
+            self.direct(scenario, state, external);
             let hashes = self.workers.iter().flat_map(|worker| &worker.decisions);
             add_decisions(state, hashes);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
@@ -173,9 +173,9 @@ impl StepScratch {
     }
 
     /// Lets all controllers step.
-    fn direct(&mut self, scenario: &Scenario, state: &mut State) {
+    fn direct(&mut self, scenario: &Scenario, state: &mut State, external: &ExternalInputs) {
         if let Some(last) = self.workers.last_mut() {
-            self.controllers.step(scenario, state, last);
+            self.controllers.step((scenario, state), external, last);
         }
     }
 

@@ -1,0 +1,179 @@
+"""A controller for percepts of your own: another radio, other simulators, real robots.
+
+A controller takes percepts and returns commands, as a brain does, and has no other input or output.
+Everything that it knows of goals, robots and other controllers comes from the messages of its
+percepts, and everything that it does is in the outbox of its commands.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal, TypedDict, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from agent_economy import _core
+from agent_economy.scenario import Scenario, as_scenario, validation
+from agent_economy.types.brain import Command, Percept, Reason, RobotId, Task
+
+__all__ = ["Controller", "ControllerSettings", "OwnedGoal", "assignment"]
+
+
+class ControllerSettings(TypedDict, total=False):
+    """The settings of a controller, as in `[controllers.NAME]` of a scenario.
+
+    Attributes:
+        allocation: The rule by which it allocates its goals to robots; "auction" by default.
+        service_lease_s: Time for which a robot may serve a goal without renewal; 20 by default.
+        owner_lease_s: Time for which it owns a goal without renewal by its heir; 30 by default.
+        auction_s: Time from the first call for bids to the award; 1 by default.
+        max_goals: Maximum number of goals that it owns, more are refused; 1000 by default.
+        max_drift: Maximum drift of any clock, in seconds per second; 0.0001 by default.
+    """
+
+    allocation: Literal["none", "nearest", "auction", "optimal"]
+    service_lease_s: float
+    owner_lease_s: float
+    auction_s: float
+    max_goals: int
+    max_drift: float
+
+
+class OwnedGoal(TypedDict):
+    """A goal that a controller owns.
+
+    Attributes:
+        task: The goal.
+        assignee: The robot that it is awarded to; None if there is none.
+        lease_s: Remaining time of that robot's lease; None without a robot.
+        heir: The controller that renews the owner's lease, and inherits the goal; None if there is
+            none: the controller then owns the goal without a lease.
+        owner_lease_s: Remaining time of the owner's lease; None without an heir.
+        unserved: Why no robot can serve it at present; None if one can.
+    """
+
+    task: Task
+    assignee: RobotId | None
+    lease_s: float | None
+    heir: RobotId | None
+    owner_lease_s: float | None
+    unserved: Reason | None
+
+
+class Controller:
+    """A controller, for percepts of your own.
+
+    Args:
+        settings: Its settings; None for the defaults. An entry that is None counts as omitted.
+
+    Raises:
+        InputError: If there are errors in them; it lists all.
+
+    Example:
+        >>> from agent_economy import Controller
+        >>> goal = {"issuer": {"kind": 255, "index": 0}, "number": 0}
+        >>> task = {"id": goal, "at_m": [3, 4], "radius_m": 1, "value": 1, "service_s": 0,
+        ...         "due_s": 60, "work": "visit", "capability": 0}
+        >>> me, operator = {"kind": 1, "index": 0}, {"kind": 255, "index": 0}
+        >>> issue = {"to": me, "about": {"dispatch": {"issue": task}}, "confidence": 1}
+        >>> received = {"from": operator, "age_s": 0, "message": issue}
+        >>> controller = Controller({"allocation": "nearest"})
+        >>> sent = controller.step({"time_s": 0, "id": me, "inbox": [received]})["outbox"]
+        >>> any("call" in message["about"]["dispatch"] for message in sent)
+        True
+        >>> [owned["task"]["at_m"] for owned in controller.goals]
+        [[3.0, 4.0]]
+    """
+
+    def __init__(self, settings: ControllerSettings | None = None) -> None:
+        """Create a controller at the start of a mission: no robot holds a lease of it."""
+        given: Mapping[str, Any] = {} if settings is None else cast("Mapping[str, Any]", settings)
+        self._controller = _core.Controller(given)
+
+    @classmethod
+    def of(cls, scenario: Scenario | str | Path, kind: str) -> "Controller":
+        """Return a controller of a kind of a scenario.
+
+        Args:
+            scenario: A scenario of the metric engine, its file, or the name of a bundled one.
+            kind: Name of the kind of controllers.
+
+        Raises:
+            InputError: If the scenario has errors, is of another engine, or has no such kind.
+        """
+        validation.of_type("kind", kind, str, "the name of a kind of controllers")
+        return cls._from(_core.Controller.of(as_scenario(scenario).metric(), kind))
+
+    def step(self, percept: Percept) -> Command:
+        """Return the command for a percept.
+
+        Of the percept, it uses `time_s` (of its own clock), `id`, `position`, `neighbours` and
+        `inbox`; of the command, only the outbox counts. Goals reach it as messages of the operator
+        (kind 255, index 0) with a dispatch `issue`. A percept from before the last one changes
+        nothing.
+
+        Raises:
+            InputError: If an entry of the percept is unknown or has an invalid value, or the kind
+                of its id is not numbered after those of robots.
+        """
+        return cast("Command", self._controller.step(percept))
+
+    @property
+    def goals(self) -> list[OwnedGoal]:
+        """The goals that it owns and that are not done, in the order in which it received them."""
+        return cast("list[OwnedGoal]", self._controller.goals())
+
+    @property
+    def orphans(self) -> list[Task]:
+        """The goals that it owned until its lease ended, because the heir did not renew it."""
+        return cast("list[Task]", self._controller.orphans())
+
+    @property
+    def refused(self) -> int:
+        """Number of goals that it refused, because it owned its maximum number."""
+        return self._controller.refused
+
+    def restarted(self) -> "Controller":
+        """Return the controller as it is after a restart during a mission.
+
+        It has the same settings, remembers nothing, and grants nothing for the longest lease.
+        """
+        return self._from(self._controller.restarted())
+
+    def copy(self) -> "Controller":
+        """Return an independent copy in the same state."""
+        return self._from(self._controller.copy())
+
+    @classmethod
+    def _from(cls, compiled: _core.Controller) -> "Controller":
+        controller = cls.__new__(cls)
+        vars(controller)["_controller"] = compiled
+        return controller
+
+
+def assignment(costs: ArrayLike) -> list[int | None]:
+    """Return the assignment of rows to different columns by which the rule `optimal` awards goals.
+
+    It has the maximum number of pairs and, among those, the smallest sum of costs. The same costs
+    always give the same assignment.
+
+    Args:
+        costs: Costs of the pairs, shape (rows, columns). One that is not finite forbids its pair.
+
+    Returns:
+        The column of each row; None for a row without one.
+
+    Raises:
+        InputError: If the costs are not a matrix of numbers.
+
+    Example:
+        >>> assignment([[4, 1, 3], [2, 0, 5]])
+        [1, 0]
+    """
+    name, allowed = "costs", "a matrix of numbers, one row per goal and one column per robot"
+    try:
+        matrix = np.asarray(costs, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise _core.refusal(name, costs, allowed) from None
+    validation.check(matrix.ndim == 2, name, costs, allowed)  # noqa: PLR2004  (a matrix)
+    return _core.assignment(matrix)
