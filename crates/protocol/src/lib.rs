@@ -7,6 +7,7 @@
 //!
 //! Seeds and run numbers can have 64 bits, which JavaScript numbers cannot hold: they are strings.
 
+mod economy;
 mod lists;
 mod page;
 mod schema;
@@ -16,6 +17,7 @@ mod study;
 mod study_answer;
 mod study_form;
 
+pub use economy::{ControllerView, Economy, GoalStatus, GoalView, ServedGoalView, ServiceView};
 pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
 pub use page::{
     Acknowledge, Change, Empty, Json, Layers, LoggedChange, Open, PageMessage, Play, Seek, Select,

@@ -33,7 +33,7 @@ pub enum PageMessage {
     Export {},
     /// Select the robot that states and maps describe.
     Select(Select),
-    /// Select the overlays of frames.
+    /// Select what is sent with frames.
     Layers(Layers),
     /// Request the outcome over time.
     RequestSeries(SeriesRequest),
@@ -149,7 +149,7 @@ pub struct Select {
     pub robot: Option<String>,
 }
 
-/// The overlays of frames; initially none.
+/// What is sent with frames; initially nothing.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layers {
@@ -157,6 +157,9 @@ pub struct Layers {
     pub links: bool,
     /// Areas that sensors cover.
     pub footprints: bool,
+    /// Goals and controllers, of a run that has any.
+    #[serde(default)]
+    pub economy: bool,
 }
 
 /// The part of the outcome over time that the page does not have.

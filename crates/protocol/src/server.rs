@@ -1,5 +1,6 @@
 //! Messages from the server to the page of a run.
 
+use crate::economy::Economy;
 use crate::lists::{Engine, InputError, RecordingEntry};
 use crate::page::Json;
 use crate::setting::Setting;
@@ -22,6 +23,8 @@ pub enum ServerMessage {
     State(Box<State>),
     /// The belief map of the selected robot, with a maximum rate of 4 Hz.
     Map(MapPart),
+    /// The goals and controllers while the page requests them, with a maximum rate of 4 Hz.
+    Economy(Economy),
     /// The progress of saving a recording.
     Saving(Saving),
     /// A recording has been saved or cancelled.

@@ -1,11 +1,12 @@
 //! The goals and controllers of a run.
 
-use crate::metric_scenario::name_of;
+use crate::metric_scenario::{id_of, name_of};
 use crate::simulation::Simulation;
-use brain::{GoalId, Reason};
+use brain::GoalId;
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use serde::Serialize;
 use sim::run::{Controller, Goal};
 use sim::scenario::Scenario;
 
@@ -71,6 +72,33 @@ pub(crate) fn controllers<'py>(
     PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)
 }
 
+/// The goals of controllers that a robot serves, in its order, each as a dict with `goal` (its name; None if it is not
+/// of the scenario), `x_m`, `y_m`, `owner`, `lease_s` and `verdict`.
+#[pyfunction]
+pub(crate) fn served_goals<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    robot: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyList>> {
+    let run = simulation.get().locked(py)?;
+    let scenario = run.scenario();
+    let id = id_of(scenario, robot)?;
+    let goals: Vec<Goal> = run.state().each_goal(scenario).collect();
+    let served = run.state().served_goals(id);
+    let dicts = served.iter().map(|served| {
+        let dict = PyDict::new(py);
+        dict.set_item("goal", name_of_goal(scenario, served.task.id, &goals))?;
+        let [x_m, y_m] = served.task.at_m;
+        dict.set_item("x_m", x_m)?;
+        dict.set_item("y_m", y_m)?;
+        dict.set_item("owner", name_of(scenario, served.owner))?;
+        dict.set_item("lease_s", served.lease_s)?;
+        dict.set_item("verdict", word(&served.verdict))?;
+        Ok(dict)
+    });
+    PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)
+}
+
 fn dict_of<'py>(
     py: Python<'py>,
     scenario: &Scenario,
@@ -95,7 +123,7 @@ fn dict_of<'py>(
         let assignee = owned.assignee.map(|(id, _)| name_of(scenario, id));
         dict.set_item("assignee", assignee)?;
         dict.set_item("lease_s", owned.assignee.map(|(_, lease_s)| lease_s))?;
-        dict.set_item("unserved", reason(owned.unserved))?;
+        dict.set_item("unserved", owned.unserved.as_ref().and_then(word))?;
         let heir = owned.heir.map(|(id, _)| name_of(scenario, id));
         dict.set_item("heir", heir)?;
         dict.set_item("owner_lease_s", owned.heir.map(|(_, lease_s)| lease_s))?;
@@ -108,9 +136,9 @@ fn dict_of<'py>(
     Ok(dict)
 }
 
-/// The word for a reason for which no robot can serve a goal.
-fn reason(why: Option<Reason>) -> Option<String> {
-    let word = serde_json::to_value(why?).ok()?;
+/// The word for a reason for which no robot can serve a goal, or for a verdict.
+fn word(value: &impl Serialize) -> Option<String> {
+    let word = serde_json::to_value(value).ok()?;
     word.as_str().map(str::to_owned)
 }
 

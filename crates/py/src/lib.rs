@@ -59,7 +59,7 @@ mod _core {
     #[pymodule_export]
     use crate::document::Document;
     #[pymodule_export]
-    use crate::economy::{controllers, goals};
+    use crate::economy::{controllers, goals, served_goals};
     #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]

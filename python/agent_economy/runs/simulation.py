@@ -189,6 +189,26 @@ class Simulation(Stepped):
         belief_state = self._run.belief_state(robot)
         return None if self._is_in_python(robot) else cast("BeliefState | None", belief_state)
 
+    def served_goals(self, robot: str) -> list[dict[str, Any]]:
+        """Return the goals of controllers that a robot serves, as of its brain's last step.
+
+        They are in the order in which it serves them. Each has `goal` (KIND/INDEX, or None for a
+        goal that is not of the scenario), `x_m`, `y_m`, `owner` (the controller that awarded it),
+        `lease_s` (the remaining time of its lease, on the robot's clock) and `verdict`.
+
+        Args:
+            robot: Name of the robot.
+
+        Returns:
+            An empty list if there are none, its brain has no behaviour `serve`, or it is a Python
+            brain.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        goals = _core.served_goals(self._run, robot)
+        return [] if self._is_in_python(robot) else goals
+
     def assigned_goals(self, robot: str) -> list[AssignedGoal]:
         """Return the goals that a person has assigned to a robot, as of its brain's last step.
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, TypeAlias, TypedDict
 
 import msgspec
 
-from agent_economy.types.brain import BeliefState, Command, Percept, Point
+from agent_economy.types.brain import BeliefState, Command, Percept, Point, Verdict
 
 Engine: TypeAlias = Literal["metric", "classic"]
 """A simulator."""
@@ -35,6 +35,105 @@ class CircleView(TypedDict):
 
     at: Point
     radius: float
+
+
+class ControllerView(TypedDict):
+    """A controller of a run.
+
+    Attributes:
+        name: Its name, KIND/INDEX.
+        at: Its position.
+        aboard: The name of the robot that carries it; null if its position is fixed.
+        range_m: Range of its radio.
+        is_working: Whether it sends and receives.
+        refused: Number of goals that it refused.
+        orphans: Names of goals that it owned until their lease ended.
+    """
+
+    name: str
+    at: Point
+    aboard: str | None
+    range_m: float
+    is_working: bool
+    refused: int
+    orphans: Sequence[str]
+
+
+GoalStatus: TypeAlias = Literal["pending", "open", "awarded", "served", "expired"]
+"""The status of a goal of a run."""
+
+
+class GoalView(TypedDict):
+    """A goal of a run.
+
+    Attributes:
+        name: Its name, KIND/INDEX.
+        at: Its position.
+        status: Its status.
+        owner: The name of the controller that owns it; null if none does.
+        heir: The name of the controller that inherits it; null if none does.
+        robot: The name of the robot that it is awarded to, or that served it.
+        lease_s: Remaining time of that robot's lease, on the owner's clock; null if it has
+            none.
+        unserved: Why no robot can serve it at present; null if one can.
+    """
+
+    name: str
+    at: Point
+    status: GoalStatus
+    owner: str | None
+    heir: str | None
+    robot: str | None
+    lease_s: float | None
+    unserved: str | None
+
+
+class ServedGoalView(TypedDict):
+    """A goal that a robot serves.
+
+    Attributes:
+        goal: Its name, KIND/INDEX; null if it is not of the scenario.
+        at: Its position.
+        owner: The name of the controller that awarded it.
+        lease_s: Remaining time of the lease, on the robot's clock.
+        verdict: Its state, as the robot knows it.
+    """
+
+    goal: str | None
+    at: Point
+    owner: str
+    lease_s: float
+    verdict: Verdict
+
+
+class ServiceView(TypedDict):
+    """A robot and the goals of controllers that it serves.
+
+    Attributes:
+        robot: The name of the robot, KIND/INDEX.
+        goals: The goals, in the order in which it serves them.
+    """
+
+    robot: str
+    goals: Sequence[ServedGoalView]
+
+
+class Economy(TypedDict):
+    """The goals and controllers while the page requests them, with a maximum rate of 4 Hz.
+
+    Attributes:
+        tick: The current tick.
+        goals: All goals, in the order of their kinds and indices.
+        controllers: All controllers, in the order of their kinds and indices.
+        service: The selected robot, and the goals that it serves; null if there is no such
+            robot.
+    """
+
+    type: Literal["economy"]
+    tick: int
+    goals: Sequence[GoalView]
+    controllers: Sequence[ControllerView]
+    service: ServiceView | None
 
 
 class Ended(TypedDict):
@@ -984,6 +1083,7 @@ ServerMessage = (
     | Setting
     | State
     | MapPart
+    | Economy
     | Saving
     | Saved
     | Exported
@@ -1111,15 +1211,17 @@ class Select(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="selec
 
 
 class Layers(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="layers"):
-    """Select the overlays of frames.
+    """Select what is sent with frames.
 
     Attributes:
         links: Radio links between robots.
         footprints: Areas that sensors cover.
+        economy: Goals and controllers, of a run that has any.
     """
 
     links: bool
     footprints: bool
+    economy: bool = False
 
 
 class RequestSeries(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="request_series"):

@@ -18,6 +18,11 @@ export type {
   Pose,
 } from "./generated/brain";
 export type {
+  ControllerView,
+  Economy,
+  GoalStatus,
+  GoalView,
+  ServedGoalView,
   Checked as ScenarioSummary,
   Ended,
   Engine,

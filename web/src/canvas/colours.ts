@@ -28,6 +28,12 @@ const names = [
   "belief",
   "reach-low",
   "reach-high",
+  "owner-1",
+  "owner-2",
+  "owner-3",
+  "owner-4",
+  "owner-5",
+  "owner-6",
 ] as const;
 
 export type ColourName = (typeof names)[number];

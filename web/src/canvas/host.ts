@@ -1,4 +1,4 @@
-import type { Json, Setting, State } from "../api/protocol";
+import type { Economy, Json, Setting, State } from "../api/protocol";
 import type { BelievedMap } from "../shared/believed_map";
 import type { Link } from "../shared/link";
 import type { Camera } from "./camera";
@@ -14,6 +14,8 @@ export interface Host {
   readonly tool: ToolId;
   /** The kind of item that the item tool places. */
   readonly itemKind: string;
+  /** The controller that is chosen in the panel; null for none. */
+  readonly controller: string | null;
   /** Whether the selected robot stays in the centre. */
   follows: boolean;
   camera: Camera | null;
@@ -24,6 +26,7 @@ export interface DrawnRun {
   readonly setting: Setting | null;
   readonly state: Pick<State, "is_playing" | "inspection" | "robot"> | null;
   readonly map: BelievedMap | null;
+  readonly economy: Economy | null;
   readonly selected: string | null;
   readonly frames: FrameQueue;
   /** Called when there is something new to draw. */

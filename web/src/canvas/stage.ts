@@ -167,7 +167,7 @@ export class Stage {
   }
 
   private scene(): Scene | null {
-    const { setting, state, map, selected } = this.host.session;
+    const { setting, state, map, economy, selected } = this.host.session;
     if (!setting) return null;
     const frame = this.interpolation.at(
       performance.now(),
@@ -184,6 +184,8 @@ export class Stage {
       frame: frame?.generation === setting.generation ? frame : null,
       inspection: state?.inspection ?? null,
       map,
+      economy,
+      controller: this.host.controller,
       robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),
       trails: this.trails,

@@ -6,7 +6,7 @@ use crate::bodies::body_state::Status;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{AssignedGoal, BeliefState, BelievedMap, Motion, RobotId};
+use brain::{AssignedGoal, BeliefState, BelievedMap, Motion, RobotId, ServedGoal};
 
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +74,16 @@ impl State {
         robot.map_or_else(
             |_| Vec::new(),
             |robot| self.agents[robot].brain.assigned_goals(),
+        )
+    }
+
+    /// The goals of controllers that a robot serves, in its order; none if there is no such robot.
+    #[must_use]
+    pub fn served_goals(&self, id: RobotId) -> Vec<ServedGoal> {
+        let robot = self.ids.binary_search(&id);
+        robot.map_or_else(
+            |_| Vec::new(),
+            |robot| self.agents[robot].brain.served_goals(),
         )
     }
 

@@ -1,4 +1,4 @@
-"""What the page of a run is sent, and when: settings, frames, overlays, states and maps.
+"""What the page of a run is sent, and when: settings, frames, overlays, states, maps and goals.
 
 A page that draws slowly is sent fewer frames: at most `MAX_IN_FLIGHT` are not acknowledged.
 """
@@ -15,8 +15,8 @@ from agent_economy.server.runs.run import Run
 from agent_economy.types.page import Layers, ServerMessage, State
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
-"""Minimum time between two frames, two states, and two maps of a robot. Steps of 1/30 s get a frame
-each."""
+"""Minimum time between two frames, two states, and two maps of a robot, which goals and controllers
+come with. Steps of 1/30 s get a frame each."""
 
 MAX_IN_FLIGHT = 3
 """Frames that the page has not acknowledged."""
@@ -90,6 +90,8 @@ class Display:
             self._map_at_s, self._owes_map = now_s, False
             if part := self._selected.map(run.simulation):
                 outputs.append(part)
+            if economy := self._overlay.economy(run.simulation):
+                outputs.append(economy)
         return outputs
 
     def _setting(self, run: Run) -> list[Output]:

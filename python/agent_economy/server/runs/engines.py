@@ -4,8 +4,14 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from agent_economy.runs.stepped import Stepped
-from agent_economy.server.runs import belief_view, classic_view, metric_overlay, metric_view
-from agent_economy.types.page import Inspection, MapPart, RobotView
+from agent_economy.server.runs import (
+    belief_view,
+    classic_view,
+    economy_view,
+    metric_overlay,
+    metric_view,
+)
+from agent_economy.types.page import Economy, Inspection, MapPart, RobotView
 
 
 class Selection(Protocol):
@@ -37,6 +43,8 @@ class Engine(NamedTuple):
         selected: Returns the selection of a new run.
         links: Draws the radio links, encoded as in `overlay`; None if robots have no radios.
         footprints: Draws the areas that sensors cover; None if robots have no sensors.
+        economy: Returns the goals and controllers, with a robot selected or None; None if runs of
+            the engine have neither.
     """
 
     drawn: Callable[[Any], bytes]
@@ -44,6 +52,7 @@ class Engine(NamedTuple):
     selected: Callable[[], Selection]
     links: DrawOverlay | None
     footprints: DrawOverlay | None
+    economy: Callable[[Any, str | None], Economy | None] | None
 
 
 ENGINES = {
@@ -53,8 +62,11 @@ ENGINES = {
         belief_view.Selected,
         metric_overlay.links,
         metric_overlay.footprints,
+        economy_view.economy,
     ),
-    "classic": Engine(classic_view.drawn, classic_view.still, classic_view.Selected, None, None),
+    "classic": Engine(
+        classic_view.drawn, classic_view.still, classic_view.Selected, None, None, None
+    ),
 }
 
 

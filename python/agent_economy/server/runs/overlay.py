@@ -1,4 +1,4 @@
-"""Overlays: what a page draws over a frame, of the layers that it has turned on.
+"""What a page draws over a frame, of the layers that it has turned on.
 
 An overlay is sent right before its frame. In little endian it is three `u32`: 2, the number of the
 frame, the number of links; then the links and the footprints, as `_core.drawn_links` and
@@ -9,7 +9,7 @@ import struct
 
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import engines
-from agent_economy.types.page import Layers
+from agent_economy.types.page import Economy, Layers
 
 KIND = 2
 """The first number of an overlay, which distinguishes it from a frame."""
@@ -25,7 +25,7 @@ class Overlay:
 
     def __init__(self) -> None:
         """Begin without layers."""
-        self._layers = Layers(links=False, footprints=False)
+        self._layers = Layers(links=False, footprints=False, economy=False)
         self._robot: str | None = None
 
     def set_layers(self, layers: Layers) -> None:
@@ -46,6 +46,11 @@ class Overlay:
             draw(simulation, self._robot) if draw else b"" for draw in self._layers_of(simulation)
         )
         return HEADER.pack(KIND, frame, len(links) // LINK_BYTES) + links + footprints
+
+    def economy(self, simulation: Stepped) -> Economy | None:
+        """Return goals and controllers; None if they are not requested, or there are none."""
+        draw = engines.of(simulation).economy
+        return draw(simulation, self._robot) if draw and self._layers.economy else None
 
     def _layers_of(self, simulation: Stepped) -> list[engines.DrawOverlay | None]:
         engine, layers = engines.of(simulation), self._layers

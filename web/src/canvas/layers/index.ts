@@ -2,6 +2,7 @@ import { beliefMap, unseen } from "./belief_map";
 import { beliefs } from "./beliefs";
 import { border, ground } from "./border";
 import { contact } from "./contact";
+import { economy } from "./economy";
 import { external } from "./external";
 import { footprints } from "./footprints";
 import { grid } from "./grid";
@@ -33,6 +34,7 @@ export const layers: Layer[] = [
   observedCells,
   links,
   trails,
+  economy,
   headings,
   beliefs,
   external,

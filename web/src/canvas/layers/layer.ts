@@ -1,5 +1,13 @@
 import type { Frame } from "../../api/frames";
-import type { Engine, Inspection, ObstacleView, Point, RobotView, Setting } from "../../api/protocol";
+import type {
+  Economy,
+  Engine,
+  Inspection,
+  ObstacleView,
+  Point,
+  RobotView,
+  Setting,
+} from "../../api/protocol";
 import type { BelievedMap } from "../../shared/believed_map";
 import type { World } from "../../shared/world";
 import type { Camera } from "../camera";
@@ -14,6 +22,10 @@ export interface Scene {
   inspection: Inspection | null;
   /** The believed map of the selected robot. */
   map: BelievedMap | null;
+  /** Goals and controllers; null if they are not requested, or there are none. */
+  economy: Economy | null;
+  /** The controller that is chosen in the panel; null for none. */
+  controller: string | null;
   /** The engine's report about the selected robot. */
   robot: RobotView | null;
   /** Number of the selected robot; -1 for none. */
@@ -40,6 +52,8 @@ export interface Layer {
   place: "still" | "over";
   /** The only engine that has this layer; left out: both. */
   only?: Engine;
+  /** Whether users have the switch in a run; left out: in all. */
+  offered?(setting: Setting): boolean;
   /** Whether there is anything to draw; an empty canvas is hidden, which costs nothing. */
   active(scene: Scene): boolean;
   draw(pen: Pen, scene: Scene): void;
@@ -73,6 +87,15 @@ export function imagesOf({ world }: Scene, [x, y]: Point, reach: number): Point[
 
 function along(at: number, size: number, reach: number): number[] {
   return [at, at - size, at + size].filter((image) => image >= -reach && image <= size + reach);
+}
+
+/** The way from one point to another; in a periodic world the shortest, which may cross the border. */
+export function shortestWay({ world: { size, periodic } }: Scene, from: Point, to: Point): Point {
+  return [0, 1].map((axis) => {
+    const way = (to[axis] ?? 0) - (from[axis] ?? 0);
+    const side = size[axis] ?? 1;
+    return periodic ? way - side * Math.round(way / side) : way;
+  }) as Point;
 }
 
 export function outline(path: Path2D, points: Point[]): void {

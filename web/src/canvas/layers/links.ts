@@ -1,5 +1,5 @@
 import type { Point } from "../../api/protocol";
-import { imagesOf, type Layer, poseOf, type Scene, withinWorld } from "./layer";
+import { imagesOf, type Layer, poseOf, type Scene, shortestWay, withinWorld } from "./layer";
 
 /** Radio links as reported by the engine: solid if two-way, dashed if one-way. */
 export const links: Layer = {
@@ -26,14 +26,8 @@ export const links: Layer = {
   },
 };
 
-/** The shortest line, which may cross the border of a periodic world. */
 function connect(path: Path2D, scene: Scene, from: Point, to: Point): void {
-  const { size, periodic } = scene.world;
-  const [x, y] = [0, 1].map((axis) => {
-    const way = (to[axis] ?? 0) - (from[axis] ?? 0);
-    const side = size[axis] ?? 1;
-    return periodic ? way - side * Math.round(way / side) : way;
-  }) as Point;
+  const [x, y] = shortestWay(scene, from, to);
   for (const [startX, startY] of imagesOf(scene, from, Math.max(Math.abs(x), Math.abs(y)))) {
     path.moveTo(startX, startY);
     path.lineTo(startX + x, startY + y);

@@ -4,6 +4,7 @@ import type { ServerMessage } from "../../api/protocol";
 import type {
   Change,
   PageMessage,
+  Economy,
   Ended,
   Json,
   MapPart,
@@ -52,6 +53,8 @@ export class Session implements Listener {
   selected = $state.raw<string | null>(null);
   /** The believed map of the selected robot. */
   map = $state.raw<BelievedMap | null>(null);
+  /** Goals and controllers while they are requested. */
+  economy = $state.raw<Economy | null>(null);
   /** The overlays that frames come with. */
   overlays = $state.raw<OverlayRequest | null>(null);
   /** Progress of the recording that is being saved. */
@@ -213,6 +216,7 @@ export class Session implements Listener {
   /** Requests the overlays that frames come with from now on. */
   requestOverlays(overlays: OverlayRequest): void {
     this.overlays = overlays;
+    if (!overlays.economy) this.economy = null;
     this.send({ type: "layers", ...overlays });
   }
 
@@ -247,6 +251,7 @@ export class Session implements Listener {
     else if (message.type === "setting") this.receiveSetting(message);
     else if (message.type === "state") this.receiveState(message);
     else if (message.type === "map") this.receiveMap(message);
+    else if (message.type === "economy") this.receiveEconomy(message);
     else if (message.type === "refused") this.receiveRefusal(message);
     else if (message.type === "saving") this.saving = message;
     else if (message.type === "saved") this.receiveSaved(message.recording);
@@ -268,6 +273,7 @@ export class Session implements Listener {
     this.opened = opened;
     this.phase = { name: "open" };
     this.map = null;
+    this.economy = null;
     this.awaitsSeries = false;
     if (this.selected !== null) this.send({ type: "select", robot: this.selected });
     const unsent = Object.entries(this.unsent);
@@ -309,6 +315,13 @@ export class Session implements Listener {
   private receiveMap(part: MapPart): void {
     if (part.robot !== this.selected) return;
     this.map = BelievedMap.with(this.map, part);
+    this.onFrame();
+  }
+
+  private receiveEconomy(economy: Economy): void {
+    // Sent before the server had received that they are no longer requested.
+    if (!this.overlays?.economy) return;
+    this.economy = economy;
     this.onFrame();
   }
 

@@ -19,8 +19,20 @@ export class Viewer implements Host {
   tool = $state<ToolId>("select");
   /** The kind that the item tool places. */
   itemKind = $state("");
+  /** The panel that is open. */
+  panel = $state("");
+  /** The controller whose goals stand out; null for those of all. */
+  controller = $state<string | null>(null);
   /** Whether each section of the robot panel is open. */
-  sections = $state({ command: true, percept: true, goals: true, headings: false, items: true, map: false });
+  sections = $state({
+    command: true,
+    serves: true,
+    percept: true,
+    goals: true,
+    headings: false,
+    items: true,
+    map: false,
+  });
   /** Playback speed; null for the maximum. */
   speed = $state<number | null>(1);
   /** Whether the view follows the selected robot. */
