@@ -157,7 +157,7 @@ def quarantine_note(scenario: Scenario, seed: int, table: pa.Table) -> str:
     return (
         f"{len(runs):,} of {table.num_rows:,} runs {are} quarantined "
         f"({reason(scenario, seed, int(runs[0]))}). Such runs count as the worst possible in time, "
-        "completion, found and missed items and merit; other means leave them out."
+        "completion, items found and missed, goals served and merit; other means leave them out."
     )
 
 
