@@ -146,6 +146,7 @@ def test_a_study_of_goals_has_the_chart_and_its_numbers(
     labels = {"2 rovers, 0 bases", "4 rovers, 0 bases", "2 rovers, 1 base", "4 rovers, 1 base"}
     assert {result.label for result in answer.results} == labels
     assert "How many bases are enough" in page
+    assert "complete means that all goals are served" in page
 
 
 def test_a_requirement_on_goals_has_the_chart(waypoints: Scenario, tmp_path: Path) -> None:

@@ -127,10 +127,16 @@ def cut(view: View, which: str) -> str:
 
 def failed(view: View) -> Section:
     """Return the section on failed runs."""
+    notes = [f"Intervals as above. {cut(view, 'the best by merit')}".strip()]
+    if view.with_goal_time:
+        notes.append(
+            "A run fails if it is not complete when it ends: complete means that all goals are "
+            "served, or what end.when of the scenario states."
+        )
     pictures = (Picture("failed", "Share of runs that failed, with its interval"),)
     return Section(
         "Failures",
-        (f"Intervals as above. {cut(view, 'the best by merit')}".strip(),),
+        tuple(notes),
         pictures if view.compares else (),
         (tables.failed(view),),
         is_folded=view.compares,
