@@ -122,6 +122,16 @@ def test_the_times_of_finds_are_in_files_and_json_but_not_in_tables(tmp_path: Pa
     assert printed["found_mine_4_s"] is ae.run("search", 1, 1).row["found_mine_4_s"] is None
 
 
+def test_tables_of_goals_without_items_have_no_rows_of_items() -> None:
+    few = ("waypoints", "--set", "goals.spot.count=2", "--set", "robots.rover.count=2")
+    shown = succeed("replicate", *few, "--runs", "2").stdout
+    assert "served_twice" in shown
+    assert not {"found", "missed", "false_alarms"} & set(shown.split())
+    assert "false alarms" not in succeed("run", *few).stdout
+    columns = json.loads(succeed("replicate", *few, "--runs", "2", "--json").stdout)["columns"]
+    assert "found" in [row["column"] for row in columns]
+
+
 def summary(*arguments: str | Path) -> dict[str, dict[str, Any]]:
     """Return the summary of `replicate` by column, and the number of runs that it counts."""
     printed = json.loads(succeed("replicate", *arguments, "--json").stdout)

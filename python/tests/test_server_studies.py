@@ -539,7 +539,15 @@ def test_a_key_that_needs_others_is_no_factor() -> None:
     assert "robots.bird.radio.loss_probability" not in paths
 
 
-@pytest.mark.parametrize("name", ["classic", "search", "search-beliefs", "open-field", "flock"])
+def test_numbers_of_robots_then_of_controllers_are_the_first_factors() -> None:
+    first, second, *others = [each["path"] for each in factors(Scenario.load("waypoints"))]
+    assert (first, second) == ("robots.rover.count", "controllers.base.count")
+    assert "controllers.base.allocation" in others
+
+
+@pytest.mark.parametrize(
+    "name", ["classic", "search", "search-beliefs", "open-field", "flock", "waypoints"]
+)
 def test_every_listed_factor_can_be_varied(name: str) -> None:
     scenario = Scenario.load(name)
     found = factors(scenario)

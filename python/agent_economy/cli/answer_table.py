@@ -14,9 +14,10 @@ from agent_economy.study import files
 from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.goal_time import GoalTime, in_words
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.results import Result
-from agent_economy.study.answer.verdict import repeated
+from agent_economy.study.answer.verdict import repeated, upper
 
 WIDE = 118
 """Width of a table with ranges, and of output that is not a terminal."""
@@ -46,6 +47,8 @@ def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
     console.print(first, style="bold", markup=False, emoji=False)
     for line in lines:
         console.print(line, markup=False, emoji=False)
+    if time := selected_goal_time(answer):
+        console.print(upper(in_words(time)), markup=False, emoji=False)
     console.print(f"{small}\n", style="dim", markup=False, emoji=False)
     console.print(
         f"{answer.guarantee} ({precision}{answer.runs:,} runs)\n",
@@ -56,6 +59,12 @@ def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
         typer.echo(f"{repeated(answer.questions)}\n")
     if report:
         typer.echo(f"Report: {report}")
+
+
+def selected_goal_time(answer: AnyAnswer) -> GoalTime | None:
+    """Return where the time of a goal goes with the selected team; None if it has no goals."""
+    index = answer.selected if isinstance(answer, RequirementAnswer) else answer.best
+    return None if index is None else answer.results[index].goal_time
 
 
 def results_table(answer: Answer, *, ranges: bool) -> Table:

@@ -25,7 +25,7 @@ from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.cli.run_summary import Summary, quarantined, summarised
 from agent_economy.cli.whole_table import print_whole
-from agent_economy.runs.outcome import find_times
+from agent_economy.runs.outcome import find_times, without_items
 from agent_economy.runs.quarantine import reason
 from agent_economy.scenario import Scenario
 from agent_economy.study.store.folder import check_writable, write_whole
@@ -157,13 +157,14 @@ def quarantine_note(scenario: Scenario, seed: int, table: pa.Table) -> str:
     return (
         f"{len(runs):,} of {table.num_rows:,} runs {are} quarantined "
         f"({reason(scenario, seed, int(runs[0]))}). Such runs count as the worst possible in time, "
-        "completion, found and missed items and merit; other means leave them out."
+        "completion, items found and missed, goals served and merit; other means leave them out."
     )
 
 
 def show(title: str, summary: Summary) -> None:
-    """Print a summary as a table, without the times of finds."""
-    left_out = find_times(row["column"] for row in summary)
+    """Print a summary as a table, without the times of finds, and without items if it has none."""
+    columns = [row["column"] for row in summary]
+    left_out = find_times(columns) | without_items(columns)
     summary = [row for row in summary if row["column"] not in left_out]
     table = Table(title=Text(title, style="bold"), title_justify="left", box=box.SIMPLE_HEAD)
     table.add_column("", no_wrap=True)

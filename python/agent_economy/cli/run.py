@@ -163,6 +163,8 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
         "price": number(outcome.price),
         "merit": None if outcome.merit is None else f"{outcome.merit:.3f}",
     }
+    if "goals" in outcome.row and not outcome.found:
+        del rows["false alarms"]
     return [(name, text) for name, text in rows.items() if text is not None]
 
 

@@ -138,3 +138,12 @@ def find_times(columns: Iterable[str]) -> set[str]:
     names = list(columns)
     any_kind = "|".join(map(re.escape, kinds(names)))
     return {name for name in names if re.fullmatch(f"found_({any_kind})_[0-9]+_s", name)}
+
+
+def without_items(columns: Iterable[str]) -> set[str]:
+    """Return the columns about items if a scenario has goals and no items: they are always zero.
+
+    Tables for people leave them out.
+    """
+    names = list(columns)
+    return {"found", "missed", "false_alarms"} if "goals" in names and not kinds(names) else set()

@@ -181,6 +181,12 @@ class Scenario:
         return f"{head}<table>{cells}</table>"
 
     @cached_property
+    def controllers(self) -> dict[str, int]:
+        """Number of controllers in a single run, by kind."""
+        kinds = self.to_dict().get("controllers", {})
+        return {name: kind["count"] for name, kind in kinds.items()}
+
+    @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:
         """Warnings about a single run: maps that are partly cut off, and robots without room."""
         return warnings(self.source, [{}])

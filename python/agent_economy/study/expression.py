@@ -1,7 +1,8 @@
 """Arithmetic on the robots of a team, as `minimize` and `where` of a study contain it.
 
-Names are kinds of robots, which are their numbers, `robots`, the number of all, and `price`. There
-are numbers, + - * /, comparisons, `and`, `or`, `not` and parentheses, as in Python.
+Names are kinds of robots and controllers, which are their numbers, `robots`, the number of all
+robots, and `price`. There are numbers, + - * /, comparisons, `and`, `or`, `not` and parentheses, as
+in Python.
 """
 
 import ast
@@ -32,7 +33,9 @@ COMPARED: dict[type, Callable[[float, float], bool]] = {
 MAX_LENGTH = 1000
 """Maximum number of characters of an expression."""
 
-ALLOWED = "numbers, kinds of robots, robots, price, + - * / and comparisons, and, or, not"
+ALLOWED = (
+    "numbers, kinds of robots and controllers, robots, price, + - * / and comparisons, and, or, not"
+)
 MUST_BE = f"must be an expression of {ALLOWED}"
 SHOWN = 80
 """Characters of an expression that its error shows."""

@@ -53,7 +53,10 @@ def is_infinite(value: Any) -> bool:
 
 
 def as_dict(answer: AnyAnswer) -> dict[str, Any]:
-    """Return an answer as JSON values; `omissions` and other `questions` only if there are any."""
+    """Return an answer as JSON values; without what it has none of.
+
+    `omissions`, other `questions` and each `goal_time` are in it only if there are any.
+    """
     values = asdict(answer, dict_factory=with_names_of_infinity)
     scenario = values.pop("scenario")
     del scenario["source"]
@@ -61,6 +64,9 @@ def as_dict(answer: AnyAnswer) -> dict[str, Any]:
         del values["omissions"]
     if len(answer.questions) <= 1:
         del values["questions"]
+    for result in values["results"]:
+        if result["goal_time"] is None:
+            del result["goal_time"]
     results = [
         {"configuration": index, **result} for index, result in enumerate(values.pop("results"))
     ]

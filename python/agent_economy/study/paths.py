@@ -1,10 +1,25 @@
-"""Paths of factors that are team sizes."""
+"""Paths of factors that are numbers of robots or controllers of a kind."""
 
-TEAM = ("robots.", ".count")
-"""Prefix and suffix of the path of a factor that is a team size."""
+ROBOTS, CONTROLLERS, COUNT = "robots.", "controllers.", ".count"
+"""Prefixes and the suffix of the path of a factor that is such a number."""
 
 
 def robot_kind(path: str) -> str | None:
     """Return the robot kind whose team size a path is, if it is one."""
-    start, end = TEAM
-    return path[len(start) : -len(end)] if path.startswith(start) and path.endswith(end) else None
+    return kind_between(ROBOTS, path)
+
+
+def counted_kind(path: str) -> str | None:
+    """Return the kind of robots or controllers whose number a path is, if it is one."""
+    return kind_between(ROBOTS, path) or kind_between(CONTROLLERS, path)
+
+
+def is_of_controllers(path: str) -> bool:
+    """Return whether a path is about controllers."""
+    return path.startswith(CONTROLLERS)
+
+
+def kind_between(start: str, path: str) -> str | None:
+    """Return what is between a prefix and the suffix of a number."""
+    is_count = path.startswith(start) and path.endswith(COUNT)
+    return path[len(start) : -len(COUNT)] if is_count else None

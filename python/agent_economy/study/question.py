@@ -7,6 +7,16 @@ from typing import Any
 from agent_economy.scenario import Requirement, Scenario
 from agent_economy.study.arguments import Floats, Guarantee
 
+GOAL_COLUMNS = (
+    "served",
+    "served_twice",
+    "waiting_s",
+    "travel_s",
+    "blocked_s",
+    "service_s",
+)
+"""Columns that describe goals, of those that the simulator has: NaN in a quarantined run."""
+
 
 @dataclass(frozen=True)
 class Best:

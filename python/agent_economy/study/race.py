@@ -30,7 +30,7 @@ from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
 from agent_economy.study.leaders import leaders
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
-from agent_economy.study.question import Best, Cheapest
+from agent_economy.study.question import GOAL_COLUMNS, Best, Cheapest
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import (
     Elimination,
@@ -227,8 +227,11 @@ class Race:
                 if name == "quarantined":
                     parts.append(np.isnan(found[row]).astype(np.float64))
                     continue
-                # A quarantined run counts as the worst possible: late, failed, and with its cost.
                 given = columns[name][row]
+                if name not in self._plan.question.columns:
+                    parts.append(given)
+                    continue
+                # A quarantined run counts as the worst possible: late, failed, and with its cost.
                 parts.append(np.where(np.isnan(given), limits[name][1], given))
             self._sums[configuration] += values[row].sum()
         if isinstance(self._plan.question, Cheapest):
@@ -315,7 +318,8 @@ def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
     yield question.quantity
     if isinstance(question, Cheapest):
         yield "quarantined"
-    yield from (name for name in question.columns if name in limits)
+    names = dict.fromkeys((*question.columns, *GOAL_COLUMNS))
+    yield from (name for name in names if name in limits)
 
 
 def procedure_of(plan: Plan) -> _core.Procedure:

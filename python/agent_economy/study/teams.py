@@ -10,7 +10,7 @@ from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
 from agent_economy.study.expression import NOT_FINITE, Expression
-from agent_economy.study.paths import robot_kind
+from agent_economy.study.paths import counted_kind
 
 
 def compared(scenario: Scenario, configurations: Sequence[Values]) -> tuple[Values, ...]:
@@ -65,7 +65,7 @@ def cost_of(scenario: Scenario, cost: str) -> Expression:
 
 def names(scenario: Scenario) -> tuple[str, ...]:
     """Return the names that expressions may contain."""
-    return (*scenario.robots, "robots", "price")
+    return (*scenario.robots, *scenario.controllers, "robots", "price")
 
 
 def evaluated(expression: Expression, engine: Engine) -> Floats:
@@ -86,10 +86,12 @@ def team(engine: Engine, configuration: int, *, has_price: bool) -> dict[str, fl
     varied = {
         kind: float(value)
         for path, value in engine.configurations[configuration].items()
-        if (kind := robot_kind(path)) is not None
+        if (kind := counted_kind(path)) is not None
     }
-    counts = {kind: float(count) for kind, count in engine.scenario.robots.items()} | varied
-    values = counts | {"robots": sum(counts.values())}
+    scenario = engine.scenario
+    counts = {kind: float(n) for kind, n in (scenario.robots | scenario.controllers).items()}
+    values = counts | varied
+    values["robots"] = sum(values[kind] for kind in scenario.robots)
     return values | {"price": price(engine, configuration)} if has_price else values
 
 

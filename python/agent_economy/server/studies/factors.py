@@ -9,7 +9,7 @@ from typing import Any, cast
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario import Requirement, Scenario, Value
-from agent_economy.study.paths import robot_kind
+from agent_economy.study.paths import counted_kind, is_of_controllers
 from agent_economy.study.plan import WITHOUT_RUNS
 from agent_economy.types import page
 
@@ -54,7 +54,7 @@ def columns(scenario: Scenario) -> list[str]:
 
 
 def factors(scenario: Scenario) -> list[page.Factor]:
-    """Return all numbers and choices that a study can vary, team sizes first."""
+    """Return all numbers and choices that a study can vary: robots and controllers first."""
     varied = scenario.to_dict().get("study", {}).get("vary", {})
     root = schema(scenario.engine)
     document = _core.read_filled(scenario.source)
@@ -64,7 +64,14 @@ def factors(scenario: Scenario) -> list[page.Factor]:
         if keys[0] not in {*WITHOUT_RUNS, "engine"}
         and ((path := ".".join(keys)) in varied or can_be_varied(scenario, document, keys, limits))
     ]
-    return sorted(found, key=lambda factor: robot_kind(factor["path"]) is None)
+    return sorted(found, key=lambda factor: place(factor["path"]))
+
+
+def place(path: str) -> int:
+    """Return the place of a factor: numbers of robots, of controllers, then all others."""
+    if counted_kind(path) is None:
+        return 2
+    return 1 if is_of_controllers(path) else 0
 
 
 def can_be_varied(

@@ -46,6 +46,7 @@ class Sample(EqualByValue):
         columns: By name, shape (runs,): the quantities of the question, such as those of
             `QUANTITIES`, "robots", and "price" if the simulator has prices. About a requirement,
             "quarantined" is 1 in a quarantined run; in other columns, it has the greatest value.
+            Those of `GOAL_COLUMNS` if the scenario has goals.
         limits: By name, the range of a column.
         quarantined: Number of runs without a finite merit, which count as the worst.
     """
@@ -67,7 +68,7 @@ class Sample(EqualByValue):
 
     @property
     def price(self) -> float:
-        """Price of its robots; 0 if the simulator has no prices."""
+        """Price of its robots and controllers; 0 if the simulator has no prices."""
         if "price" not in self.columns:
             return 0.0
         # Every run has the same one.

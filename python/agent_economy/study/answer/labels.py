@@ -1,14 +1,18 @@
-"""Labels of configurations: "4 rovers, 1 scout, contact touch"."""
+"""Labels of configurations: "4 rovers, 1 base, allocation auction"."""
 
 from collections.abc import Mapping, Sequence
 
-from agent_economy.study.paths import robot_kind
+from agent_economy.study.paths import counted_kind, is_of_controllers, robot_kind
 
 Values = Mapping[str, float | str]
 
 
 def label(values: Values) -> str:
-    """Return the label of a configuration from its values of the varied factors."""
+    """Return the label of a configuration from its values of the varied factors.
+
+    Controllers come after the robots, their number first.
+    """
+    values = dict(sorted(values.items(), key=place))
     lasts = [path.rsplit(".", 1)[-1] for path in values]
     parts = [
         # Paths with the same last key are written in full.
@@ -18,9 +22,17 @@ def label(values: Values) -> str:
     return ", ".join(parts) or "the scenario"
 
 
+def place(item: tuple[str, float | str]) -> int:
+    """Return the place of a factor in a label: 0 unless it is about controllers."""
+    path, _ = item
+    if not is_of_controllers(path):
+        return 0
+    return 2 if counted_kind(path) is None else 1
+
+
 def part(path: str, value: float | str, *, is_short: bool = True) -> str:
     """Return one value in words: "4 rovers" for robots.rover.count, else "time_limit_s 120"."""
-    kind = robot_kind(path)
+    kind = counted_kind(path)
     if kind is not None:
         return f"{value} {kind}" if value == 1 else f"{value} {kind}s"
     written = f"{value:.10g}" if is_number(value) else word(value)

@@ -6,6 +6,7 @@ from typing import Literal
 
 from agent_economy.scenario import Requirement, Value
 from agent_economy.study.answer.evidence import Evidence, Interval, Sample
+from agent_economy.study.answer.goal_time import GoalTime, goal_time
 from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
 from agent_economy.study.plan import Plan
@@ -59,6 +60,7 @@ class RequirementResult:
         failing: The share of runs in which each condition does not hold, in their order;
             quarantined runs included. Empty without runs.
         quantiles: Quantiles of the columns of the conditions.
+        goal_time: Where the time of a goal goes; None if no goal was served.
     """
 
     values: dict[str, Value]
@@ -71,6 +73,7 @@ class RequirementResult:
     met: Interval | None
     failing: tuple[float, ...]
     quantiles: tuple[Quantiles, ...]
+    goal_time: GoalTime | None = None
 
     @property
     def is_possible(self) -> bool:
@@ -94,6 +97,7 @@ def results(
             met=evidence.interval(index, "met") if sample.runs else None,
             failing=failing(sample, requirement),
             quantiles=quantiles_of(evidence, sample, quantile_columns(requirement)),
+            goal_time=goal_time(sample),
         )
         for index, sample in enumerate(evidence.samples)
     )

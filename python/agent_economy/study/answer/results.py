@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from agent_economy.scenario import Value
 from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.answer.front import Place, front
+from agent_economy.study.answer.goal_time import GoalTime, goal_time
 from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
 from agent_economy.study.answer.ties import Standing, standings
@@ -46,6 +47,7 @@ class Result:
         place: Place with respect to the Pareto front of price, time and failures.
         eliminated: When and by which configuration; None if it was not eliminated.
         quantiles: Quantiles of the time of success.
+        goal_time: Where the time of a goal goes; None if no goal was served.
     """
 
     values: dict[str, Value]
@@ -59,6 +61,7 @@ class Result:
     place: Place
     eliminated: Elimination | None
     quantiles: tuple[Quantiles, ...] = ()
+    goal_time: GoalTime | None = None
 
     @property
     def is_possible(self) -> bool:
@@ -84,6 +87,7 @@ def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, .
             place=place,
             eliminated=eliminated.get(index),
             quantiles=quantiles_of(evidence, evidence.samples[index], ("time_s",)),
+            goal_time=goal_time(evidence.samples[index]),
         )
         for index, (stands, place) in enumerate(placed)
     )

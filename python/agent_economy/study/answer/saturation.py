@@ -1,13 +1,13 @@
-"""The smallest team such that no larger one gains more than its extra robots cost.
+"""The smallest number of robots or controllers such that no larger one gains more than it costs.
 
-The merit counts what robots cost, so a larger team gains more than it costs if its merit is higher.
+The merit counts what they cost, so a larger team gains more than it costs if its merit is higher.
 All other factors have their values in the selected configuration.
 """
 
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Evidence, Interval
-from agent_economy.study.paths import robot_kind
+from agent_economy.study.paths import counted_kind
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,8 @@ def saturations(evidence: Evidence, best: int, delta: float) -> tuple[Saturation
 
 
 def team_paths(evidence: Evidence) -> list[str]:
-    """Return the paths of factors that are team sizes."""
-    return [path for path in evidence.samples[0].values if robot_kind(path) is not None]
+    """Return the paths of factors that are numbers of robots or controllers."""
+    return [path for path in evidence.samples[0].values if counted_kind(path) is not None]
 
 
 def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:

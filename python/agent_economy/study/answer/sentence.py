@@ -6,7 +6,7 @@ from agent_economy.scenario import Scenario
 from agent_economy.study.answer.labels import listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.answer.ties import Verdict
-from agent_economy.study.paths import robot_kind
+from agent_economy.study.paths import counted_kind, robot_kind
 
 MAX_NAMED = 5
 """Configurations that a sentence names individually."""
@@ -95,8 +95,8 @@ def edges(chosen: Result, results: Sequence[Result]) -> list[str]:
     kinds = []
     for path, size in chosen.values.items():
         sizes = {each.values[path] for each in results if each.is_possible}
-        if robot_kind(path) is not None and len(sizes) > 1 and size == max(sizes, key=float):
-            kinds.append(robot_kind(path))
+        if counted_kind(path) is not None and len(sizes) > 1 and size == max(sizes, key=float):
+            kinds.append(counted_kind(path))
     return [
         f"No team with more {kind}s was compared; a larger team may be better" for kind in kinds
     ]

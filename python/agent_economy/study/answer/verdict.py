@@ -119,16 +119,21 @@ def precision(scenario: Scenario, delta: float, confidence: float) -> str:
     """Return the confidence, and how many robots or seconds equal delta."""
     weights = {term.column: abs(term.weight) for term in scenario.merit.terms}
     units = {"robots": ("robot", "robots"), "time_s": ("s", "s")}
+    amounts = {column: delta / weights[column] for column in units if column in weights}
     equals = [
-        f"{delta / weights[column]:.2g} {one if math.isclose(delta / weights[column], 1) else more}"
-        for column, (one, more) in units.items()
-        if column in weights
+        f"{two_digits(amount)} {units[column][0 if math.isclose(amount, 1) else 1]}"
+        for column, amount in amounts.items()
     ]
     means = f" ({' or '.join(equals)})" if equals else ""
     return (
         f"{percentage(confidence)} confidence; differences under {delta:g} merit{means} were not "
         "looked for."
     )
+
+
+def two_digits(number: float) -> str:
+    """Return a number with two significant digits, without an exponent if it is large."""
+    return f"{number:,.0f}" if number >= 100 else f"{number:.2g}"  # noqa: PLR2004
 
 
 def repeated(questions: Sequence[Answered]) -> str:

@@ -4,6 +4,7 @@ from typing import Any
 
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.report.formatting import finite
+from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.view import View, factor_name
 
 Spec = dict[str, Any]
@@ -121,7 +122,7 @@ def around(value: float, error: float) -> Interval:
     return Interval(value, value - error, value + error)
 
 
-def row_of(view: View, index: int) -> dict[str, Any]:
+def row_of(view: View | RequirementView, index: int) -> dict[str, Any]:
     """Return the number and name of a configuration, the same in all of its rows."""
     return {"label": view.names[index], "configuration": index}
 

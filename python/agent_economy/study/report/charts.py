@@ -12,7 +12,7 @@ import numpy as np
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.answer.ties import VERDICT_TEXT
-from agent_economy.study.report import factor_charts
+from agent_economy.study.report import factor_charts, goal_chart
 from agent_economy.study.report.chart_parts import (
     BLUE,
     FEW,
@@ -69,7 +69,7 @@ def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
     if view.compares:
         compared = (merit, behind, failed, front, runs)
         made |= {function.__name__: function(view) for function in compared}
-    return made | factor_charts.specifications(view)
+    return made | factor_charts.specifications(view) | goal_chart.specifications(view)
 
 
 def merit(view: View) -> Spec:

@@ -4,7 +4,6 @@ from typing import Any
 
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.saturation import Saturation
-from agent_economy.study.paths import robot_kind
 from agent_economy.study.report.chart_parts import (
     BLUE,
     ORANGE,
@@ -101,7 +100,7 @@ def saturation(view: View, found: Saturation) -> Spec:
     ]
     style = coded("gain", {"gain": (BLUE, "circle")}, rows)
     style = {name: {**channel, "legend": None} for name, channel in style.items()}
-    kind = f"{robot_kind(found.path)}s"
+    kind = factor_name(found.path)
     title = {"title": f"gain of merit over {found.base:,} {kind}"}
     place = {"y": {**by_name(rows), "title": kind}}
     lines = [line_at("x", 0.0), line_at("x", view.answer.delta, strokeDash=[4, 3], color=ORANGE)]

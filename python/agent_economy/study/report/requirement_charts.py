@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from agent_economy.study.answer.evidence import Sample
 from agent_economy.study.answer.quantiles import observed
+from agent_economy.study.report import goal_chart
 from agent_economy.study.report.chart_parts import (
     BLUE,
     GREY,
@@ -54,7 +55,7 @@ def specifications(view: RequirementView) -> dict[str, Spec]:
         made["distribution"] = distribution(view)
     if view.has_prices:
         made["price"] = price(view)
-    return made
+    return made | goal_chart.specifications(view)
 
 
 def share(view: RequirementView) -> Spec:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from agent_economy.study.report.formatting import NOTHING, percent, places
 from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.sections import Picture, Section
+from agent_economy.study.report.sections import Picture, Section, goal_time
 from agent_economy.study.report.tables import (
     QUANTILE_HEADS,
     Cell,
@@ -24,6 +24,8 @@ def requirement_sections(view: RequirementView) -> Iterator[Section]:
     yield failing(view)
     if view.compared_distributions:
         yield distribution(view)
+    if view.with_goal_time:
+        yield goal_time(view)
     if view.has_prices:
         yield Section("Price", (), (Picture("price", "Price and share of missions that meet it"),))
 

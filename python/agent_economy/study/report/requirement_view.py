@@ -6,6 +6,7 @@ from functools import cached_property
 
 from agent_economy.scenario import Condition
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.goal_time import GoalTime
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.report.view import MAX_SHOWN
@@ -52,6 +53,17 @@ class RequirementView:
         if self.answer.selected is not None:
             end = min(end, self.known.index(self.answer.selected) + MAX_SHOWN // 5)
         return self.known[max(0, end - MAX_SHOWN) : end]
+
+    @property
+    def selected(self) -> int | None:
+        """The selected configuration; None if none is certified."""
+        return self.answer.selected
+
+    @cached_property
+    def with_goal_time(self) -> dict[int, GoalTime]:
+        """Where the time of a goal goes in those that are shown, in the order of the design."""
+        times = {index: self.result(index).goal_time for index in sorted(self.shown)}
+        return {index: time for index, time in times.items() if time is not None}
 
     @cached_property
     def compared_distributions(self) -> tuple[int, ...]:

@@ -3,9 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from agent_economy.study.answer.goal_time import in_words
 from agent_economy.study.answer.saturation import Saturation
-from agent_economy.study.report import tables
+from agent_economy.study.paths import robot_kind
+from agent_economy.study.report import goal_table, tables
 from agent_economy.study.report.formatting import MINUS, TIMES, brief, count
+from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.tables import Table
 from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
 from agent_economy.study.selection import percentage
@@ -44,6 +47,8 @@ def sections(view: View) -> Iterator[Section]:
     if view.is_grid:
         yield heat(view)
     yield failed(view)
+    if view.with_goal_time:
+        yield goal_time(view)
     if view.compares:
         yield front(view)
         yield from (saturation(view, found) for found in view.saturations)
@@ -122,13 +127,41 @@ def cut(view: View, which: str) -> str:
 
 def failed(view: View) -> Section:
     """Return the section on failed runs."""
+    notes = [f"Intervals as above. {cut(view, 'the best by merit')}".strip()]
+    if view.with_goal_time:
+        notes.append(
+            "A run fails if it is not complete when it ends: complete means that all goals are "
+            "served, or what end.when of the scenario states."
+        )
     pictures = (Picture("failed", "Share of runs that failed, with its interval"),)
     return Section(
         "Failures",
-        (f"Intervals as above. {cut(view, 'the best by merit')}".strip(),),
+        tuple(notes),
         pictures if view.compares else (),
         (tables.failed(view),),
         is_folded=view.compares,
+    )
+
+
+def goal_time(view: View | RequirementView) -> Section:
+    """Return the section on where the time of a goal goes."""
+    own = [
+        f"{view.names[index]}: {in_words(time)}"
+        for index, time in view.with_goal_time.items()
+        if index == view.selected
+    ]
+    meaning = (
+        "Waiting: from the issue of a goal until the robot that serves it sets out, so for its "
+        "award and for the robot to finish other goals. Travel: from there to the arrival. "
+        "Blocked: the time in which the robot stood under way. Service: from the arrival until "
+        "the goal is served. Means over all goals served. A larger team serves them sooner "
+        "only as far as one of these parts becomes shorter."
+    )
+    return Section(
+        "Where the time of a goal goes",
+        (*own, meaning),
+        (Picture("goal-time", "Mean time from the issue of a goal until it is served"),),
+        (goal_table.goal_time(view),),
     )
 
 
@@ -163,7 +196,9 @@ def saturation_in_words(view: View, found: Saturation) -> str:
     """Return how many robots are enough, as far as it is decided."""
     proved, possible = found.proved, found.possible
     largest = found.sizes[-1]
-    weighs_robots = "robots" in view.answer.scenario.merit.columns
+    weighs_robots = (
+        robot_kind(found.path) is not None and "robots" in view.answer.scenario.merit.columns
+    )
     enough = (
         f"A number is enough if no larger compared one (up to {largest:,}) gains more than "
         f"{brief(view.answer.delta)} of merit"

@@ -7,10 +7,11 @@ from functools import cached_property
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.goal_time import GoalTime
 from agent_economy.study.answer.labels import is_number, varied
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
-from agent_economy.study.paths import robot_kind
+from agent_economy.study.paths import counted_kind, robot_kind
 from agent_economy.study.report.formatting import finite, places
 
 MAX_SHOWN = 50
@@ -83,6 +84,17 @@ class View:
         if path is None:
             return best
         return tuple(sorted(best, key=lambda index: float(self.result(index).values[path])))
+
+    @property
+    def selected(self) -> int:
+        """The selected configuration."""
+        return self.answer.best
+
+    @cached_property
+    def with_goal_time(self) -> dict[int, GoalTime]:
+        """Where the time of a goal goes in those that are shown, in the order of the design."""
+        times = {index: self.result(index).goal_time for index in sorted(self.shown)}
+        return {index: time for index, time in times.items() if time is not None}
 
     @cached_property
     def varied(self) -> tuple[str, ...]:
@@ -177,5 +189,5 @@ class View:
 
 def factor_name(path: str) -> str:
     """Return the name of a factor on an axis: rovers for robots.rover.count, else the last key."""
-    kind = robot_kind(path)
+    kind = counted_kind(path)
     return path.rsplit(".", 1)[-1] if kind is None else f"{kind}s"

@@ -116,12 +116,14 @@ test("a factor is found by words of its path and of its help", () => {
   expect(isFoundBy(limit, ["ends", "radio"])).toBe(false);
 });
 
-test("a robot kind is recognised by its path", () => {
-  expect(["robots.rover.count", "items.mine.count", "robots.rover.brain.count"].map(teamOf)).toEqual([
-    "rover",
-    null,
-    null,
-  ]);
+test("kinds of robots and controllers are recognised by their paths", () => {
+  const paths = [
+    "robots.rover.count",
+    "controllers.base.count",
+    "items.mine.count",
+    "robots.rover.brain.count",
+  ];
+  expect(paths.map(teamOf)).toEqual(["rover", "base", null, null]);
 });
 
 test("each question is requested with its own parts only", () => {

@@ -27,9 +27,9 @@ export type FieldErrors = Record<string, string>;
 
 const numbers = ["delta", "confidence", "runs", "max_runs", "probability", "tolerance"] as const;
 const defaultGuarantee: Guarantee = "indifference";
-const teamPath = /^robots\.([^.]+)\.count$/;
+const teamPath = /^(?:robots|controllers)\.([^.]+)\.count$/;
 
-/** A draft with the scenario's own factors and the counts of all robot kinds. */
+/** A draft with the scenario's own factors and the counts of all kinds of robots and controllers. */
 export function draftOf({ factors, requirement }: Factors): Draft {
   const offered = factors.filter(({ path, varied }) => varied !== null || teamPath.test(path));
   return {
@@ -139,7 +139,7 @@ export function isFoundBy({ path, help }: Factor, words: string[]): boolean {
   return words.every((word) => text.includes(word));
 }
 
-/** The robot kind whose count is at a path; null for other paths. */
+/** The kind of robots or controllers whose count is at a path; null for other paths. */
 export function teamOf(path: string): string | null {
   return teamPath.exec(path)?.[1] ?? null;
 }
