@@ -109,6 +109,27 @@ def test_goals_whose_heir_has_failed_are_orphaned_in_the_log(mcap: Path) -> None
     assert len(orphaned) == len(set(orphaned))
 
 
+def test_the_heir_of_a_failed_controller_is_recorded_as_the_owner(mcap: Path) -> None:
+    leases = {"controllers__base__owner_lease_s": 5, "controllers__base__service_lease_s": 5}
+    simulation = ae.Simulation(scenario(**leases), seed=1)
+    with ae.Recording(simulation, mcap) as recording:
+        recording.step(100)
+        simulation.fail("base/0")
+        recording.step(200)
+    economy = contents(mcap).topics["/economy"]
+    assert {"base/0", "base/1"} <= set(economy[100].content["goals"]["owner"])
+    last = economy[-1].content
+    assert last["controllers"]["working"] == [False, True]
+    assert set(last["goals"]["owner"]) == {None, "base/1"}
+    inherited = [
+        before == "base/0" and after == "base/1"
+        for before, after in zip(
+            economy[100].content["goals"]["owner"], last["goals"]["owner"], strict=True
+        )
+    ]
+    assert any(inherited)
+
+
 def test_a_player_that_steps_back_returns_to_the_same_controllers(mcap: Path) -> None:
     simulation = recorded(mcap)
     identity, history = read(mcap)

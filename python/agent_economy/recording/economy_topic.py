@@ -54,12 +54,13 @@ def economy_of(simulation: Simulation) -> Content:
     """Return the goals and controllers of a run, as lists."""
     controllers = simulation.controllers
     goals: dict[str, Any] = _core.goals(simulation._run)  # noqa: SLF001  (ours)
+    working = [each for each in controllers if each["working"]]
     owned = {
         goal["goal"]: {"owner": each["name"], **goal}
-        for each in reversed(controllers)
+        for each in reversed(working)
         for goal in each["goals"]
     }
-    orphans = {name for each in controllers for name in each["orphans"]}
+    orphans = {name for each in working for name in each["orphans"]}
     owners = [owned.get(name, {}) for name in goals["name"]]
     states = [
         state(goals, place, owner, is_orphan=name in orphans)

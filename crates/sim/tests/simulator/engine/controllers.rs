@@ -126,6 +126,45 @@ fn controllers_fail_at_random_times() {
 }
 
 #[test]
+fn robots_and_controllers_that_the_scenario_names_have_failed_for_good() {
+    let text = replaced(ONE, &[("price = 3", "price = 3\nfailed = [1, 7]")]);
+    let text = replaced(&text, &[("price = 10", "price = 10\nfailed = [0]")]);
+    let failed = |simulation: &Simulation| {
+        let robots = robots(simulation);
+        let controllers = controllers(simulation);
+        let robots = robots.iter().map(|robot| robot.status == Status::Broken);
+        let controllers = controllers.iter().map(|each| !each.is_working);
+        robots.chain(controllers).collect::<Vec<bool>>()
+    };
+    assert_eq!(failed(&start(&text)), [true, false, false, true]);
+    let mut simulation = start(ONE);
+    simulation.step();
+    assert_eq!(failed(&simulation), [false; 4]);
+    // Nothing is repaired by a change.
+    for text in [text.as_str(), ONE] {
+        simulation.change(scenario(text)).unwrap();
+        simulation.step();
+        assert_eq!(failed(&simulation), [true, false, false, true]);
+    }
+}
+
+#[test]
+fn a_command_from_outside_replaces_the_step_of_a_controller() {
+    let base = id(1, 0);
+    let mut simulation = start(ONE);
+    let state = simulation.state().clone();
+    let percept = simulation.percept(base).unwrap().unwrap();
+    assert_eq!((percept.id, percept.inbox.len()), (base, 2));
+    assert_eq!(simulation.state().hash(), state.hash());
+    step_with(&mut simulation, [(base, send(&[message(1.0)]))]);
+    assert_eq!(owned(&simulation), [0, 2]);
+    simulation.step();
+    let perceived = simulation.percept(ROVER).unwrap().unwrap();
+    assert!(perceived.inbox.iter().all(|received| received.from == base));
+    assert!(simulation.percept(id(1, 2)).is_err());
+}
+
+#[test]
 fn controllers_keep_their_goals_when_others_are_added_or_removed() {
     let mut simulation = start(ONE);
     (0..5).for_each(|_| simulation.step());
