@@ -56,7 +56,7 @@ test("controllers that are added during a run are listed, and one is chosen", as
   await page.getByRole("spinbutton", { name: "controllers.base.count" }).fill("3");
   await page.keyboard.press("Enter");
   await page.getByRole("combobox", { name: "controllers.base.allocation" }).selectOption("nearest");
-  await expect(page.getByRole("button", { name: "Study with 2 changes" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Study this scenario with your 2 changes" })).toBeVisible();
   await openTab(page, "Goals");
   const controllers = page.locator("table").first().getByRole("button");
   await expect(controllers).toHaveText(["base/0", "base/1", "base/2"]);
