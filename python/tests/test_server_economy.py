@@ -1,13 +1,13 @@
 """Goals and controllers, as a page receives them."""
 
-from page_client import Page
+from typing import Any
 
-from agent_economy.types.page import Economy
+from page_client import Page
 
 REQUEST = {"links": False, "footprints": False, "economy": True}
 
 
-def received(page: Page) -> list[Economy]:
+def received(page: Page) -> list[dict[str, Any]]:
     """Return the goals and controllers that the page has received."""
     return [message for message in page.received if message["type"] == "economy"]
 

@@ -58,7 +58,7 @@ test("at maximum speed the series has each find at its own time", async ({ page,
 });
 
 test("a run that is opened at a moment has the series before it", async ({ page, server }) => {
-  await openRun(page, server, `${scenario}&tick=300`, "30.0 s");
+  await openRun(page, server, `${scenario}&tick=250`, "25.0 s");
   await expect.poll(async () => (await series(page)).length).toBeGreaterThan(5);
   expect((await series(page))[0]?.tick).toBe(0);
 });

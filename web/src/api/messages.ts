@@ -1,4 +1,5 @@
 import type {
+  Economy,
   Ended,
   Exported,
   MapPart,
@@ -17,6 +18,7 @@ export type Message =
   | Setting
   | State
   | MapPart
+  | Economy
   | Refused
   | Saving
   | Saved
@@ -30,6 +32,7 @@ const types = [
   "setting",
   "state",
   "map",
+  "economy",
   "refused",
   "saving",
   "saved",

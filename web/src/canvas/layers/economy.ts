@@ -25,9 +25,12 @@ export const economy: Layer = {
     for (const controller of controllers) drawRange(pen, scene, controller);
     for (const goal of goals) drawLine(pen, scene, goal);
     for (const goal of goals) drawGoal(pen, scene, goal);
-    const unserved = goals.filter((goal) => goal.unserved !== null);
-    if (unserved.length <= maxReasons)
-      for (const goal of unserved) label(pen, goal.at, reasonLabel(goal.unserved ?? ""), radius_px + 4);
+    const hopeless = goals.filter(({ unserved }) => unserved !== null);
+    if (hopeless.length <= maxReasons)
+      for (const { at, owner, unserved } of hopeless) {
+        style(pen, scene, owner);
+        label(pen, at, reasonLabel(unserved ?? ""), radius_px + 4);
+      }
     for (const controller of controllers) drawController(pen, scene, controller);
   },
 };

@@ -21,7 +21,13 @@ export function messageCounts(messages: RobotMessage[]): string {
   return [...counts].map(([kind, count]) => `${count} about ${names[kind] ?? kind}`).join(", ") || "none";
 }
 
-const names: Record<string, string> = { item: "items", sender: "the sender", goal: "goals" };
+const names: Record<string, string> = {
+  item: "items",
+  sender: "the sender",
+  goal: "goals",
+  order: "orders",
+  dispatch: "goals of controllers",
+};
 
 /** Such as "12° left"; positive bearings are anticlockwise, to the left. */
 export function bearingText(bearing_rad: number): string {

@@ -183,3 +183,16 @@ test("one request for the series is under way at a time", () => {
   expect(sent("request_series").at(-1)).toEqual({ type: "request_series", since: 4 });
   expect(session.series.rows.map(({ tick }) => tick)).toEqual([4, 11]);
 });
+
+test("goals and controllers are kept only while they are requested", () => {
+  connect();
+  const economy = { type: "economy", tick: 9, goals: [], controllers: [], service: null };
+  session.requestOverlays({ links: false, footprints: false, economy: true });
+  receive(economy);
+  expect(session.economy?.tick).toBe(9);
+  session.requestOverlays({ links: false, footprints: false, economy: false });
+  expect(session.economy).toBeNull();
+  // Sent before the server had received the request.
+  receive(economy);
+  expect(session.economy).toBeNull();
+});

@@ -1,0 +1,78 @@
+import { inkAt, opens, type View } from "./ink";
+import { expect, expectAccessiblePanels, openRun, openTab, status, test } from "./page";
+
+const view: View = [150, 150, 2];
+const run = `scenario=waypoints&seed=7&run=0&tick=200&${opens(view)}`;
+const layer = "Goals and controllers";
+
+test("goals and controllers are drawn and sent while their layer is on", async ({ page, server }) => {
+  const requested: boolean[] = [];
+  page.on("websocket", (line) => {
+    line.on("framesent", ({ payload }) => {
+      const message = JSON.parse(String(payload));
+      if (message.type === "layers") requested.push(message.economy);
+    });
+  });
+  await openRun(page, server, run, "8 robots");
+  await openTab(page, "Layers");
+  await page.getByRole("checkbox", { name: "Grid and scale" }).uncheck();
+  // The controller's square, and a goal that is not served yet.
+  await expect.poll(() => inkAt(page, view, [150, 150])).toBe(true);
+  await expect.poll(() => inkAt(page, view, [15.5 - 2.5, 270.1])).toBe(true);
+  await page.getByRole("checkbox", { name: layer }).uncheck();
+  await expect.poll(() => inkAt(page, view, [150, 150])).toBe(false);
+  expect(requested.at(-1)).toBe(false);
+  await page.getByRole("checkbox", { name: layer }).check();
+  await expect.poll(() => inkAt(page, view, [150, 150])).toBe(true);
+});
+
+test("a run without goals has neither the layer nor the panel", async ({ page, server }) => {
+  await openRun(page, server, "scenario=open-field&seed=7&run=0");
+  await openTab(page, "Layers");
+  await expect(page.getByRole("checkbox", { name: "Radio links" })).toBeVisible();
+  await expect(page.getByRole("checkbox", { name: layer })).toHaveCount(0);
+  await expect(page.getByRole("tab", { name: "Goals" })).toHaveCount(0);
+});
+
+test("the robot panel displays owner and lease of the goals that the robot serves", async ({
+  page,
+  server,
+}) => {
+  await openRun(page, server, `${run}&robot=rover/0`, "8 robots");
+  const served = page.locator("details", { hasText: "Goals served" }).locator("tbody tr");
+  await expect(served).toHaveCount(4);
+  await expect(served.first()).toHaveText(/spot\/\d+\s*base\/0\s*\d+\.\d s\s*(approaching|receding)/);
+  // Also while the layer is off.
+  await openTab(page, "Layers");
+  await page.getByRole("checkbox", { name: layer }).uncheck();
+  await openTab(page, "Robot");
+  await expect(served).toHaveCount(4);
+});
+
+test("controllers that are added during a run are listed, and one is chosen", async ({ page, server }) => {
+  await openRun(page, server, run, "8 robots");
+  await openTab(page, "Parameters");
+  await page.getByRole("searchbox").fill("controllers.base");
+  await page.getByRole("spinbutton", { name: "controllers.base.count" }).fill("3");
+  await page.keyboard.press("Enter");
+  await page.getByRole("combobox", { name: "controllers.base.allocation" }).selectOption("nearest");
+  await expect(page.getByRole("button", { name: "Study this scenario with your 2 changes" })).toBeVisible();
+  await openTab(page, "Goals");
+  const controllers = page.locator("table").first().getByRole("button");
+  await expect(controllers).toHaveText(["base/0", "base/1", "base/2"]);
+  await expect(page.getByText(/\d+ open, \d+ awarded, \d+ served/)).toBeVisible();
+  await controllers.nth(1).click();
+  await expect(controllers.nth(1)).toHaveAttribute("aria-pressed", "true");
+  await expect(page.getByRole("heading", { name: "Goals of base/1" })).toBeVisible();
+  await controllers.nth(1).click();
+  // The second controller can be the heir of the first once they have received each other.
+  await page.getByRole("button", { name: "Play" }).click();
+  await expect(page.getByText(/heir base\/[12]/).first()).toBeVisible();
+  await page.getByRole("button", { name: "Pause" }).click();
+  await expect(status(page)).toContainText("paused");
+});
+
+test("the panels of a run with goals are accessible", async ({ page, server }) => {
+  await openRun(page, server, `${run}&robot=rover/0`, "8 robots");
+  await expectAccessiblePanels(page, ["Robot", "Goals", "Layers"]);
+});
