@@ -272,10 +272,14 @@ impl Assignee {
         let (Some(at), Some(job)) = (moment.at, self.jobs.current(self.now_s).copied()) else {
             return;
         };
+        let goal = job.task.id;
         if !is_there(&job, ability, at) {
+            // A service that was interrupted begins again.
+            if let Some(job) = self.jobs.get_mut(goal) {
+                job.served_s = 0.0;
+            }
             return;
         }
-        let goal = job.task.id;
         let lease = self.holder.lease(goal);
         let left_s = lease.map_or(0.0, |lease| lease.until_s - self.now_s);
         let Some(job) = self.jobs.get_mut(goal) else {

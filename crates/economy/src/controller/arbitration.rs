@@ -139,8 +139,9 @@ impl Controller {
 
     /// A lease has ended in silence.
     pub(super) fn lost_assignee(&mut self, goal: GoalId, robot: RobotId) {
-        let is_open = self.goal_mut(goal).is_some_and(|owned| !owned.is_done);
-        if is_open {
+        let now_s = self.now_s;
+        if let Some(owned) = self.goal_mut(goal).filter(|owned| !owned.is_done) {
+            owned.lapses.add(robot, now_s);
             self.lapses += 1;
             self.picture.learn(robot, false, self.now_s);
             self.reopen(Claim { goal, number: 0 });

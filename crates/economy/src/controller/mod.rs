@@ -2,7 +2,8 @@
 //!
 //! * [`owned`]: the goals; [`picture`]: the robots, as they report themselves; [`bids`]: what they bid;
 //! * [`receive`]: the effect of each message;
-//! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal;
+//! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal; [`lapses`]: robots
+//!   that fell silent;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`].
@@ -13,6 +14,7 @@ mod bids;
 mod colleagues;
 mod estates;
 mod heirs;
+mod lapses;
 mod owned;
 mod picture;
 mod presence;

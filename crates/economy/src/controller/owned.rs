@@ -1,5 +1,6 @@
 //! A goal that a controller owns, and what has happened to it.
 
+use super::lapses::Lapses;
 use alloc::vec::Vec;
 use base::hash::Hash;
 use base::hashed::Hashed;
@@ -41,6 +42,7 @@ pub(super) struct Owned {
     pub(super) rest: Rest,
     /// The robots that have been awarded it.
     pub(super) assignees: Vec<RobotId>,
+    pub(super) lapses: Lapses,
 }
 
 base::hashed!(Owned {
@@ -60,7 +62,8 @@ base::hashed!(Owned {
     declined,
     reason,
     rest,
-    assignees
+    assignees,
+    lapses
 });
 
 /// The award of a goal.
@@ -161,6 +164,7 @@ impl Owned {
                 total_s: 0.0,
             },
             assignees: Vec::new(),
+            lapses: Lapses::default(),
         }
     }
 

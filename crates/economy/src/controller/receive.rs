@@ -78,6 +78,9 @@ impl Controller {
         let is_own = owned
             .assigned
             .is_some_and(|assigned| assigned.robot == from);
+        if !owned.lapses.may_bid(from, now_s) {
+            return;
+        }
         if owned.is_on_offer(now_s) && bid.call == owned.call && !is_own {
             owned.without_bid_s = now_s;
             self.bids.put(from, bid, confidence, now_s);

@@ -256,3 +256,30 @@ fn a_controller_that_restarts_awards_nothing_for_the_longest_lease() {
     owner.wait(2.0);
     assert_eq!(assignee_of(&owner), Some(ROBOT));
 }
+
+#[test]
+fn a_robot_that_lets_its_lease_end_in_silence_bids_in_vain_for_a_time() {
+    let mut owner = awarder();
+    owner.take(ROBOT, Dispatch::Commit(claim(7)));
+    // Its lease ends without a message; the liar bids the shortest time again, an honest robot a longer one.
+    let sent = owner.wait(25.0);
+    assert_eq!(assignee_of(&owner), None);
+    let called = sent.iter().rev().find_map(|(_, sent)| match sent {
+        Dispatch::Call { number, .. } => Some(*number),
+        _ => None,
+    });
+    let call = called.unwrap();
+    let bid = |time_s, number| {
+        Dispatch::Bid(Bid {
+            goal: goal_id(0),
+            number,
+            time_s,
+            energy: 0.0,
+            call,
+        })
+    };
+    owner.take(ROBOT, bid(0.0, 8));
+    owner.take(OTHER, bid(60.0, 3));
+    owner.wait(2.0);
+    assert_eq!(assignee_of(&owner), Some(OTHER));
+}

@@ -1,6 +1,7 @@
 //! What is counted of goals: when each was issued and served, and the robot that served it.
 
 use super::journey::{Journey, Service};
+use super::stays::Stays;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::goals::placed::{Goal, Goals};
 use crate::radio::channel::Outgoing;
@@ -15,6 +16,7 @@ pub(crate) struct GoalTally {
     pub(crate) records: Vec<GoalRecord>,
     /// By the number of the robot.
     pub(crate) journeys: Vec<Journey>,
+    stays: Stays,
     pub(crate) messages_sent: u64,
     /// Messages that reached a participant whose radio had received its maximum in the step.
     pub(crate) messages_dropped: u64,
@@ -23,6 +25,7 @@ pub(crate) struct GoalTally {
 base::hashed!(GoalTally {
     records,
     journeys,
+    stays,
     messages_sent,
     messages_dropped
 });
@@ -79,6 +82,7 @@ impl GoalTally {
         sent: impl Iterator<Item = &'m Outgoing> + Clone,
     ) -> bool {
         self.follow(moment);
+        self.stays.follow(moment, &self.records);
         let mut is_counted = false;
         for outgoing in sent.clone() {
             self.messages_sent += 1;
@@ -142,11 +146,12 @@ impl GoalTally {
         };
         let (goal, now) = (&moment.goals.all[number], moment.tick);
         let record = &mut self.records[number];
-        let journey = self.journeys[robot].to(number, now);
+        let since = self.stays.since(robot, number).unwrap_or(now);
+        let journey = self.journeys[robot].to(number, since);
         let Some(issued_at) = record.issued_at.filter(|_| moment.is_near(robot, goal)) else {
             return false;
         };
-        if !moment.is_long_enough(goal, journey.stay(now)) || moment.is_late(goal, issued_at) {
+        if !moment.is_long_enough(goal, now - since) || moment.is_late(goal, issued_at) {
             return false;
         }
         match &record.served {
@@ -181,7 +186,7 @@ impl GoalTally {
 
 impl GoalMoment<'_> {
     /// Whether a robot is at a goal, or will be there in this step.
-    fn is_near(&self, robot: usize, goal: &Goal) -> bool {
+    pub(super) fn is_near(&self, robot: usize, goal: &Goal) -> bool {
         let centre = self.discs[robot].centre;
         let drive = &self.scenario.kind_of(self.ids[robot]).drive;
         let within_m = self.scenario.goals[usize::from(goal.kind)].within_m;

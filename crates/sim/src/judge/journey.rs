@@ -64,12 +64,13 @@ impl Journey {
         }
     }
 
-    /// The journey, if it leads to this goal; otherwise one that begins and ends now.
-    pub(super) fn to(&self, goal: usize, now: u64) -> Self {
+    /// The journey, if it leads to this goal; otherwise one that begins and ends when the robot came there: it
+    /// may be there already when the goal is awarded, and announces nothing.
+    pub(super) fn to(&self, goal: usize, since: u64) -> Self {
         if self.goal == Some(goal) {
             *self
         } else {
-            Self::begin(Some(goal), now, true)
+            Self::begin(Some(goal), since, true)
         }
     }
 
@@ -79,11 +80,6 @@ impl Journey {
             goal: Some(goal),
             ..self
         }
-    }
-
-    /// Steps for which the robot has been there.
-    pub(super) fn stay(&self, now: u64) -> u64 {
-        self.arrived_at.map_or(0, |at| now - at)
     }
 
     /// The service that ends it, of a goal that was issued at a time.

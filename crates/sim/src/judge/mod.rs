@@ -16,6 +16,7 @@ pub(crate) mod goal_tally;
 mod journey;
 pub(crate) mod moment;
 mod outcome;
+mod stays;
 pub(crate) mod tally;
 mod unseen;
 

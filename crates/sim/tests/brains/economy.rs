@@ -70,6 +70,30 @@ fn robots_stay_for_the_time_of_service() {
 }
 
 #[test]
+fn a_robot_that_is_at_the_goal_already_serves_it() {
+    let text = YARD
+        .replace("within_m = 1\n", "within_m = 1\nservice_s = 2\n")
+        .replace("count = 9", "count = 1")
+        .replace("at_m = [[5, 5], [50, 8], [12, 50], [30, 35], [55, 55], [8, 30], [40, 20], [20, 15], [33, 56]]", "at_m = [[28.2, 30]]");
+    let (goals, outcome) = finished(&text);
+    assert_eq!((outcome.served, outcome.served_twice), (1, 0), "{goals:?}");
+    assert!(outcome.service_s >= 1.6, "{outcome:?}");
+}
+
+#[test]
+fn goals_that_lie_close_together_and_take_time_are_all_served() {
+    let text = YARD
+        .replace("within_m = 1\n", "within_m = 1\nservice_s = 5\n")
+        .replace("at_m = [[5, 5], [50, 8], [12, 50], [30, 35], [55, 55], [8, 30], [40, 20], [20, 15], [33, 56]]", "at_m = [[28, 33], [29, 33], [30, 33], [31, 33], [32, 33], [29, 34], [30, 34], [31, 34], [30, 35]]");
+    let served = (0..8).map(|run| {
+        let mut simulation = Simulation::new(scenario(&text), 1, run).unwrap();
+        simulation.finish().goals.unwrap().served
+    });
+    let served: Vec<u32> = served.collect();
+    assert_eq!(served, [9; 8]);
+}
+
+#[test]
 fn only_robots_with_the_capability_serve_a_goal() {
     let text = YARD.replace("within_m = 1\n", "within_m = 1\nrequires = \"arm\"\n");
     let (goals, outcome) = finished(&text);

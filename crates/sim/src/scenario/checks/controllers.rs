@@ -2,6 +2,7 @@
 
 use crate::bodies::RobotSpec;
 use crate::controllers::ControllerSpec;
+use crate::goals::GoalSpec;
 use crate::radio::RadioSpec;
 use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
@@ -17,6 +18,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
             let at = at.key("controllers").key(name);
             let mut errors = of_carriers(kind, spec, &at);
             errors.extend(of_leases(kind, spec, &at));
+            errors.extend(of_services(name, spec, &at));
             errors
         })
         .collect()
@@ -87,6 +89,30 @@ fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
         (lease_s < min_lease_s).then(|| at.key(key).error(allowed))
     });
     errors.collect()
+}
+
+/// A lease that ends before a goal is served: a robot begins no service that it may not end.
+fn of_services(name: &str, spec: &ScenarioSpec, at: &Place) -> Option<InputError> {
+    let kind = &spec.controllers[name];
+    let is_owner = |goal: &GoalSpec| match &goal.owner {
+        Some(owner) => owner == name,
+        None => spec
+            .controllers
+            .keys()
+            .next()
+            .is_some_and(|first| first == name),
+    };
+    let goals = spec.goals.iter().filter(|(_, goal)| is_owner(goal));
+    let longest = goals.max_by(|(_, one), (_, other)| one.service_s.total_cmp(&other.service_s));
+    let (goals, goal) = longest.filter(|(_, goal)| goal.service_s > 0.0)?;
+    let [trip_s, _] = round_trips_s(kind, spec);
+    let min_lease_s = (1.0 + spec.clock.max_drift) * (goal.service_s + trip_s);
+    let allowed = format!(
+        "at least {min_lease_s:.3}: it must outlast the service of goals.{goals}, {} s, and a round trip of \
+         {trip_s:.3} s over the radio",
+        goal.service_s
+    );
+    (kind.service_lease_s < min_lease_s).then(|| at.key("service_lease_s").error(allowed))
 }
 
 /// The longest time until a message of a robot is answered, and until one of another controller is.

@@ -59,6 +59,22 @@ fn a_lease_outlasts_an_auction_and_a_round_trip() {
 }
 
 #[test]
+fn a_lease_outlasts_the_service_of_the_goals() {
+    let of_lease = |lease_s: u32| {
+        let errors = errors_of(&format!(
+            "{RADIO}service_lease_s = {lease_s}\n[goals.spot]\ncount = 1\nservice_s = 25"
+        ));
+        errors
+            .into_iter()
+            .find(|error| error.starts_with("controllers.base.service_lease_s"))
+    };
+    let short = of_lease(24).unwrap();
+    assert!(short.contains("= 24: must be at least 25.6"), "{short}");
+    assert!(short.contains("the service of goals.spot, 25 s"), "{short}");
+    assert_eq!(of_lease(26), None);
+}
+
+#[test]
 fn controllers_have_other_names_than_robots_and_free_places() {
     let text = "[controllers.rover]\ncount = 1\nradio = { range_m = 9 }\n[terrain.mud]";
     assert!(error("[terrain.mud]", text).contains("a different name"));
