@@ -1,6 +1,8 @@
+import { copyFile } from "node:fs/promises";
+import { join } from "node:path";
 import { monitorEventLoopDelay } from "node:perf_hooks";
 import type { Locator, Page } from "@playwright/test";
-import { expect, test } from "./page";
+import { expect, hash, status, test } from "./page";
 import { RealDrive } from "./real_drive";
 
 // One drive at a time: several would delay each other.
@@ -175,3 +177,31 @@ driveTest(
     await page.mouse.up();
   },
 );
+
+test("the recording of a drive opens, and seeks forth and back", async ({ page, server }) => {
+  const drive = new RealDrive();
+  try {
+    await drive.start("--headless", "--arm");
+    await expect.poll(async () => (await drive.look()).x_m).toBeGreaterThan(5.5);
+    await drive.interrupt();
+    await copyFile(drive.recording, join(server.folder, "drive.mcap"));
+  } finally {
+    await drive.end();
+  }
+  await page.goto(`${server.url}/#/recordings`);
+  await expect(page.getByRole("row", { name: /^drive.mcap bender 0 0 \d+/ })).toBeVisible();
+  await page.getByRole("link", { name: "drive.mcap", exact: true }).click();
+  const slider = page.getByRole("slider", { name: "Time" });
+  await expect(status(page)).toContainText("0.0 s, 1 robot");
+  const last = Number(await slider.getAttribute("max"));
+  const hashes = new Map<number, string | null>();
+  for (const tick of [last, 20, last, 20]) {
+    await slider.fill(String(tick));
+    await expect(status(page)).toContainText(`${(tick / 10).toFixed(1)} s, 1 robot`);
+    const there = await hash(page);
+    expect(hashes.get(tick) ?? there).toBe(there);
+    hashes.set(tick, there);
+  }
+  expect(new Set(hashes.values()).size).toBe(2);
+  await expect(page.getByRole("alert")).toHaveCount(0);
+});

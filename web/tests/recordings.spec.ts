@@ -1,4 +1,4 @@
-import { copyFile, mkdir, readFile, rename, writeFile } from "node:fs/promises";
+import { mkdir, readFile, rename, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
 import type { Refused, Saved } from "../src/api/protocol";
@@ -19,7 +19,6 @@ import {
   status,
   test,
 } from "./page";
-import { RealDrive } from "./real_drive";
 
 const scenario = "scenario=search-beliefs&seed=7&run=2";
 
@@ -122,34 +121,6 @@ test("recordings are listed, opened and downloaded", async ({ page, server }) =>
   await expect(page.getByRole("link", { name: "listed.mcap", exact: true })).toBeVisible();
   await expectToFit(page);
   await expectAccessible(page);
-});
-
-test("the recording of a drive opens, and seeks forth and back", async ({ page, server }) => {
-  const drive = new RealDrive();
-  try {
-    await drive.start("--headless", "--arm");
-    await expect.poll(async () => (await drive.look()).x_m).toBeGreaterThan(5.5);
-    await drive.interrupt();
-    await copyFile(drive.recording, join(server.folder, "drive.mcap"));
-  } finally {
-    await drive.end();
-  }
-  await page.goto(`${server.url}/#/recordings`);
-  await expect(page.getByRole("row", { name: /^drive.mcap bender 0 0 \d+/ })).toBeVisible();
-  await page.getByRole("link", { name: "drive.mcap", exact: true }).click();
-  const slider = page.getByRole("slider", { name: "Time" });
-  await expect(status(page)).toContainText("0.0 s, 1 robot");
-  const last = Number(await slider.getAttribute("max"));
-  const hashes = new Map<number, string | null>();
-  for (const tick of [last, 20, last, 20]) {
-    await slider.fill(String(tick));
-    await expect(status(page)).toContainText(`${(tick / 10).toFixed(1)} s, 1 robot`);
-    const there = await hash(page);
-    expect(hashes.get(tick) ?? there).toBe(there);
-    hashes.set(tick, there);
-  }
-  expect(new Set(hashes.values()).size).toBe(2);
-  await expect(page.getByRole("alert")).toHaveCount(0);
 });
 
 test("changes that do not fit into an address are saved, and the address names the recording", async ({
