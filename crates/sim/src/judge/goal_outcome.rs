@@ -1,6 +1,7 @@
 //! The outcome of the goals of a run.
 
-use super::goal_tally::{GoalTally, is_late};
+use super::goal_moment::is_late;
+use super::goal_tally::GoalTally;
 use super::journey::Service;
 use super::moment::Moment;
 

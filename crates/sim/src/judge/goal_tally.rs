@@ -1,12 +1,10 @@
 //! What is counted of goals: when each was issued and served, and the robot that served it.
 
+use super::goal_moment::GoalMoment;
 use super::journey::{Journey, Service};
 use super::stays::Stays;
-use crate::bodies::body_state::{BodyState, Status};
-use crate::goals::placed::{Goal, Goals};
+use crate::bodies::body_state::Status;
 use crate::radio::channel::Outgoing;
-use crate::scenario::Scenario;
-use base::geometry::Disc;
 use brain::{About, CommitmentStatus, Dispatch, GoalId, RobotId};
 
 /// Counts of the goals of a run, and of its messages.
@@ -54,17 +52,6 @@ base::hashed!(GoalRecord {
     is_served_twice
 });
 
-/// A step of a run, as the judge of goals sees it: what robots decided, and where they decided it.
-#[derive(Clone, Copy)]
-pub(crate) struct GoalMoment<'a> {
-    pub(crate) scenario: &'a Scenario,
-    pub(crate) tick: u64,
-    pub(crate) goals: &'a Goals,
-    pub(crate) ids: &'a [RobotId],
-    pub(crate) discs: &'a [Disc],
-    pub(crate) body_states: &'a [BodyState],
-}
-
 impl GoalTally {
     /// The tally of a run that begins.
     pub(crate) fn new(goals: usize, robots: usize) -> Self {
@@ -82,7 +69,9 @@ impl GoalTally {
         sent: impl Iterator<Item = &'m Outgoing> + Clone,
     ) -> bool {
         self.follow(moment);
-        self.stays.follow(moment, &self.records);
+        let records = &self.records;
+        self.stays
+            .follow(moment, |goal| records[goal].issued_at.is_some());
         let mut is_counted = false;
         for outgoing in sent.clone() {
             self.messages_sent += 1;
@@ -182,36 +171,6 @@ impl GoalTally {
         let twice = self.records.iter();
         twice.filter(|record| record.is_served_twice).count()
     }
-}
-
-impl GoalMoment<'_> {
-    /// Whether a robot is at a goal, or will be there in this step.
-    pub(super) fn is_near(&self, robot: usize, goal: &Goal) -> bool {
-        let centre = self.discs[robot].centre;
-        let drive = &self.scenario.kind_of(self.ids[robot]).drive;
-        let within_m = self.scenario.goals[usize::from(goal.kind)].within_m;
-        let reach_m = within_m + drive.max_speed_m_s * self.scenario.step_s;
-        let there = self.scenario.image(centre, goal.at);
-        centre.to(there).length_squared() <= reach_m * reach_m
-    }
-
-    /// Whether a stay at a goal was long enough on a clock that may be fast.
-    #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
-    fn is_long_enough(&self, goal: &Goal, steps: u64) -> bool {
-        let needed = self.scenario.goals[usize::from(goal.kind)].service_steps;
-        (steps + 1) as f64 >= needed as f64 * (1.0 - self.scenario.clocks.max_drift)
-    }
-
-    /// Whether a goal has expired.
-    fn is_late(&self, goal: &Goal, issued_at: u64) -> bool {
-        let kind = &self.scenario.goals[usize::from(goal.kind)];
-        is_late(kind.deadline_steps, issued_at, self.tick)
-    }
-}
-
-/// Whether the deadline of a goal is over.
-pub(crate) fn is_late(deadline_steps: Option<u64>, issued_at: u64, now: u64) -> bool {
-    deadline_steps.is_some_and(|steps| now > issued_at.saturating_add(steps))
 }
 
 /// The goal that a message reports as done by its sender.

@@ -11,6 +11,7 @@ pub(crate) mod detections;
 mod end;
 mod find_times;
 mod goal_columns;
+pub(crate) mod goal_moment;
 mod goal_outcome;
 pub(crate) mod goal_tally;
 mod journey;

@@ -1,6 +1,6 @@
 //! Since when robots are at goals that take time, whatever they announce.
 
-use super::goal_tally::{GoalMoment, GoalRecord};
+use super::goal_moment::GoalMoment;
 use crate::bodies::body_state::Status;
 
 /// The robots that are at goals whose service takes time.
@@ -24,12 +24,12 @@ impl base::hashed::Hashed for Stays {
 }
 
 impl Stays {
-    /// Notes where robots are in a step.
-    pub(super) fn follow(&mut self, moment: &GoalMoment, records: &[GoalRecord]) {
+    /// Notes where robots are in a step, and at which goals of those for which `is_issued` returns true.
+    pub(super) fn follow(&mut self, moment: &GoalMoment, is_issued: impl Fn(usize) -> bool) {
         let before = std::mem::take(&mut self.0);
         for (number, goal) in moment.goals.all.iter().enumerate() {
             let takes_time = moment.scenario.goals[usize::from(goal.kind)].service_steps > 0;
-            if !takes_time || records[number].issued_at.is_none() {
+            if !takes_time || !is_issued(number) {
                 continue;
             }
             for (robot, body_state) in moment.body_states.iter().enumerate() {
@@ -47,7 +47,7 @@ impl Stays {
         }
     }
 
-    /// The step in which a robot came to a goal where it still is.
+    /// The step in which a robot arrived at a goal where it still is.
     pub(super) fn since(&self, robot: usize, goal: usize) -> Option<u64> {
         let mut stays = self.0.iter();
         let stay = stays.find(|stay| stay.goal == goal && stay.robot == robot);

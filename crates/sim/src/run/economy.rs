@@ -3,7 +3,7 @@
 use super::participant::Place;
 use super::state::State;
 use crate::clock::seconds;
-use crate::judge::goal_tally::is_late;
+use crate::judge::goal_moment::is_late;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use brain::{GoalId, RobotId, Task};

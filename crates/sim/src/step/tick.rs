@@ -12,7 +12,7 @@ use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
 use super::plan::{Plan, planned};
-use crate::judge::goal_tally::GoalMoment;
+use crate::judge::goal_moment::GoalMoment;
 use crate::run::agent::Agent;
 use crate::run::state::State;
 use crate::scenario::Scenario;
