@@ -1,18 +1,11 @@
 //! Controllers, their carriers and their leases.
 
-use super::{GOOD, error, read};
+use super::{GOOD, error, errors_in};
 
 /// The errors of the valid scenario with controllers of these keys.
 fn errors_of(keys: &str) -> Vec<String> {
     let text = format!("{GOOD}\n[controllers.base]\ncount = 1\n{keys}\n");
-    let errors = read(&text).err().map_or_else(Vec::new, |errors| errors.0);
-    errors
-        .iter()
-        .map(|error| {
-            assert!(error.to_string().starts_with("t:"), "{error}");
-            error.to_string().split_once(": ").unwrap().1.to_owned()
-        })
-        .collect()
+    errors_in(&text)
 }
 
 fn error_of(keys: &str) -> String {

@@ -1,6 +1,6 @@
 //! Goals, their owners, and the robots that can serve them.
 
-use super::{GOOD, read};
+use super::{GOOD, errors_in, read};
 
 /// The errors of the valid scenario with radios, two kinds of controllers, and goals of these keys.
 fn errors_of(keys: &str) -> Vec<String> {
@@ -9,14 +9,7 @@ fn errors_of(keys: &str) -> Vec<String> {
         + "[controllers.base]\ncount = 1\nradio = { range_m = 9 }\n\
            [controllers.mast]\ncount = 0\nradio = { range_m = 9 }\n"
         + &format!("[goals.spot]\ncount = 2\n{keys}\n");
-    let errors = read(&text).err().map_or_else(Vec::new, |errors| errors.0);
-    errors
-        .iter()
-        .map(|error| {
-            assert!(error.to_string().starts_with("t:"), "{error}");
-            error.to_string().split_once(": ").unwrap().1.to_owned()
-        })
-        .collect()
+    errors_in(&text)
 }
 
 fn error_of(keys: &str) -> String {
