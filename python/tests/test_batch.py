@@ -2,8 +2,8 @@
 
 import math
 import traceback
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, get_args, get_type_hints, is_typeddict
 
 import numpy as np
 import pytest
@@ -13,7 +13,6 @@ from metric import ENDLESS, HUGE, search
 
 import agent_economy as ae
 from agent_economy import Batch, InputError, Scenario, Simulation
-from agent_economy.runs import batch
 from agent_economy.runs.batch import Commands, Percepts
 from agent_economy.runs.brain import Body, Command, Percept
 
@@ -55,14 +54,18 @@ def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
     steps = memory.setdefault("steps", np.zeros(percepts["count"], dtype=int))
     steps[robots] += 1
     inbox, rows = percepts["inbox"], np.arange(len(robots))
-    received = np.bincount(inbox["row"], inbox["from_index"] + 1, len(robots))
+    received = np.bincount(inbox["row"], inbox["from"]["index"] + 1, len(robots))
     mates = np.bincount(percepts["neighbours"]["row"], minlength=len(robots))
     turn_rate_rad_s = 0.2 * received + percepts["random_words"][:, 0] / 2**33
     seen = percepts["contacts"]["row"]
     return {
         "motion": {"speed_m_s": 0.1 + 0.1 * mates, "turn_rate_rad_s": turn_rate_rad_s},
         "requests": {"row": rows, "sensor": 1, "on": steps[robots] % 5 != 0},
-        "outbox": {"row": seen, "item_kind": 0, "at": [1.0, 2.0], "confidence": 0.5},
+        "outbox": {
+            "row": seen,
+            "about": {"item": {"kind": 0, "at": [1.0, 2.0]}},
+            "confidence": 0.5,
+        },
     }
 
 
@@ -162,23 +165,36 @@ def test_arrays_contain_the_percept_of_each_robot() -> None:
                 each["bearing_rad"] for each in percept["contacts"]
             ]
             mates = percepts["neighbours"]
-            assert mates["index"][mates["row"] == row].tolist() == [
+            assert mates["id"]["index"][mates["row"] == row].tolist() == [
                 each["id"]["index"] for each in percept["neighbours"]
             ]
     assert seen > 5
 
 
-def test_arrays_have_the_fields_of_percepts() -> None:
+def fields(columns: Any, types: Any) -> Iterator[str]:
+    """Yield the paths at which arrays lack the keys of their types, or have others."""
+    if isinstance(columns, list):
+        columns, types = columns[0], get_args(types)[0]
+    if not is_typeddict(types):
+        return
+    hints = get_type_hints(types)
+    yield from ({*hints} ^ {*columns})
+    for key in {*hints} & {*columns} - {"body"}:
+        yield from (f"{key}.{path}" for path in fields(columns[key], hints[key]))
+
+
+def test_arrays_have_the_keys_of_their_types() -> None:
     noted: list[Any] = []
-    Simulation(Scenario.loads(SMALL), brains={"bumper": noting(noted.append, talk)}).step()
-    assert noted[0].keys() == Percepts.__annotations__.keys()
-    # Entries of which all robots of a kind share one.
-    together = {"id": "robots", "team_size": "count"}
-    percept = {together.get(name, name) for name in Percept.__annotations__}
-    assert noted[0].keys() >= percept
-    for name in ("observations", "contacts", "neighbours", "inbox"):
-        entries = getattr(batch, name.capitalize())
-        assert noted[0][name].keys() == entries.__annotations__.keys()
+    Simulation("search", brains={"rover": noting(noted.append)}).step()
+    assert list(fields(noted[0], Percepts)) == []
+    together = {"id": "robots", "team_size": "count"}  # robots of a kind share one
+    assert {together.get(name, name) for name in Percept.__annotations__} <= noted[0].keys()
+
+
+def test_a_command_without_motion_stops_the_robots() -> None:
+    simulation = Simulation("search", brains={"rover": Batch(lambda *_: {})})  # type: ignore[arg-type]
+    simulation.step(3)
+    assert {command["motion"]["speed_m_s"] for command in simulation.decided.values()} == {0.0}
 
 
 def test_stopped_robots_are_not_in_the_arrays() -> None:
@@ -225,50 +241,102 @@ def test_a_batch_continues_after_a_change() -> None:
 
 
 STAND = {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}
-MESSAGE = {"row": [0, 1], "confidence": 1.0, "item_kind": 0, "at": [1.0, 2.0]}
+ITEM = {"kind": 0, "at": [1.0, 2.0]}
+MESSAGE = {"row": [0, 1], "confidence": 1.0, "about": {"item": ITEM}}
+
+
+def sent(**changes: Any) -> dict[str, Any]:
+    """Return commands with two messages."""
+    return {"motion": STAND, "outbox": MESSAGE | changes}
+
+
 ERRORS: list[tuple[Any, str]] = [
-    (None, r"brains.rover\(\) = None: must be a dict with motion, requests, outbox"),
+    (None, r"brains.rover\(\) = None: must be a dict with motion, heading_rad, requests, outbox"),
     ({"speed": 1}, r"brains.rover\(\).speed = 1: must be one of motion"),
-    ({}, r"motion.speed_m_s = None: must be one value for all, or an array of shape \(4,\)"),
     ({"motion": STAND | {"speed_m_s": [1, 2]}}, r"motion.speed_m_s = \[1, 2\]: must be one value"),
     ({"motion": STAND | {"speed_m_s": "fast"}}, r"motion.speed_m_s = 'fast': must be one value"),
     (
         {"motion": STAND | {"turn_rate_rad_s": [0, 0, math.nan, 0]}},
-        r"motion.turn_rate_rad_s\[2\] = nan: must be a finite number",
+        r"motion.turn_rate_rad_s\[2\] = NaN: must be a finite number",
+    ),
+    (
+        {"motion": STAND, "heading_rad": [0, math.inf, math.nan, 0]},
+        r"heading_rad\[1\] = inf: must be a finite number, or NaN for none",
     ),
     (
         {"motion": STAND, "requests": {"row": [4]}},
-        r"row\[0\] = 4.0: must be a whole number from 0 to 3",
+        r"row\[0\] = 4: must be a whole number from 0 to 3",
     ),
     (
         {"motion": STAND, "requests": {"row": [0], "on": True}},
-        "requests.sensor = None: must be one",
+        "requests.sensor = None: must be given",
     ),
     (
-        {"motion": STAND, "outbox": {"row": [0], "confidence": 1, "item_kind": -1, "at": [1, 2]}},
-        "outbox.heading_rad = None: must be",
+        {"motion": STAND, "requests": {"row": [0, 2], "sensor": [0, 1.5], "on": True}},
+        r"requests.sensor\[1\] = 1.5: must be a whole number",
     ),
     (
-        {"motion": STAND, "outbox": MESSAGE | {"item_kind": -2}},
-        "outbox.issuer_kind = None: must be",
+        {"motion": STAND, "requests": {"row": [2, 0], "sensor": [70000, 0], "on": True}},
+        r"requests.sensor\[0\] = 70000: must be",
+    ),
+    (sent(about={"sender": {"at": [1, 2]}}), "about.sender.heading_rad = None: must be given"),
+    (sent(about={"goal": {"at": [1, 2], "status": 1}}), "about.goal.id = None: must be given"),
+    (
+        sent(about={"item": ITEM | {"row": [0]}}),
+        r"outbox.about\[1\] = no type of message: must be one of item, sender",
     ),
     (
-        {"motion": STAND, "outbox": MESSAGE | {"item_kind": -2, "issuer_kind": 256}},
-        r"outbox.issuer_kind\[0\] = 256.0: must be a whole number from 0 to 255",
+        sent(about={"item": ITEM, "sender": {"row": [1], "at": [0, 0], "heading_rad": 0}}),
+        r"about.sender.row\[0\] = 1: must be an entry without another alternative",
+    ),
+    (
+        sent(about={"goal": {"at": [1, 2], "status": [1, 3], "id": {}}}),
+        "about.goal.id.issuer = None: must be given",
+    ),
+    (
+        sent(
+            about={
+                "goal": {
+                    "at": [1, 2],
+                    "status": [1, 3],
+                    "id": {"issuer": {"kind": 0, "index": 0}, "number": 0},
+                }
+            }
+        ),
+        r"about.goal.status\[1\] = 3: must be 0 \(active\), 1 \(done\), 2 \(released\)",
+    ),
+    (
+        sent(
+            about={
+                "goal": {
+                    "at": [1, 2],
+                    "status": 0,
+                    "id": {"issuer": {"kind": [0, 256], "index": 0}, "number": 0},
+                }
+            }
+        ),
+        r"about.goal.id.issuer.kind\[1\] = 256: must be",
     ),
     *[
         (
-            {"motion": STAND, "outbox": MESSAGE | {"confidence": [1.0, value]}},
+            sent(confidence=[1.0, value]),
             rf"brains.rover\(\).outbox.confidence\[1\] = {value}: must be a number from 0 to 1",
         )
-        for value in (5.0, -0.1, math.nan, math.inf)
+        for value in (5, -0.1)
     ],
     *[
         (
-            {"motion": STAND, "outbox": MESSAGE | {"item_kind": [0, kind]}},
-            rf"outbox.item_kind\[1\] = {kind}.0: must be a whole number from -2 to 0",
+            sent(confidence=[1.0, value]),
+            rf"brains.rover\(\).outbox.confidence\[1\] = {text}: must be a finite number",
         )
-        for kind in (1, 65535, -3)
+        for value, text in ((math.nan, "NaN"), (math.inf, "inf"))
+    ],
+    *[
+        (
+            sent(row=[3, 2], about={"item": ITEM | {"kind": [0, kind]}}),
+            rf"outbox.about.item.kind\[1\] = {kind}: must be a",
+        )
+        for kind in (1, 65535, 65536, -3)
     ],
     ({"motion": STAND, "outbox": 3}, r"brains.rover\(\).outbox = 3: must be a dict with row"),
 ]
@@ -310,16 +378,20 @@ def test_only_messages_about_the_sender_have_a_heading() -> None:
     def tell(percepts: Percepts, memory: dict[str, Any]) -> Commands:
         del memory
         received.append(percepts["inbox"])
-        rows = [0, 0]
-        outbox = {"row": rows, "confidence": 1.0, "item_kind": [-1, 0], "at": [3, 4]}
-        return {"motion": STAND, "outbox": {**outbox, "heading_rad": 0.5}}  # type: ignore[typeddict-item]
+        sender = {"row": [0], "at": [3, 4], "heading_rad": 0.5}
+        about = {"sender": sender, "item": {"row": [1], "kind": 0, "at": [3, 4]}}
+        return {"motion": STAND, "outbox": {"row": [0, 0], "confidence": 1.0, "about": about}}  # type: ignore[typeddict-item]
 
     scenario = Scenario.loads(SMALL).replace("robots.bumper.radio.loss_probability", 0.0)
     simulation = Simulation(scenario, brains={"bumper": Batch(tell)})
     simulation.step(40)
-    courses = [inbox["heading_rad"].tolist() for inbox in received if len(inbox["row"])]
-    assert courses
-    assert {tuple(map(str, each[:2])) for each in courses} == {("0.5", "nan")}
+    abouts = [inbox["message"]["about"] for inbox in received if len(inbox["row"])]
+    assert abouts
+    for about in abouts:
+        senders, items = (about[kind]["row"].tolist() for kind in ("sender", "item"))
+        assert senders == list(range(0, 2 * len(senders), 2))
+        assert items == [row + 1 for row in senders]
+        assert set(about["sender"]["heading_rad"].tolist()) == {0.5}
 
 
 def test_messages_about_destinations_keep_the_ids_of_their_goals() -> None:
@@ -327,12 +399,15 @@ def test_messages_about_destinations_keep_the_ids_of_their_goals() -> None:
 
     def announce(percepts: Percepts, memory: dict[str, Any]) -> Commands:
         del memory
-        inbox, rows = percepts["inbox"], np.arange(len(percepts["robots"]))
-        names = ("from_index", "issuer_kind", "issuer_index", "goal_number")
-        received.update(zip(*(inbox[name].tolist() for name in names), strict=True))  # type: ignore[literal-required]
-        ids = {"issuer_kind": 255, "issuer_index": 7, "goal_number": percepts["robots"]}
-        about = {"row": rows, "confidence": 1.0, "item_kind": -2, "at": [1.0, 2.0]}
-        return {"motion": STAND, "outbox": about | ids}  # type: ignore[typeddict-item]
+        inbox, robots = percepts["inbox"], percepts["robots"]
+        goals = inbox["message"]["about"]["goal"]
+        ids = goals["id"]["issuer"]["kind"], goals["id"]["issuer"]["index"], goals["id"]["number"]
+        senders = inbox["from"]["index"][goals["row"]]
+        received.update(zip(senders.tolist(), *(part.tolist() for part in ids), strict=True))
+        goal_ids = {"issuer": {"kind": 255, "index": 7}, "number": robots}
+        about = {"goal": {"id": goal_ids, "at": [1.0, 2.0], "status": 0}}
+        outbox = {"row": np.arange(len(robots)), "confidence": 1.0, "about": about}
+        return {"motion": STAND, "outbox": outbox}  # type: ignore[typeddict-item]
 
     Simulation("search", brains={"rover": Batch(announce)}).step(10)
     assert received

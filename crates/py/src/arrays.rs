@@ -1,203 +1,43 @@
-//! Percepts of all robots of a kind as arrays, with one entry per robot.
+//! Percepts and commands of all robots of a kind as arrays, with one entry per robot.
 
-use base::geometry::Point;
-use brain::{
-    About, CommitmentStatus, GoalId, Motion, Percept, Provenance, Reading, ReceivedMessage,
-};
-use numpy::{Element, IntoPyArray, PyArrayMethods};
+use crate::columns::{self, Given, Shape};
+use crate::convert;
+use crate::error::input_error;
+use crate::message_check::Kinds;
+use base::error::{InputError, InputErrors};
+use brain::{Command, Percept};
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use serde::Deserialize;
+use serde_json::Value as Json;
+use sim::scenario::Scenario;
 use sim::step::PendingDecision;
+use std::sync::LazyLock;
 
-/// Codes in place of an item kind: messages about their sender, about its goal, orders, and goals of
-/// controllers.
-pub(crate) const SENDER: i64 = -1;
-pub(crate) const GOAL: i64 = -2;
-const ORDER: i64 = -3;
-const DISPATCH: i64 = -4;
+/// The columns of percepts. Robots of a kind share some keys, and have as many scans of as many rays.
+static PERCEPT: LazyLock<Shape> =
+    LazyLock::new(|| Shape::of::<Percept>(&["time_s", "id", "team_size", "scans"]));
 
-/// Status of a commitment, by its code.
-pub(crate) const STATUSES: [CommitmentStatus; 3] = [
-    CommitmentStatus::Active,
-    CommitmentStatus::Done,
-    CommitmentStatus::Released,
-];
+static COMMAND: LazyLock<Shape> = LazyLock::new(|| Shape::of::<Command>(&[]));
 
-/// The provenance of messages; a message that is not about an item has its sender as the observer.
-fn provenance(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
-    let of = |received: &ReceivedMessage| match received.message.about {
-        About::Item { provenance, .. } => provenance,
-        _ => Provenance {
-            observer: received.from,
-            ..Provenance::default()
-        },
-    };
-    entries.put("observer_kind", |received| {
-        i64::from(of(received).observer.kind)
-    })?;
-    entries.put("observer_index", |received| {
-        i64::from(of(received).observer.index)
-    })?;
-    entries.put("track_id", |received| i64::from(of(received).track_id))
-}
-
-/// The goal ids of messages; zero in a message that is neither about a destination nor an order.
-fn goal_ids(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
-    let of = |received: &ReceivedMessage| match received.message.about {
-        About::Goal { id, .. } | About::Order { goal: id, .. } => id,
-        _ => GoalId::default(),
-    };
-    entries.put("issuer_kind", |received| {
-        i64::from(of(received).issuer.kind)
-    })?;
-    entries.put("issuer_index", |received| {
-        i64::from(of(received).issuer.index)
-    })?;
-    entries.put("goal_number", |received| i64::from(of(received).number))
-}
-
-/// The percepts of the robots of a kind, by the fields of a percept; NaN or false marks a missing value.
-///
-/// Lists of variable length, such as contacts, are concatenated; `row` holds the index of the robot of
-/// each entry.
+/// The percepts of the robots of a kind, in columns.
 pub(crate) fn percepts<'py>(
     py: Python<'py>,
     decisions: &[PendingDecision],
 ) -> PyResult<Bound<'py, PyDict>> {
-    let fields = PerceptArrays {
-        py,
-        decisions,
-        dict: PyDict::new(py),
-    };
+    let dict = PyDict::new(py);
     let time_s = decisions.first().and_then(|first| first.percept.time_s);
-    let time_s = time_s.unwrap_or_default();
-    fields.dict.set_item("time_s", time_s)?;
+    dict.set_item("time_s", time_s.unwrap_or_default())?;
     let indices = decisions
         .iter()
         .map(|decision| i64::from(decision.robot.index));
-    fields.put("robots", array(py, indices))?;
-    fields.put(
-        "random_words",
-        table(
-            py,
-            decisions
-                .iter()
-                .map(|decision| decision.percept.random_words),
-        )?,
-    )?;
-    fields.reading("position", |percept| percept.position)?;
-    fields.reading("heading_rad", |percept| percept.heading_rad)?;
-    fields.reading("motion", |percept| percept.motion)?;
-    fields.reading("battery", |percept| percept.battery)?;
-    fields.reading("touch", |percept| percept.touch)?;
-    fields.put("scans", scans(py, decisions)?)?;
-    fields.put("observations", observations(py, decisions)?)?;
-    fields.put("contacts", contacts(py, decisions)?)?;
-    fields.put("neighbours", neighbours(py, decisions)?)?;
-    fields.put("inbox", inbox(py, decisions)?)?;
-    Ok(fields.dict)
-}
-
-/// The dict of percepts while it is filled.
-struct PerceptArrays<'a, 'py> {
-    py: Python<'py>,
-    decisions: &'a [PendingDecision],
-    dict: Bound<'py, PyDict>,
-}
-
-impl<'py> PerceptArrays<'_, 'py> {
-    fn put(&self, name: &str, what: impl IntoPyObject<'py>) -> PyResult<()> {
-        self.dict.set_item(name, what)
-    }
-
-    /// Adds a reading of each robot: its `value` and its `age_s`.
-    fn reading<T: Value>(
-        &self,
-        name: &str,
-        of: impl Fn(&Percept) -> Option<Reading<T>>,
-    ) -> PyResult<()> {
-        let readings = self.decisions.iter().map(|decision| of(&decision.percept));
-        let readings: Vec<Option<Reading<T>>> = readings.collect();
-        let ages = readings
-            .iter()
-            .map(|reading| reading.as_ref().map_or(f64::NAN, |it| it.age_s));
-        let ages = array(self.py, ages);
-        let values = readings.into_iter().map(|reading| Some(reading?.value));
-        let dict = PyDict::new(self.py);
-        dict.set_item("value", T::arrays(self.py, values)?)?;
-        dict.set_item("age_s", ages)?;
-        self.put(name, dict)
-    }
-}
-
-/// The value of a reading.
-trait Value: Sized {
-    /// One entry per robot; a dict if there are several arrays.
-    fn arrays(
-        py: Python<'_>,
-        values: impl Iterator<Item = Option<Self>>,
-    ) -> PyResult<Bound<'_, PyAny>>;
-}
-
-impl Value for f64 {
-    fn arrays(
-        py: Python<'_>,
-        values: impl Iterator<Item = Option<Self>>,
-    ) -> PyResult<Bound<'_, PyAny>> {
-        Ok(array(py, values.map(|value| value.unwrap_or(f64::NAN))))
-    }
-}
-
-impl Value for bool {
-    fn arrays(
-        py: Python<'_>,
-        values: impl Iterator<Item = Option<Self>>,
-    ) -> PyResult<Bound<'_, PyAny>> {
-        Ok(array(py, values.map(|value| value == Some(true))))
-    }
-}
-
-impl Value for Point {
-    fn arrays(
-        py: Python<'_>,
-        values: impl Iterator<Item = Option<Self>>,
-    ) -> PyResult<Bound<'_, PyAny>> {
-        table(
-            py,
-            values.map(|value| value.map_or([f64::NAN; 2], |at| [at.x, at.y])),
-        )
-    }
-}
-
-impl Value for Motion {
-    fn arrays(
-        py: Python<'_>,
-        values: impl Iterator<Item = Option<Self>>,
-    ) -> PyResult<Bound<'_, PyAny>> {
-        let parts = values.map(|value| match value {
-            Some(motion) => (motion.speed_m_s, motion.turn_rate_rad_s),
-            None => (f64::NAN, f64::NAN),
-        });
-        let (speeds, turns): (Vec<f64>, Vec<f64>) = parts.unzip();
-        let dict = PyDict::new(py);
-        dict.set_item("speed_m_s", speeds.into_pyarray(py))?;
-        dict.set_item("turn_rate_rad_s", turns.into_pyarray(py))?;
-        Ok(dict.into_any())
-    }
-}
-
-fn array<T: Element>(py: Python<'_>, values: impl Iterator<Item = T>) -> Bound<'_, PyAny> {
-    values.collect::<Vec<T>>().into_pyarray(py).into_any()
-}
-
-fn table<T: Element, const N: usize>(
-    py: Python<'_>,
-    rows: impl Iterator<Item = [T; N]>,
-) -> PyResult<Bound<'_, PyAny>> {
-    let rows: Vec<[T; N]> = rows.collect();
-    let shape = [rows.len(), N];
-    let table = rows.into_flattened().into_pyarray(py).reshape(shape)?;
-    Ok(table.into_any())
+    let indices: Vec<i64> = indices.collect();
+    dict.set_item("robots", indices.into_pyarray(py))?;
+    dict.set_item("scans", scans(py, decisions)?)?;
+    let percepts = decisions.iter().map(|decision| &decision.percept);
+    columns::write(&PERCEPT, percepts)?.put_into(&dict)?;
+    Ok(dict)
 }
 
 /// `age_s` and `ranges_m` of each ring, with one row per robot.
@@ -220,116 +60,38 @@ fn scans<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
         let ranges_m = ranges_m.into_pyarray(py).reshape([decisions.len(), rays])?;
         let dict = PyDict::new(py);
         let ages = scans().map(|scan| scan.age_s.unwrap_or(f64::NAN));
-        dict.set_item("age_s", array(py, ages))?;
+        dict.set_item("age_s", ages.collect::<Vec<f64>>().into_pyarray(py))?;
         dict.set_item("ranges_m", ranges_m)?;
         Ok(dict)
     };
     PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
 }
 
-fn observations<'py>(
-    py: Python<'py>,
-    decisions: &[PendingDecision],
-) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, decisions, |percept| &percept.observations)?;
-    entries.put("sensor", |observation| i64::from(observation.sensor))?;
-    entries.put("age_s", |observation| observation.age_s)?;
-    Ok(entries.dict)
-}
-
-fn contacts<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, decisions, |percept| &percept.contacts)?;
-    entries.put("kind", |contact| i64::from(contact.kind))?;
-    entries.put("sensor", |contact| i64::from(contact.sensor))?;
-    entries.put("range_m", |contact| contact.range_m)?;
-    entries.put("bearing_rad", |contact| contact.bearing_rad)?;
-    entries.put("age_s", |contact| contact.age_s)?;
-    Ok(entries.dict)
-}
-
-fn neighbours<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, decisions, |percept| &percept.neighbours)?;
-    entries.put("range_m", |neighbour| neighbour.range_m)?;
-    entries.put("bearing_rad", |neighbour| neighbour.bearing_rad)?;
-    entries.put("course_rad", |neighbour| {
-        neighbour.course_rad.unwrap_or(f64::NAN)
-    })?;
-    entries.put("age_s", |neighbour| neighbour.age_s)?;
-    entries.put("kind", |neighbour| i64::from(neighbour.id.kind))?;
-    entries.put("index", |neighbour| i64::from(neighbour.id.index))?;
-    Ok(entries.dict)
-}
-
-fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, decisions, |percept| &percept.inbox)?;
-    entries.put("from_kind", |received| i64::from(received.from.kind))?;
-    entries.put("from_index", |received| i64::from(received.from.index))?;
-    entries.put("age_s", |received| received.age_s)?;
-    entries.put("confidence", |received| received.message.confidence)?;
-    entries.put("item_kind", |received| match received.message.about {
-        About::Item { kind, .. } => kind.into(),
-        About::Sender { .. } => SENDER,
-        About::Goal { .. } => GOAL,
-        About::Order { .. } => ORDER,
-        About::Dispatch(_) => DISPATCH,
-    })?;
-    entries.put("heading_rad", |received| match received.message.about {
-        About::Sender { heading_rad, .. } => heading_rad,
-        _ => f64::NAN,
-    })?;
-    entries.put("observations", |received| match received.message.about {
-        About::Item { provenance, .. } => provenance.observations.into(),
-        About::Sender { observations, .. } => observations.into(),
-        _ => 0_i64,
-    })?;
-    provenance(&entries)?;
-    goal_ids(&entries)?;
-    entries.put("status", |received| match received.message.about {
-        About::Goal { status, .. } => status as i64,
-        About::Order { action, .. } => action as i64,
-        _ => 0,
-    })?;
-    let places = entries
-        .all
-        .iter()
-        .map(|(_, received)| match received.message.about {
-            About::Item { at, .. }
-            | About::Sender { at, .. }
-            | About::Goal { at, .. }
-            | About::Order { at, .. } => [at.x, at.y],
-            About::Dispatch(dispatch) => {
-                let task = dispatch.task();
-                task.map_or([f64::NAN; 2], |task| task.at_m.map(f64::from))
-            }
+/// Sets the commands of robots from columns; `at` is their path in errors.
+pub(crate) fn command(
+    at: &str,
+    scenario: &Scenario,
+    returned: &Bound<PyAny>,
+    decisions: &mut [PendingDecision],
+) -> PyResult<()> {
+    let given = Given::read(&COMMAND, at, returned, decisions.len())?;
+    let kinds = Kinds::of_scenario(scenario);
+    for (entry, decision) in decisions.iter_mut().enumerate() {
+        let read = Command::deserialize(given.cell(entry));
+        // A second time, for an error in the words of the schema.
+        let read = read.or_else(|_| {
+            let json = Json::deserialize(given.cell(entry)).unwrap_or_default();
+            convert::read_json("", &json)
         });
-    entries.dict.set_item("at", table(py, places)?)?;
-    Ok(entries.dict)
-}
-
-/// Lists of variable length, concatenated, with the index of the robot of each entry.
-struct Entries<'a, 'py, T> {
-    py: Python<'py>,
-    all: Vec<(i64, &'a T)>,
-    dict: Bound<'py, PyDict>,
-}
-
-impl<'a, 'py, T> Entries<'a, 'py, T> {
-    fn new(
-        py: Python<'py>,
-        decisions: &'a [PendingDecision],
-        of: impl Fn(&'a Percept) -> &'a Vec<T>,
-    ) -> PyResult<Self> {
-        let robots = (0..).zip(decisions);
-        let all = robots
-            .flat_map(|(row, decision)| of(&decision.percept).iter().map(move |each| (row, each)));
-        let all: Vec<(i64, &T)> = all.collect();
-        let dict = PyDict::new(py);
-        dict.set_item("row", array(py, all.iter().map(|(row, _)| *row)))?;
-        Ok(Self { py, all, dict })
+        let read = read.and_then(|command| kinds.command("", command));
+        decision.command = read.map_err(|error| {
+            let keys = error
+                .path
+                .split(['.', '[', ']'])
+                .filter(|key| !key.is_empty());
+            let path = format!("{at}{}", given.path(entry, keys));
+            input_error(&InputErrors(vec![InputError { path, ..error }]), "")
+        })?;
     }
-
-    fn put<N: Element>(&self, name: &str, of: impl Fn(&T) -> N) -> PyResult<()> {
-        let values = self.all.iter().map(|(_, each)| of(each));
-        self.dict.set_item(name, array(self.py, values))
-    }
+    Ok(())
 }

@@ -35,14 +35,30 @@ pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
         return Err(mismatch(at, json.to_string(), "a dict"));
     }
     serde_path_to_error::deserialize(&json).map_err(|refusal| {
-        let error = serde_error::error::<T>(&json, refusal.path());
-        let path = below(at, &error.path);
+        let error = refused::<T>(at, &json, refusal.path());
         // Infinity is read as null, which is not allowed here.
         if is_infinite(given, refusal.path()) {
-            return InputError::new(path, Some("inf".to_owned()), "a finite number".to_owned());
+            let (given, allowed) = (Some("inf".to_owned()), "a finite number".to_owned());
+            return InputError::new(error.path, given, allowed);
         }
-        InputError { path, ..error }
+        error
     })
+}
+
+/// Reads JSON; `at` is its path in errors.
+pub(crate) fn read_json<T: DeserializeOwned + JsonSchema>(
+    at: &str,
+    json: &Json,
+) -> Result<T, InputError> {
+    let read = serde_path_to_error::deserialize(json);
+    read.map_err(|refusal| refused::<T>(at, json, refusal.path()))
+}
+
+/// The error at a path, where serde failed to read a `T`.
+fn refused<T: JsonSchema>(at: &str, json: &Json, path: &Path) -> InputError {
+    let error = serde_error::error::<T>(json, path);
+    let path = below(at, &error.path);
+    InputError { path, ..error }
 }
 
 /// Converts a value to Python.

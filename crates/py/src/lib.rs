@@ -7,7 +7,7 @@ mod brain;
 mod classic_runs;
 mod classic_simulation;
 mod classic_trace;
-mod commands;
+mod columns;
 mod configuration;
 mod controller;
 mod convert;

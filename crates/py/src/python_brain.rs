@@ -1,7 +1,6 @@
 //! Brains in Python that replace those of a scenario's robot kinds.
 
 use crate::arrays;
-use crate::commands::Commands;
 use crate::convert;
 use crate::error::input_error;
 use crate::message_check::Kinds;
@@ -33,9 +32,9 @@ impl PythonBrain<'_> {
     fn decide(&self, scenario: &Scenario, decisions: &mut [PendingDecision]) -> PyResult<()> {
         if self.is_in_arrays {
             let percepts = arrays::percepts(self.step.py(), decisions)?;
-            let commands: Commands = self.step.call1((percepts,))?.extract()?;
-            commands.apply(decisions);
-            return Ok(());
+            let commands = self.step.call1((percepts,))?;
+            let at = format!("{}()", path_of("brains", &self.kind));
+            return arrays::command(&at, scenario, &commands, decisions);
         }
         decisions
             .iter_mut()

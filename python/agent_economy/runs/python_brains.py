@@ -5,9 +5,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Protocol, TypeAlias, cast
 
 from agent_economy import _core
-from agent_economy.runs.batch import Batch, Percepts
+from agent_economy.runs.batch import Batch, Commands, Percepts
 from agent_economy.runs.brain import Body, Command, Percept
-from agent_economy.runs.commands import Commands, commands
 from agent_economy.scenario import validation
 
 BY_KIND = "a dict by the names of robot kinds"
@@ -93,15 +92,13 @@ class BatchBrain:
 
     def step(self, percepts: dict[str, Any]) -> Commands:
         """Return the commands of the robots that step."""
-        time_s, robots = percepts["time_s"], len(percepts["robots"])
+        time_s = percepts["time_s"]
         complete = cast("Percepts", self.constants | percepts)
         try:
-            returned = self.batch.function(complete, self.memory)
+            return self.batch.function(complete, self.memory)
         except Exception as error:
             error.add_note(f"in the brain of all robots of kind {self.kind}, at {time_s:g} s")
             raise
-        items = len(complete["body"]["item_kinds"])
-        return commands(f"brains.{self.kind}()", returned, robots, items)
 
 
 PythonBrains: TypeAlias = SingleBrains | BatchBrain

@@ -1,0 +1,149 @@
+//! Columns that are filled value by value, and their arrays.
+
+use super::shape::{Field, Shape};
+use numpy::{Element, IntoPyArray, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The column of a type.
+pub(crate) struct Column {
+    pub(super) shape: &'static Shape,
+    pub(super) data: Data,
+}
+
+pub(super) enum Data {
+    Numbers(Vec<f64>),
+    Integers(Vec<i64>),
+    Flags(Vec<bool>),
+    Table(Vec<Column>),
+    /// The entry that each item is of, and the items.
+    List(Vec<i64>, Box<Column>),
+    /// The alternatives that occur.
+    Union(Vec<Option<Alternative>>),
+    Omitted,
+}
+
+/// The entries of one alternative, and their content.
+pub(super) struct Alternative {
+    pub(super) rows: Vec<i64>,
+    pub(super) content: Column,
+}
+
+impl Column {
+    pub(super) fn new(shape: &'static Shape) -> Self {
+        let data = match shape {
+            Shape::Number
+            | Shape::Vector {
+                is_whole: false, ..
+            } => Data::Numbers(Vec::new()),
+            Shape::Integer | Shape::Code(_) | Shape::Vector { .. } => Data::Integers(Vec::new()),
+            Shape::Flag => Data::Flags(Vec::new()),
+            Shape::Table(fields) => {
+                Data::Table(fields.iter().map(|field| Self::new(&field.shape)).collect())
+            }
+            Shape::List(item) => Data::List(Vec::new(), Box::new(Self::new(item))),
+            Shape::Union(fields) => Data::Union(fields.iter().map(|_| None).collect()),
+            Shape::Omitted => Data::Omitted,
+        };
+        Self { shape, data }
+    }
+
+    /// Adds an entry without a value.
+    pub(super) fn skip(&mut self) {
+        let times = match self.shape {
+            Shape::Vector { length, .. } => *length,
+            _ => 1,
+        };
+        match &mut self.data {
+            Data::Numbers(numbers) => numbers.extend((0..times).map(|_| f64::NAN)),
+            Data::Integers(integers) => integers.extend((0..times).map(|_| -1)),
+            Data::Flags(flags) => flags.push(false),
+            Data::Table(columns) => columns.iter_mut().for_each(Self::skip),
+            Data::List(..) | Data::Union(_) | Data::Omitted => {}
+        }
+    }
+
+    /// An array, or a dict of arrays.
+    pub(crate) fn arrays(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        match self.data {
+            Data::Numbers(numbers) => array(py, self.shape, numbers),
+            Data::Integers(integers) => array(py, self.shape, integers),
+            Data::Flags(flags) => array(py, self.shape, flags),
+            _ => {
+                let dict = PyDict::new(py);
+                self.put_into(&dict)?;
+                Ok(dict.into_any())
+            }
+        }
+    }
+
+    /// Adds the arrays of this column to a dict, by their names.
+    pub(crate) fn put_into(self, dict: &Bound<PyDict>) -> PyResult<()> {
+        let (py, fields) = (dict.py(), self.shape.fields());
+        match self.data {
+            Data::Table(columns) => {
+                for (field, column) in fields.iter().zip(columns) {
+                    if !matches!(column.data, Data::Omitted) {
+                        dict.set_item(&field.name, column.arrays(py)?)?;
+                    }
+                }
+            }
+            Data::List(rows, items) => {
+                dict.set_item("row", rows.into_pyarray(py))?;
+                items.put_into(dict)?;
+            }
+            Data::Union(alternatives) => {
+                for (field, alternative) in fields.iter().zip(alternatives) {
+                    let arrays = match alternative {
+                        Some(alternative) => alternative.arrays(py)?,
+                        None => field.empty(py)?,
+                    };
+                    dict.set_item(&field.name, arrays)?;
+                }
+            }
+            _ => dict.set_item("value", self.arrays(py)?)?,
+        }
+        Ok(())
+    }
+}
+
+impl Alternative {
+    pub(super) fn new(field: &'static Field) -> Self {
+        Self {
+            rows: Vec::new(),
+            content: Column::new(&field.shape),
+        }
+    }
+
+    /// The arrays of a union in a union have rows of their own.
+    fn arrays(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        let dict = PyDict::new(py);
+        if !matches!(self.content.data, Data::Union(_)) {
+            dict.set_item("row", self.rows.into_pyarray(py))?;
+        }
+        self.content.put_into(&dict)?;
+        Ok(dict.into_any())
+    }
+}
+
+impl Field {
+    /// The arrays of an alternative without entries.
+    fn empty<'py>(&'static self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let make = || Ok(Alternative::new(self).arrays(py)?.unbind());
+        let arrays = self.empty.get_or_try_init(py, make);
+        arrays.map(|arrays| arrays.bind(py).clone())
+    }
+}
+
+fn array<'py, T: Element>(
+    py: Python<'py>,
+    shape: &Shape,
+    values: Vec<T>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let count = values.len();
+    let array = values.into_pyarray(py);
+    match shape {
+        Shape::Vector { length, .. } => Ok(array.reshape([count / length, *length])?.into_any()),
+        _ => Ok(array.into_any()),
+    }
+}

@@ -1,0 +1,381 @@
+//! The columns that a function of Python returned, checked against their shape.
+
+use super::shape::{Field, Shape};
+use crate::convert::text;
+use crate::error::input_error;
+use base::error::{InputError, InputErrors};
+use numpy::{PyArrayDyn, PyArrayMethods};
+use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
+use pyo3::intern;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The columns of a type, as far as they were given.
+pub(crate) enum Given {
+    /// Numbers; several per entry of a vector.
+    Numbers(&'static Shape, Vec<f64>),
+    Table(Vec<(&'static Field, Given)>),
+    List(Items),
+    Union(Alternatives),
+}
+
+/// The items of a list: the numbers of those of entry `n` are `order[starts[n]..starts[n + 1]]`.
+pub(crate) struct Items {
+    pub(super) starts: Vec<usize>,
+    pub(super) order: Vec<usize>,
+    pub(super) item: Box<Given>,
+}
+
+/// The alternatives of a union: of each entry, which one it has, and its number among the entries that have it.
+pub(crate) struct Alternatives {
+    pub(super) chosen: Vec<Option<(usize, usize)>>,
+    pub(super) all: Vec<(&'static Field, Given)>,
+}
+
+impl Alternatives {
+    /// The first entry that has none.
+    fn without(&self) -> Option<usize> {
+        self.chosen.iter().position(Option::is_none)
+    }
+}
+
+/// Where columns are in the returned dict, and their number of entries.
+#[derive(Debug, Clone, Copy)]
+struct Place<'p> {
+    path: &'p str,
+    count: usize,
+    /// Whether entries may have no value.
+    is_optional: bool,
+}
+
+impl Given {
+    /// Reads the columns of a number of entries; `path` is theirs in errors.
+    pub(crate) fn read(
+        shape: &'static Shape,
+        path: &str,
+        given: &Bound<PyAny>,
+        count: usize,
+    ) -> PyResult<Self> {
+        let place = Place {
+            path,
+            count,
+            is_optional: false,
+        };
+        place.read(shape, given)
+    }
+}
+
+impl Place<'_> {
+    fn read(&self, shape: &'static Shape, given: &Bound<PyAny>) -> PyResult<Given> {
+        match shape {
+            Shape::Table(fields) => Ok(Given::Table(self.table(fields, given, &[])?)),
+            Shape::List(item) => self.list(item, given),
+            Shape::Union(fields) => self.union(fields, given),
+            _ => self.numbers(shape, given),
+        }
+    }
+
+    fn below(&self, name: &str) -> String {
+        format!("{}.{name}", self.path)
+    }
+
+    fn error(&self, given: &Bound<PyAny>, allowed: &str) -> PyErr {
+        let given = given.repr().map(|given| given.to_string());
+        refusal(self.path.to_owned(), given.ok(), allowed.to_owned())
+    }
+
+    /// The columns of the keys that are given; `extra` are further allowed keys.
+    fn table(
+        &self,
+        fields: &'static [Field],
+        given: &Bound<PyAny>,
+        extra: &[&str],
+    ) -> PyResult<Vec<(&'static Field, Given)>> {
+        let dict = self.dict(fields, given, extra)?;
+        let mut columns = Vec::new();
+        for field in fields {
+            let path = self.below(&field.name);
+            match dict.get_item(&field.name).ok().flatten() {
+                Some(given) => {
+                    let place = Place {
+                        path: &path,
+                        count: self.count,
+                        is_optional: field.is_nullable,
+                    };
+                    let column = place.read(&field.shape, &given)?;
+                    place.is_complete(&column, &field.shape)?;
+                    columns.push((field, column));
+                }
+                None if field.is_required && self.count > 0 => {
+                    let allowed = format!("given: it is a key of {}", self.path);
+                    return Err(refusal(path, Some("None".to_owned()), allowed));
+                }
+                None => {}
+            }
+        }
+        Ok(columns)
+    }
+
+    /// A dict with no other keys than these.
+    fn dict<'py>(
+        &self,
+        fields: &[Field],
+        given: &Bound<'py, PyAny>,
+        extra: &[&str],
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let names = fields.iter().map(|field| field.name.as_str());
+        let names: Vec<&str> = extra.iter().copied().chain(names).collect();
+        let known = names.join(", ");
+        let Ok(dict) = given.cast::<PyDict>() else {
+            return Err(self.error(given, &format!("a dict with {known}")));
+        };
+        for (key, value) in dict.iter() {
+            let key = text(&key);
+            if !names.contains(&key.as_str()) {
+                let path = self.below(&key);
+                let place = Place {
+                    path: &path,
+                    ..*self
+                };
+                return Err(place.error(&value, &format!("one of {known}")));
+            }
+        }
+        Ok(dict.clone())
+    }
+
+    fn list(&self, item: &'static Shape, given: &Bound<PyAny>) -> PyResult<Given> {
+        let dict = self.dict(item.fields(), given, &["row"])?;
+        let rows = self.rows(&dict)?;
+        let Some(rows) = rows else {
+            return Ok(Given::List(Items {
+                starts: vec![0; self.count + 1],
+                order: Vec::new(),
+                item: Box::new(Given::Table(Vec::new())),
+            }));
+        };
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        order.sort_by_key(|item| rows[*item]);
+        let before = |entry: usize| order.partition_point(|item| rows[*item] < entry);
+        let starts = (0..=self.count).map(before).collect();
+        let entries = Self {
+            count: rows.len(),
+            ..*self
+        };
+        let columns = entries.table(item.fields(), given, &["row"])?;
+        let item = Box::new(Given::Table(columns));
+        Ok(Given::List(Items {
+            starts,
+            order,
+            item,
+        }))
+    }
+
+    /// The `row` of a dict, each below the number of entries.
+    fn rows(&self, dict: &Bound<PyDict>) -> PyResult<Option<Vec<usize>>> {
+        let Some(given) = dict.get_item("row").ok().flatten() else {
+            return Ok(None);
+        };
+        let path = self.below("row");
+        let place = Place {
+            path: &path,
+            ..*self
+        };
+        let rows = place.array(&given, None)?;
+        let max = self.count.saturating_sub(1);
+        let allowed = format!("a whole number from 0 to {max}");
+        place.all(&rows, |row| is_below(row, self.count), &allowed)?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole numbers that are not negative"
+        )]
+        Ok(Some(rows.into_iter().map(|row| row as usize).collect()))
+    }
+
+    /// One alternative for each entry. Without `row`, all entries have the same one.
+    fn union(&self, fields: &'static [Field], given: &Bound<PyAny>) -> PyResult<Given> {
+        let mut union = Alternatives {
+            chosen: vec![None; self.count],
+            all: Vec::new(),
+        };
+        let dict = self.dict(fields, given, &[])?;
+        for field in fields {
+            let Some(given) = dict.get_item(&field.name).ok().flatten() else {
+                continue;
+            };
+            let path = self.below(&field.name);
+            let place = Place {
+                path: &path,
+                ..*self
+            };
+            let (entries, content) = place.alternative(field, &given)?;
+            for (number, entry) in entries.into_iter().enumerate() {
+                // A union in a union has the same entries.
+                let is_union = matches!(content, Given::Union(_));
+                let chosen = (union.all.len(), if is_union { entry } else { number });
+                if union.chosen[entry].replace(chosen).is_some() {
+                    let path = format!("{path}.row[{number}]");
+                    let allowed = "an entry without another alternative".to_owned();
+                    return Err(refusal(path, Some(entry.to_string()), allowed));
+                }
+            }
+            union.all.push((field, content));
+        }
+        Ok(Given::Union(union))
+    }
+
+    /// That a union has an alternative for each entry.
+    fn is_complete(&self, column: &Given, shape: &Shape) -> PyResult<()> {
+        let Given::Union(union) = column else {
+            return Ok(());
+        };
+        union.without().map_or(Ok(()), |entry| {
+            let names: Vec<&str> = shape
+                .fields()
+                .iter()
+                .map(|field| field.name.as_str())
+                .collect();
+            let path = format!("{}[{entry}]", self.path);
+            let given = Some("no type of message".to_owned());
+            Err(refusal(path, given, format!("one of {}", names.join(", "))))
+        })
+    }
+
+    /// The entries that have an alternative, and its content.
+    fn alternative(
+        &self,
+        field: &'static Field,
+        given: &Bound<PyAny>,
+    ) -> PyResult<(Vec<usize>, Given)> {
+        if let Shape::Union(fields) = &field.shape {
+            let content = self.union(fields, given)?;
+            let Given::Union(inner) = &content else {
+                return Ok((Vec::new(), content));
+            };
+            let has_one = |entry: &usize| inner.chosen[*entry].is_some();
+            let entries: Vec<usize> = (0..self.count).filter(has_one).collect();
+            return Ok((entries, content));
+        }
+        let is_value = !matches!(field.shape, Shape::Table(_));
+        let fields = field.shape.fields();
+        let extra: &[&str] = if is_value {
+            &["row", "value"]
+        } else {
+            &["row"]
+        };
+        let dict = self.dict(fields, given, extra)?;
+        let entries = self.rows(&dict)?;
+        let entries = entries.unwrap_or_else(|| (0..self.count).collect());
+        let place = Self {
+            count: entries.len(),
+            ..*self
+        };
+        let content = if is_value {
+            let given = dict.get_item("value").ok().flatten();
+            let given = given.unwrap_or_else(|| dict.py().None().into_bound(dict.py()));
+            Given::read(&field.shape, &self.below("value"), &given, place.count)?
+        } else {
+            Given::Table(place.table(fields, given, extra)?)
+        };
+        Ok((entries, content))
+    }
+
+    /// Numbers as their shape allows them.
+    fn numbers(&self, shape: &'static Shape, given: &Bound<PyAny>) -> PyResult<Given> {
+        let numbers = match shape {
+            Shape::Vector { length, .. } => self.array(given, Some(&[self.count, *length]))?,
+            _ => self.array(given, Some(&[self.count]))?,
+        };
+        match shape {
+            Shape::Number if self.is_optional => {
+                self.all(
+                    &numbers,
+                    |it| !it.is_infinite(),
+                    "a finite number, or NaN for none",
+                )?;
+            }
+            Shape::Number
+            | Shape::Vector {
+                is_whole: false, ..
+            } => {
+                self.all(&numbers, f64::is_finite, "a finite number")?;
+            }
+            Shape::Flag => {
+                self.all(&numbers, |it| is_below(it, 2), "True or False")?;
+            }
+            Shape::Code(names) => {
+                let is_known = |it: f64| is_below(it, names.len());
+                let codes = names.iter().enumerate();
+                let codes: Vec<String> = codes
+                    .map(|(code, name)| format!("{code} ({name})"))
+                    .collect();
+                self.all(&numbers, is_known, &codes.join(", "))?;
+            }
+            _ => self.all(&numbers, |it| it.fract() == 0.0, "a whole number")?,
+        }
+        Ok(Given::Numbers(shape, numbers))
+    }
+
+    fn all(
+        &self,
+        numbers: &[f64],
+        is_allowed: impl Fn(f64) -> bool,
+        allowed: &str,
+    ) -> PyResult<()> {
+        let wrong = numbers.iter().position(|number| !is_allowed(*number));
+        wrong.map_or(Ok(()), |index| {
+            let path = format!("{}[{index}]", self.path);
+            Err(refusal(
+                path,
+                Some(numbers[index].to_string()),
+                allowed.to_owned(),
+            ))
+        })
+    }
+
+    /// An array of floats, repeated to a shape if one is given.
+    fn array(&self, given: &Bound<PyAny>, shape: Option<&[usize]>) -> PyResult<Vec<f64>> {
+        let convert = || -> PyResult<Vec<f64>> {
+            let numpy = given.py().import(intern!(given.py(), "numpy"))?;
+            let array = numpy.call_method1(intern!(given.py(), "asarray"), (given, "float64"))?;
+            let array = match shape {
+                Some(shape) => numpy.call_method1("broadcast_to", (array, shape))?,
+                None => numpy.call_method1("atleast_1d", (array,))?,
+            };
+            let array = array.cast_into::<PyArrayDyn<f64>>()?;
+            Ok(array.readonly().as_array().iter().copied().collect())
+        };
+        convert().map_err(|error| {
+            let py = given.py();
+            let is_of_value = error.is_instance_of::<PyTypeError>(py)
+                || error.is_instance_of::<PyValueError>(py)
+                || error.is_instance_of::<PyOverflowError>(py);
+            // Others are those of signals.
+            if !is_of_value {
+                return error;
+            }
+            let shape = match shape {
+                Some([count]) => format!("({count},)"),
+                Some([count, width]) => format!("({count}, {width})"),
+                _ => "(n,)".to_owned(),
+            };
+            self.error(
+                given,
+                &format!("one value for all, or an array of shape {shape}"),
+            )
+        })
+    }
+}
+
+fn refusal(path: String, given: Option<String>, allowed: String) -> PyErr {
+    input_error(
+        &InputErrors(vec![InputError::new(path, given, allowed)]),
+        "",
+    )
+}
+
+/// Whether it is a whole number from 0 and below `limit`.
+#[expect(clippy::cast_precision_loss, reason = "numbers of entries")]
+fn is_below(number: f64, limit: usize) -> bool {
+    number.fract() == 0.0 && (0.0..limit as f64).contains(&number)
+}

@@ -1,0 +1,260 @@
+"""Messages of every type are the same in columns as in dicts."""
+
+import json
+import random
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from agent_economy import Batch, Scenario, Simulation
+from agent_economy.runs.batch import Commands, Percepts
+
+SCHEMAS = Path(__file__).resolve().parents[2] / "schemas/brain.schema.json"
+TYPES: dict[str, Any] = json.loads(SCHEMAS.read_text(encoding="utf-8"))["$defs"]
+MAX = {"uint8": 200, "uint16": 60_000, "uint32": 4_000_000_000}
+
+TALKERS = """
+engine = "metric"
+summary = "Robots that send messages of all types."
+merit = "equation-5.2"
+clock = { step_s = 0.1, time_limit_s = 60 }
+world = { size_m = [20, 20] }
+[items.mine]
+target = false
+count = 1
+[robots.rover]
+count = 3
+radius_m = 0.2
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+radio = { range_m = 50, messages_per_step = 1000 }
+"""
+
+
+def resolved(schema: Any) -> Any:
+    """Return the definition to which a schema refers."""
+    target = schema.get("$ref")
+    return TYPES[target.rsplit("/", 1)[-1]] if target else schema
+
+
+def sample(schema: Any, chance: random.Random) -> Any:
+    """Return a random value that a schema allows; numbers are exact in single precision."""
+    schema = resolved(schema)
+    if parts := schema.get("oneOf"):
+        return sample(chance.choice(parts), chance)
+    if "const" in schema:
+        return schema["const"]
+    match schema["type"]:
+        case "integer":
+            return chance.randint(0, MAX[schema["format"]])
+        case "number":
+            return chance.randint(0, 4096) / 64
+        case "array":
+            return [sample(schema["items"], chance) for _ in range(schema["minItems"])]
+    properties = schema.get("properties", {})
+    return {key: sample(each, chance) for key, each in properties.items()}
+
+
+def kinds_of_messages() -> list[tuple[str, ...]]:
+    """Return the path of each type of message."""
+    return [
+        (name, *inner)
+        for part in TYPES["About"]["oneOf"]
+        for name, content in part["properties"].items()
+        for inner in (
+            [(key,) for each in TYPES["Dispatch"]["oneOf"] for key in each["properties"]]
+            if name == "dispatch"
+            else [()]
+        )
+    ]
+
+
+def message(path: tuple[str, ...], chance: random.Random) -> dict[str, Any]:
+    """Return a random message of a type."""
+    about = sample(content_of(path), chance)
+    if path == ("item",):
+        about["kind"] = 0
+        about["provenance"]["observer"] = {"kind": 0, "index": 1}
+    for key in reversed(path):
+        about = {key: about}
+    to = {"to": {"kind": 0, "index": chance.randint(0, 2)}} if chance.random() < 0.5 else {}
+    return {**to, "about": about, "confidence": 0.5}
+
+
+def columns(values: list[Any], schema: Any) -> Any:
+    """Return values of one type in columns; numbers are -1 where there is no value."""
+    schema = resolved(schema)
+    if parts := schema.get("oneOf"):
+        codes = [part["const"] for part in parts]
+        return [codes.index(value) for value in values]
+    if schema["type"] == "object":
+        properties = schema.get("properties", {})
+        return {
+            key: columns([(value or {}).get(key) for value in values], each)
+            for key, each in properties.items()
+        }
+    return [-1 if value is None else value for value in values]
+
+
+def content_of(path: tuple[str, ...]) -> Any:
+    """Return the schema of the content of a type of message."""
+    union = TYPES["About" if len(path) == 1 else "Dispatch"]
+    return next(
+        part["properties"][path[-1]] for part in union["oneOf"] if path[-1] in part["properties"]
+    )
+
+
+def by_type(messages: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the contents of messages in columns, by their types."""
+    found: dict[str, Any] = {"dispatch": {}}
+    for path in kinds_of_messages():
+        contents = {row: inside(each["about"], path) for row, each in enumerate(messages)}
+        rows = [row for row, content in contents.items() if content is not None]
+        inner = columns([contents[row] for row in rows], content_of(path))
+        table = inner if isinstance(inner, dict) else {"value": inner}
+        if rows:
+            (found["dispatch"] if len(path) == 2 else found)[path[-1]] = {"row": rows, **table}
+    return found
+
+
+def inside(value: Any, path: tuple[str, ...]) -> Any:
+    """Return the value at a path, or None."""
+    for key in path:
+        value = value.get(key) if isinstance(value, dict) else None
+    return value
+
+
+def talking(messages: list[dict[str, Any]], received_percepts: list[Percepts]) -> Batch:
+    """Return a brain that sends messages in its first step."""
+
+    def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        received_percepts.append(percepts)
+        if memory:
+            return {}
+        memory["has_sent"] = True
+        ids = [each.get("to", {"kind": -1, "index": -1}) for each in messages]
+        return {
+            "outbox": {
+                "row": [1] * len(messages),
+                "to": columns(ids, TYPES["RobotId"]),
+                "confidence": 0.5,
+                "about": by_type(messages),  # type: ignore[typeddict-item]
+            }
+        }
+
+    return Batch(talk)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_messages_of_all_types_are_sent_and_received_as_given(seed: int) -> None:
+    chance = random.Random(seed)  # noqa: S311
+    messages = [message(path, chance) for path in 3 * kinds_of_messages()]
+    chance.shuffle(messages)
+    received_percepts: list[Percepts] = []
+    scenario = Scenario.loads(TALKERS)
+    simulation = Simulation(scenario, brains={"rover": talking(messages, received_percepts)})
+    simulation.step()
+    sent = simulation.decided["rover/1"]["outbox"]
+    assert sent == messages
+    received = {index: simulation.percept(f"rover/{index}") for index in (0, 2)}
+    simulation.step()
+    inbox = received_percepts[-1]["inbox"]
+    for index, percept in received.items():
+        assert percept is not None
+        dicts = [each["message"] for each in percept["inbox"]]
+        mine = np.flatnonzero(inbox["row"] == index)
+        assert len(mine) == len(dicts) > 0
+        assert list(restored(inbox["message"], mine)) == dicts
+
+
+def restored(columns: Any, rows: Any) -> Iterator[dict[str, Any]]:
+    """Yield messages from their columns."""
+    abouts: dict[int, dict[str, Any]] = {}
+    for name, content in flat(columns["about"]):
+        part = content_of(name)
+        for number, row in enumerate(content["row"].tolist()):
+            is_table = resolved(part)["type"] == "object"
+            value = entry(content if is_table else content["value"], number, part)
+            for key in reversed(name):
+                value = {key: value}
+            abouts[row] = value
+    for row in rows.tolist():
+        kind = columns["to"]["kind"][row].item()
+        to = {"kind": kind, "index": columns["to"]["index"][row].item()}
+        yield {
+            **({} if kind < 0 else {"to": to}),
+            "about": abouts[row],
+            "confidence": columns["confidence"][row].item(),
+        }
+
+
+def flat(about: Any) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Yield the types of messages, and their columns."""
+    for key, content in about.items():
+        if key == "dispatch":
+            yield from (((key, *inner), each) for inner, each in flat(content))
+        else:
+            yield (key,), content
+
+
+def entry(column: Any, number: int, schema: Any) -> Any:
+    """Return one entry of a column as it is in a dict."""
+    schema = resolved(schema)
+    if isinstance(column, dict):
+        properties = schema.get("properties", {})
+        return {key: entry(column[key], number, each) for key, each in properties.items()}
+    value = column[number].tolist()
+    return schema["oneOf"][value]["const"] if "oneOf" in schema else value
+
+
+BIDDERS = (
+    TALKERS.replace("[items.mine]\ntarget = false\ncount = 1\n", "")
+    + """
+[robots.rover.brain]
+behaviours = [{ kind = "serve" }]
+[robots.rover.sensors]
+gps = { kind = "position" }
+compass = { kind = "heading" }
+[goals.spot]
+count = 1
+placement = { kind = "fixed", at_m = [[10, 10]] }
+[controllers.base]
+count = 1
+start = { kind = "fixed", at_m = [[5, 5]] }
+radio = { range_m = 50 }
+"""
+)
+
+
+def test_a_brain_on_arrays_bids_for_the_goal_of_a_controller_and_is_awarded_it() -> None:
+    calls: list[float] = []
+    awards: list[dict[str, Any]] = []
+
+    def bid(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        inbox = percepts["inbox"]
+        dispatch = inbox["message"]["about"]["dispatch"]
+        call, award = dispatch["call"], dispatch["award"]
+        calls.extend(call["task"]["at_m"][:, 0].tolist())
+        awards.extend({"robot": inbox["row"][row]} for row in award["row"].tolist())
+        memory["bids"] = memory.get("bids", 0) + len(call["row"])
+        here = {
+            "row": inbox["row"][call["row"]],
+            "to": {part: inbox["from"][part][call["row"]] for part in ("kind", "index")},
+            "confidence": 0.9,
+        }
+        time_s = np.where(here["row"] == 2, 1.0, 60.0)  # the last robot is the best
+        content = {
+            "goal": call["task"]["id"],
+            "number": 7,
+            "time_s": time_s,
+            "energy": 0.0,
+            "call": call["number"],
+        }
+        return {"outbox": here | {"about": {"dispatch": {"bid": content}}}}  # type: ignore[typeddict-item]
+
+    Simulation(Scenario.loads(BIDDERS), brains={"rover": Batch(bid)}).step(40)
+    assert set(calls) == {10.0}
+    assert awards
+    assert awards[0] == {"robot": 2}
