@@ -75,8 +75,8 @@ impl<'g> Cell<'g> {
 
     fn below(&self, key: &str) -> Option<Self> {
         match self.given {
-            Given::Table(fields) => {
-                let (_, given) = fields.iter().find(|(field, _)| field.name == key)?;
+            Given::Table(columns) => {
+                let (_, given) = columns.all.iter().find(|(field, _)| field.name == key)?;
                 Some(given.cell(self.entry))
             }
             _ => self
@@ -86,12 +86,24 @@ impl<'g> Cell<'g> {
         }
     }
 
+    /// Whether a key has no value that may be omitted.
+    fn lacks_any(&self) -> bool {
+        match self.given {
+            Given::Table(columns) if columns.may_lack => {
+                let mut optional = columns.all.iter().filter(|(field, _)| !field.is_required);
+                optional.any(|(_, given)| given.cell(self.entry).is_missing())
+            }
+            _ => false,
+        }
+    }
+
     /// Whether it has no value.
     fn is_missing(&self) -> bool {
         match self.given {
             Given::Numbers(Shape::Number, numbers) => numbers[self.entry].is_nan(),
             Given::Numbers(Shape::Integer | Shape::Code(_), numbers) => numbers[self.entry] < 0.0,
-            Given::Table(fields) => fields
+            Given::Table(columns) => columns
+                .all
                 .iter()
                 .all(|(_, given)| given.cell(self.entry).is_missing()),
             _ => false,
@@ -109,8 +121,8 @@ impl<'de> Deserializer<'de> for Cell<'de> {
                 visitor.visit_seq(Numbers(numbers[first..first + length].iter(), *is_whole))
             }
             Given::Numbers(shape, numbers) => scalar(shape, numbers[self.entry], visitor),
-            Given::Table(fields) => visitor.visit_map(Keys {
-                rest: fields.iter(),
+            Given::Table(columns) => visitor.visit_map(Keys {
+                rest: columns.all.iter(),
                 entry: self.entry,
                 value: None,
             }),
@@ -147,9 +159,24 @@ impl<'de> Deserializer<'de> for Cell<'de> {
         visitor.visit_newtype_struct(self)
     }
 
+    /// The first keys of an object need no names.
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        match self.given {
+            Given::Table(columns) if columns.is_first && !self.lacks_any() => {
+                visitor.visit_seq(Values(columns.all.iter(), self.entry))
+            }
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit
-        unit_struct seq tuple tuple_struct map struct identifier ignored_any
+        unit_struct seq tuple tuple_struct map identifier ignored_any
     }
 }
 
@@ -197,6 +224,22 @@ impl<'de> SeqAccess<'de> for Numbers<'_> {
             seed.deserialize(number.into_deserializer())
         };
         value.map(Some)
+    }
+}
+
+/// The values of the first keys of an object.
+struct Values<'g>(slice::Iter<'g, (&'static Field, Given)>, usize);
+
+impl<'de> SeqAccess<'de> for Values<'de> {
+    type Error = Error;
+
+    fn next_element_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Error> {
+        let column = self.0.next();
+        let value = column.map(|(_, given)| seed.deserialize(given.cell(self.1)));
+        value.transpose()
     }
 }
 

@@ -14,9 +14,31 @@ use pyo3::types::PyDict;
 pub(crate) enum Given {
     /// Numbers; several per entry of a vector.
     Numbers(&'static Shape, Vec<f64>),
-    Table(Vec<(&'static Field, Given)>),
+    Table(Columns),
     List(Items),
     Union(Alternatives),
+}
+
+/// The columns of an object.
+pub(crate) struct Columns {
+    pub(super) all: Vec<(&'static Field, Given)>,
+    /// Whether they are those of its first keys.
+    pub(super) is_first: bool,
+    /// Whether an entry may have no value for one of them.
+    pub(super) may_lack: bool,
+}
+
+impl Columns {
+    fn new(fields: &[Field], all: Vec<(&'static Field, Given)>) -> Self {
+        let mut first = fields.iter().zip(&all);
+        Self {
+            is_first: first.all(|(field, (given, _))| field.name == given.name),
+            may_lack: all
+                .iter()
+                .any(|(field, given)| !field.is_required && given.may_lack()),
+            all,
+        }
+    }
 }
 
 /// The items of a list: the numbers of those of entry `n` are `order[starts[n]..starts[n + 1]]`.
@@ -63,6 +85,18 @@ impl Given {
         };
         place.read(shape, given)
     }
+
+    /// Whether an entry may have no value.
+    fn may_lack(&self) -> bool {
+        match self {
+            Self::Numbers(Shape::Number, numbers) => numbers.iter().any(|number| number.is_nan()),
+            Self::Numbers(Shape::Integer | Shape::Code(_), numbers) => {
+                numbers.iter().any(|number| *number < 0.0)
+            }
+            Self::Table(columns) => columns.all.iter().all(|(_, given)| given.may_lack()),
+            _ => false,
+        }
+    }
 }
 
 impl Place<'_> {
@@ -90,7 +124,7 @@ impl Place<'_> {
         fields: &'static [Field],
         given: &Bound<PyAny>,
         extra: &[&str],
-    ) -> PyResult<Vec<(&'static Field, Given)>> {
+    ) -> PyResult<Columns> {
         let dict = self.dict(fields, given, extra)?;
         let mut columns = Vec::new();
         for field in fields {
@@ -113,7 +147,7 @@ impl Place<'_> {
                 None => {}
             }
         }
-        Ok(columns)
+        Ok(Columns::new(fields, columns))
     }
 
     /// A dict with no other keys than these.
@@ -150,7 +184,7 @@ impl Place<'_> {
             return Ok(Given::List(Items {
                 starts: vec![0; self.count + 1],
                 order: Vec::new(),
-                item: Box::new(Given::Table(Vec::new())),
+                item: Box::new(Given::Table(Columns::new(&[], Vec::new()))),
             }));
         };
         let mut order: Vec<usize> = (0..rows.len()).collect();

@@ -79,14 +79,17 @@ impl<'c> Writer<'c> {
         Ok(())
     }
 
-    fn table(self) -> Result<TableWriter<'c>, Mismatch> {
+    /// An object with a number of keys.
+    fn table(self, keys: usize) -> Result<TableWriter<'c>, Mismatch> {
         let fields = self.column.shape.fields();
         match &mut self.column.data {
             Data::Table(columns) => Ok(TableWriter {
+                is_whole: keys == columns.len(),
                 rest: Some(fields.iter().zip(columns)),
                 entry: self.entry,
             }),
             Data::Omitted => Ok(TableWriter {
+                is_whole: false,
                 rest: None,
                 entry: self.entry,
             }),
@@ -196,13 +199,13 @@ impl<'c> ser::Serializer for Writer<'c> {
         _: &'static str,
         number: u32,
         name: &'static str,
-        _: usize,
+        keys: usize,
     ) -> Result<TableWriter<'c>, Mismatch> {
-        self.alternative(number, name)?.table()
+        self.alternative(number, name)?.table(keys)
     }
 
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<TableWriter<'c>, Mismatch> {
-        self.table()
+    fn serialize_struct(self, _: &'static str, keys: usize) -> Result<TableWriter<'c>, Mismatch> {
+        self.table(keys)
     }
 
     fn serialize_seq(self, _: Option<usize>) -> Result<ItemWriter<'c>, Mismatch> {
@@ -302,6 +305,8 @@ impl SerializeTuple for ItemWriter<'_> {
 
 /// Writes the values of an object. Its keys come in the order of the schema; some may be missing.
 struct TableWriter<'c> {
+    /// Whether no key is missing: then names need not be compared.
+    is_whole: bool,
     /// The keys that are left; without columns, none is written.
     rest: Option<Zip<slice::Iter<'static, Field>, slice::IterMut<'c, Column>>>,
     entry: i64,
@@ -317,7 +322,7 @@ impl TableWriter<'_> {
             return Ok(());
         };
         for (field, column) in rest.by_ref() {
-            if field.name == name {
+            if self.is_whole || field.name == name {
                 return value.serialize(Writer::new(column, self.entry));
             }
             column.skip();
