@@ -9,7 +9,6 @@ use serde::ser::{
     self, Impossible, SerializeSeq, SerializeStruct, SerializeStructVariant, SerializeTuple,
 };
 use std::fmt::Display;
-use std::iter::Zip;
 use std::slice;
 
 /// The column of some values.
@@ -61,6 +60,7 @@ impl<'c> Writer<'c> {
         Self { column, entry }
     }
 
+    #[inline]
     fn number(self, number: f64) -> Result<(), Mismatch> {
         match &mut self.column.data {
             Data::Numbers(numbers) => numbers.push(number),
@@ -70,6 +70,7 @@ impl<'c> Writer<'c> {
         Ok(())
     }
 
+    #[inline]
     fn integer(self, number: i64) -> Result<(), Mismatch> {
         match &mut self.column.data {
             Data::Integers(integers) => integers.push(number),
@@ -84,13 +85,19 @@ impl<'c> Writer<'c> {
         let fields = self.column.shape.fields();
         match &mut self.column.data {
             Data::Table(columns) => Ok(TableWriter {
-                is_whole: keys == columns.len(),
-                rest: Some(fields.iter().zip(columns)),
+                keys: if keys == columns.len() {
+                    Keys::All
+                } else {
+                    Keys::Some
+                },
+                columns: columns.iter_mut(),
+                fields: fields.iter(),
                 entry: self.entry,
             }),
             Data::Omitted => Ok(TableWriter {
-                is_whole: false,
-                rest: None,
+                keys: Keys::Omitted,
+                columns: [].iter_mut(),
+                fields: [].iter(),
                 entry: self.entry,
             }),
             _ => Mismatch::of("an object"),
@@ -305,34 +312,51 @@ impl SerializeTuple for ItemWriter<'_> {
 
 /// Writes the values of an object. Its keys come in the order of the schema; some may be missing.
 struct TableWriter<'c> {
-    /// Whether no key is missing: then names need not be compared.
-    is_whole: bool,
-    /// The keys that are left; without columns, none is written.
-    rest: Option<Zip<slice::Iter<'static, Field>, slice::IterMut<'c, Column>>>,
+    /// The columns that are left, and their names.
+    columns: slice::IterMut<'c, Column>,
+    fields: slice::Iter<'static, Field>,
+    keys: Keys,
     entry: i64,
 }
 
+#[derive(Clone, Copy, PartialEq)]
+enum Keys {
+    /// None is missing: names need not be compared.
+    All,
+    Some,
+    /// There are no columns for them.
+    Omitted,
+}
+
 impl TableWriter<'_> {
+    #[inline]
     fn field<T: ?Sized + Serialize>(
         &mut self,
         name: &'static str,
         value: &T,
     ) -> Result<(), Mismatch> {
-        let Some(rest) = &mut self.rest else {
-            return Ok(());
+        let entry = self.entry;
+        let column = match self.keys {
+            Keys::All => self.columns.next(),
+            Keys::Some => self.named(name),
+            Keys::Omitted => return Ok(()),
         };
-        for (field, column) in rest.by_ref() {
-            if self.is_whole || field.name == name {
-                return value.serialize(Writer::new(column, self.entry));
-            }
-            column.skip();
+        match column {
+            Some(column) => value.serialize(Writer::new(column, entry)),
+            None => Mismatch::of(name),
         }
-        Mismatch::of(name)
+    }
+
+    /// The column of a name; those before it have no value.
+    fn named(&mut self, name: &str) -> Option<&mut Column> {
+        let before = self.fields.position(|field| field.name == name)?;
+        let skipped = self.columns.by_ref().take(before);
+        skipped.for_each(Column::skip);
+        self.columns.next()
     }
 
     fn end(self) {
-        let rest = self.rest.into_iter().flatten();
-        rest.for_each(|(_, column)| column.skip());
+        self.columns.for_each(Column::skip);
     }
 }
 
