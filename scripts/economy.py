@@ -47,6 +47,42 @@ NAVIGATE, SERVE, AVOID = WAYPOINTS.to_dict()["robots"]["rover"]["brain"]["behavi
 
 ONLY_SERVE = {BEHAVIOURS: [SERVE, AVOID]}
 
+SEARCH = (ROOT / "scenarios" / "search-beliefs.toml").read_text(encoding="utf-8")
+
+AREAS = """
+[end]
+when = "missed == 0"
+
+[goals.area]
+count = 9
+work = "search"
+within_m = 6
+placement = { kind = "fixed", at_m = [
+    [4, 4], [12.5, 4], [21, 4], [4, 12.5], [12.5, 12.5], [21, 12.5], [4, 21], [12.5, 21], [21, 21],
+] }
+
+[controllers.base]
+count = 1
+start = { kind = "fixed", at_m = [[12.5, 12.5]] }
+radio = { range_m = 60, messages_per_step = 20 }
+
+[study]"""
+"""Nine areas that cover the field of the search, and a controller that owns them."""
+
+AREA_SEARCH = ae.Scenario.loads(SEARCH.replace("[study]", AREAS), "search-beliefs.toml")
+BAYESIAN, HOME, _ = AREA_SEARCH.to_dict()["robots"]["rover"]["brain"]["behaviours"]
+AWARDED = {BEHAVIOURS: [{"kind": "serve"}, HOME, AVOID]}
+
+SEARCHES: dict[str, Changes] = {
+    "random": {CONTROLLERS: 0, BEHAVIOURS: [{"kind": "random_bounce"}, HOME, AVOID]},
+    "messages": {CONTROLLERS: 0},
+    "nearest": {RULE: "nearest", **AWARDED},
+    "auction": {RULE: "auction", **AWARDED},
+    "optimal": {RULE: "optimal", **AWARDED},
+    "auction and messages": {BEHAVIOURS: [BAYESIAN, {"kind": "serve"}, HOME, AVOID]},
+}
+"""The same for the search: robots that search at random, those that share what they find, and awards."""
+
 RULES: dict[str, Changes] = {
     "messages": {CONTROLLERS: 0},
     "nearest": {RULE: "nearest", **ONLY_SERVE},
@@ -71,6 +107,12 @@ class Case:
     varied: str
     numbers: tuple[float, ...]
     changes: Callable[[float], Changes]
+    scenario: ae.Scenario = WAYPOINTS
+
+    def all_changes(self, rule: str, number: float) -> Changes:
+        """Return what differs from the scenario for a rule and a number."""
+        rules = RULES if self.scenario is WAYPOINTS else SEARCHES
+        return rules[rule] | self.changes(number)
 
 
 @dataclass(frozen=True)
@@ -149,6 +191,15 @@ CASES = [
         lambda n: {CONTROLLERS: int(n), CONTROLLER_FAILURES: MISSION_S},
     ),
     Case("crowd", 5, ("messages", "auction"), "robots", (1, 10, 100, 300, 1000), crowd),
+    Case(
+        "search",
+        100,
+        tuple(SEARCHES),
+        "robots",
+        (1, 2, 4, 8, 16),
+        lambda n: {ROBOTS: int(n)},
+        AREA_SEARCH,
+    ),
 ]
 
 
@@ -178,8 +229,8 @@ def results(case: Case) -> Iterator[Result]:
     for rule in case.rules:
         for number in case.numbers:
             began_s = time.monotonic()
-            scenario = WAYPOINTS
-            for path, value in (RULES[rule] | case.changes(number)).items():
+            scenario = case.scenario
+            for path, value in case.all_changes(rule, number).items():
                 scenario = scenario.replace(path, value)
             yield result(case, rule, number, scenario)
             took_s = time.monotonic() - began_s
@@ -270,6 +321,8 @@ BLOCKS: dict[str, Callable[[], str]] = {
     "bandwidth_twice": of_case("bandwidth", lambda each: f"{each.served_twice:.1f}"),
     "controllers": of_case("controllers", seconds),
     "lost_controllers": of_case("lost_controllers", seconds),
+    "search": of_case("search", seconds),
+    "search_served": of_case("search", lambda each: f"{each.served:.1f}"),
     "crowd": of_case("crowd", seconds),
     "crowd_twice": of_case("crowd", lambda each: f"{each.served_twice:.1f}"),
 }
