@@ -167,6 +167,7 @@ impl Controller {
         }
         self.bids.remove_for(goal);
         self.bids.remove_of(robot);
+        self.report_assignees(goal);
         self.repeat_awards();
     }
 

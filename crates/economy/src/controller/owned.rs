@@ -9,6 +9,16 @@ use brain::{Reason, RobotId, Task};
 /// Maximum number of robots that are remembered for a goal.
 const MAX_ROBOTS: usize = 64;
 
+/// Adds a robot to those that have been awarded a goal; the first one is forgotten first.
+pub(super) fn note_assignee(assignees: &mut Vec<RobotId>, robot: RobotId) {
+    if !assignees.contains(&robot) {
+        if assignees.len() == MAX_ROBOTS {
+            assignees.remove(0);
+        }
+        assignees.push(robot);
+    }
+}
+
 /// A goal that no robot can serve is tried again after this time, in seconds; each further failure
 /// doubles it, up to a maximum.
 const MIN_REST_S: f64 = 20.0;
@@ -230,13 +240,7 @@ impl Owned {
     }
 
     pub(super) fn assign(&mut self, assigned: Assigned) {
-        let robot = assigned.robot;
-        if !self.assignees.contains(&robot) {
-            if self.assignees.len() == MAX_ROBOTS {
-                self.assignees.remove(0);
-            }
-            self.assignees.push(robot);
-        }
+        note_assignee(&mut self.assignees, assigned.robot);
         self.assigned = Some(assigned);
         (self.rest.total_s, self.called_s) = (0.0, None);
     }

@@ -25,7 +25,7 @@ impl Controller {
         }
         if self.settings.is_robot(from, self.own) {
             self.receive_of_robot(from, dispatch, received.message.confidence);
-        } else {
+        } else if self.settings.is_other_controller(from, self.own) {
             self.receive_of_controller(from, dispatch, percept);
         }
     }
@@ -103,6 +103,7 @@ impl Controller {
         if let Some(assigned) = own.filter(|assigned| !assigned.is_committed) {
             assigned.is_committed = true;
             self.close_offer(claim.goal);
+            self.report_assignees(claim.goal);
         }
     }
 
@@ -132,15 +133,17 @@ impl Controller {
         }
     }
 
-    /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the awards
-    /// of the previous owner are unknown.
+    /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the previous
+    /// owner has reported its awards; a robot of which no such message arrived has served it in vain.
     fn take_done(&mut self, from: RobotId, claim: Claim) {
         let now_s = self.now_s;
         self.restore_orphan(from, claim.goal);
         let Some(owned) = self.goal_mut(claim.goal) else {
             return;
         };
-        if !owned.is_done && !owned.assignees.contains(&from) && owned.origin.is_none() {
+        if !owned.is_done && !owned.assignees.contains(&from) {
+            // It does not bid for what it has served.
+            owned.decline(from, now_s + DECLINED_S, Reason::Lease);
             return;
         }
         if !owned.is_done {
@@ -186,6 +189,7 @@ impl Controller {
             }
             Dispatch::Entrust(task) => self.take_entrusted(from, task, percept),
             Dispatch::Entrusted(answer) => self.take_answer(from, answer),
+            Dispatch::Assigned(assignment) => self.take_assignment(from, assignment),
             Dispatch::Bind(binding) => self.take_binding(from, binding),
             Dispatch::Renew(renewal) => self.renew_estates(from, renewal),
             Dispatch::RenewOne(claim) => self.renew_estate(from, claim),
