@@ -66,6 +66,6 @@ pub use perception::beliefs::{BeliefsSpec, TrustSpec};
 pub use perception::believed::{BelievedItem, BelievedRobot};
 pub use service::grantor::{Grant, Grantor, wait_s};
 pub use service::holder::{Holder, Lease};
-pub use service::numbers::{Numbers, is_since};
+pub use service::numbers::Numbers;
 pub use service::served::ServedGoal;
 pub use spec::BrainSpec;

@@ -255,13 +255,17 @@ impl Assignee {
         let lease = self.holder.lease(goal).copied();
         match lease {
             Some(lease) if lease.grantor != from => {}
-            Some(lease) if is_only_one && super::numbers::is_since(claim.number, lease.number) => {
+            // The number is that of the lease, or of a request that the owner does not grant.
+            Some(lease)
+                if is_only_one
+                    && (lease.number == claim.number || self.holder.is_answer(from, claim)) =>
+            {
                 self.release(goal);
             }
+            // From now on, the robot accepts no grant that answers an earlier request.
             None if is_only_one && !self.finished.contains(goal) => {
                 self.holder.release(goal);
-                let number = self.numbers.last();
-                self.send(from, Dispatch::Release(Claim { goal, number }));
+                self.send(from, Dispatch::Release(claim));
             }
             _ => {}
         }
@@ -306,7 +310,7 @@ impl Assignee {
     fn release(&mut self, goal: GoalId) {
         self.jobs.remove(goal);
         if let Some(lease) = self.holder.release(goal) {
-            let number = self.numbers.last();
+            let number = lease.number;
             self.send(lease.grantor, Dispatch::Release(Claim { goal, number }));
         }
     }

@@ -118,7 +118,7 @@ impl Controller {
             self.picture.is_full(from, now_s);
         }
         let claim = Claim { goal, number };
-        if self.services.refuse(from, claim).is_some() {
+        if self.services.release(from, claim).is_some() {
             self.reopen(claim);
         }
         let is_unable = reason != Reason::Lease && reason != Reason::Full;

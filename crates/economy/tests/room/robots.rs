@@ -76,6 +76,22 @@ fn a_withdrawal_ends_the_service_and_is_answered_by_a_release() {
 }
 
 #[test]
+fn a_release_has_the_number_of_the_award_also_after_renewals() {
+    let (mut robot, number) = assignee();
+    let sent = robot.wait(8.0);
+    let renewal = sent.iter().rev().find_map(|(_, sent)| match sent {
+        Dispatch::Renew(renewal) => Some(renewal.number),
+        _ => None,
+    });
+    robot.take(OWNER, Dispatch::Renewed(renewal.unwrap()));
+    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(number)));
+    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(number)))));
+    // A robot that never held the lease answers with the number of the withdrawal.
+    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(99)));
+    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(99)))));
+}
+
+#[test]
 fn a_withdrawal_to_all_ends_the_offer_and_not_the_service() {
     let mut bidder = robot();
     bidder.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
