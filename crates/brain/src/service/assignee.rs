@@ -44,6 +44,7 @@ impl Assignee {
     /// Takes a step: messages first, then the work, then what is due.
     pub(crate) fn step(&mut self, ability: &Ability, moment: &Moment) {
         self.outbox.clear();
+        self.proposed = self.proposed.filter(|goal| self.serves(*goal));
         self.now_s = moment
             .percept
             .time_s
@@ -71,6 +72,17 @@ impl Assignee {
         let job = *self.jobs.current(self.now_s)?;
         self.proposed = Some(job.task.id);
         Some((job, is_there(&job, ability, at) && job.is_swept(ability)))
+    }
+
+    /// Whether it serves a goal.
+    pub(crate) fn serves(&self, goal: GoalId) -> bool {
+        self.jobs.get(goal).is_some()
+    }
+
+    /// Whether it has served a goal that it proposed in the last step; `None` for goals of other behaviours.
+    pub(crate) fn has_served(&self, goal: GoalId) -> Option<bool> {
+        let is_done = self.finished.contains(goal);
+        (is_done || self.serves(goal) || self.proposed == Some(goal)).then_some(is_done)
     }
 
     /// Takes the verdict on the goal that it proposed last.

@@ -10,6 +10,9 @@ use crate::io::verdict::Verdict;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
+/// Times in messages have the precision of 32-bit floats.
+const ROUNDING_S: f64 = 1e-6;
+
 /// A goal that a robot serves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job {
@@ -66,9 +69,10 @@ impl Job {
             || lanes::corner(&self.task, ability.lane_m, self.corners).is_none()
     }
 
-    /// Remaining time of service.
+    /// Remaining time of service; none when it is within the rounding of a sum of steps.
     pub(crate) fn left_s(&self) -> f64 {
-        (f64::from(self.task.service_s) - self.served_s).max(0.0)
+        let left_s = f64::from(self.task.service_s) - self.served_s;
+        if left_s < ROUNDING_S { 0.0 } else { left_s }
     }
 }
 

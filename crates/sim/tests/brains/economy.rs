@@ -5,6 +5,7 @@ use brain::RobotId;
 use sim::judge::GoalOutcome;
 use sim::run::Goal;
 use sim::simulation::Simulation;
+use std::collections::BTreeMap;
 
 /// Three robots in a yard, of which two have an arm, and a controller with nine goals.
 const YARD: &str = r#"
@@ -67,6 +68,55 @@ fn robots_stay_for_the_time_of_service() {
     let (_, outcome) = finished(&text);
     assert_eq!(outcome.served, 9);
     assert!((4.6..8.0).contains(&outcome.service_s), "{outcome:?}");
+}
+
+/// The times in seconds for which the robots that served the goals had been there, by their true
+/// positions, and an outcome.
+fn stays_s(text: &str) -> (Vec<f64>, GoalOutcome) {
+    let mut simulation = Simulation::new(scenario(text), 1, 0).unwrap();
+    let goals = |simulation: &Simulation| -> Vec<Goal> {
+        let goals = simulation.state().each_goal(simulation.scenario());
+        goals.collect()
+    };
+    let mut arrived_s: BTreeMap<(usize, RobotId), f64> = BTreeMap::new();
+    let mut stays_s: BTreeMap<usize, f64> = BTreeMap::new();
+    while stays_s.len() < 9 && simulation.time_s() < 300.0 {
+        simulation.step();
+        // The position at which the robots decided, which is that before the next motion.
+        for (number, goal) in goals(&simulation).iter().enumerate() {
+            let now_s = simulation.time_s();
+            if let Some(since_s) = goal.served_by.and_then(|by| arrived_s.get(&(number, by))) {
+                stays_s.entry(number).or_insert(now_s - since_s);
+            }
+            for robot in simulation.state().each_robot(simulation.scenario()) {
+                if robot.at.to(goal.at).length() > 1.05 {
+                    arrived_s.remove(&(number, robot.id));
+                } else {
+                    arrived_s.entry((number, robot.id)).or_insert(now_s);
+                }
+            }
+        }
+    }
+    let outcome = simulation.outcome().goals.unwrap();
+    (stays_s.into_values().collect(), outcome)
+}
+
+#[test]
+fn a_service_takes_its_time_and_at_most_two_steps_more() {
+    for service_s in [0.2, 1.0, 2.0, 5.0] {
+        let text = YARD.replace(
+            "within_m = 1\n",
+            &format!("within_m = 1\nservice_s = {service_s}\n"),
+        );
+        let text = text.replace("noise_m = 0.1", "noise_m = 0");
+        let (stays_s, outcome) = stays_s(&text);
+        assert_eq!(stays_s.len(), 9);
+        for stay_s in stays_s {
+            let is_right = stay_s > service_s - 1e-6 && stay_s < service_s + 0.4 + 1e-6;
+            assert!(is_right, "{stay_s} of {service_s}");
+        }
+        assert!((outcome.service_s - service_s).abs() < 0.4, "{outcome:?}");
+    }
 }
 
 #[test]
