@@ -131,7 +131,7 @@ impl Assignee {
             return;
         };
         let needed_s = |job: &Job| {
-            let path_s = at.to(job.target(ability).0).length() / ability.speed_m_s;
+            let path_s = ability.travel_s(at.to(job.target(ability).0).length());
             path_s + job.left_s()
         };
         let hopeless = self.jobs.list.iter().find_map(|job| {
@@ -334,6 +334,9 @@ impl Assignee {
 }
 
 fn is_there(job: &Job, ability: &Ability, at: Point) -> bool {
+    if ability.is_stationary() {
+        return ability.covers(&job.task, at);
+    }
     let (target, near_m) = job.target(ability);
     at.to(target).length() <= near_m
 }

@@ -1,7 +1,6 @@
 //! The goals that a robot serves, in the order in which it serves them.
 
 use super::ability::Ability;
-use super::lanes;
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
 use crate::io::dispatch::{Task, Work};
@@ -57,16 +56,17 @@ impl Job {
         let radius_m = f64::from(self.task.radius_m);
         let corner = match self.task.work {
             Work::Visit => None,
-            Work::Search => lanes::corner(&self.task, ability.lane_m, self.corners),
+            Work::Search => ability.lanes.corner(&self.task, self.corners),
         };
-        let near_m = (ability.lane_m / 4.0).clamp(0.2, 2.0);
+        let near_m = (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0);
         corner.map_or((self.task.at(), radius_m), |corner| (corner, near_m))
     }
 
     /// Whether it remains only to be there for the time of service.
     pub(crate) fn is_swept(&self, ability: &Ability) -> bool {
         self.task.work == Work::Visit
-            || lanes::corner(&self.task, ability.lane_m, self.corners).is_none()
+            || ability.is_stationary()
+            || ability.lanes.corner(&self.task, self.corners).is_none()
     }
 
     /// Remaining time of service; none when it is within the rounding of a sum of steps.

@@ -155,6 +155,45 @@ fn only_robots_with_the_capability_serve_a_goal() {
     );
 }
 
+const SPOTS: &str = "placement = { kind = \"fixed\", at_m = [[5, 5], [50, 8], [12, 50], [30, 35], [55, 55], [8, 30], [40, 20], [20, 15], [33, 56]] }";
+
+#[test]
+fn a_stationary_machine_owns_and_serves_the_goals_at_which_it_stands() {
+    let text = YARD
+        .replace("max_speed_m_s = 2", "max_speed_m_s = 0")
+        .replace(
+            "start = { kind = \"fixed\", at_m = [[30, 30]] }",
+            "aboard = \"eye\"",
+        )
+        .replace("within_m = 1\n", "within_m = 1\nservice_s = 2\n")
+        .replace("count = 9", "count = 4")
+        .replace(
+            SPOTS,
+            "placement = { kind = \"fixed\", at_m = [[28.5, 30], [30, 27.5], [32, 30], [40, 40]] }",
+        );
+    let (goals, outcome) = finished(&text);
+    assert_eq!((outcome.served, outcome.served_twice), (3, 0), "{goals:?}");
+    let by = |goal: &Goal| goal.served_by.map(|id| (id.kind, id.index));
+    let served: Vec<_> = goals.iter().map(by).collect();
+    assert_eq!(served, [Some((0, 0)), Some((1, 0)), Some((0, 1)), None]);
+    assert_eq!(goals[3].awarded_s, None);
+}
+
+#[test]
+fn an_area_that_lies_half_beyond_the_border_is_searched_and_finished() {
+    for at_m in ["[0, 30]", "[30, 59.9]", "[60, 60]"] {
+        let text = YARD
+            .replace("within_m = 1\n", "within_m = 6\nwork = \"search\"\n")
+            .replace("count = 9", "count = 1")
+            .replace(
+                SPOTS,
+                &format!("placement = {{ kind = \"fixed\", at_m = [{at_m}] }}"),
+            );
+        let (_, outcome) = finished(&text);
+        assert_eq!(outcome.served, 1, "{at_m}");
+    }
+}
+
 #[test]
 fn goals_of_robots_that_break_down_are_served_by_others() {
     let broken = "count = 1\nmean_time_between_failures_s = 10\nradius_m";
