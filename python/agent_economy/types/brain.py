@@ -288,6 +288,7 @@ class Dispatch(TypedDict, total=False):
     restore: Task
     bind: Award
     assigned: Assignment
+    service: bool
 
 
 class AboutItem(TypedDict):

@@ -108,6 +108,9 @@ dispatch! {
     /// From an owner to its heir: a robot that has been awarded a goal. Of an inherited goal, only such
     /// a robot can report that it is done.
     26 Assigned(Assignment),
+    /// From the operator to a robot: whether it is in service. Out of service, it releases its goals,
+    /// bids for none, and refuses awards.
+    27 Service(bool),
 }
 
 impl Dispatch {

@@ -33,12 +33,14 @@ pub(crate) struct Assignee {
     pub(super) failures: Failures,
     pub(super) finished: Finished,
     pub(super) schedule: Schedule,
+    /// Whether a person has taken it out of service.
+    pub(super) is_out_of_service: bool,
     /// The goal that it proposed last.
     pub(super) proposed: Option<GoalId>,
     pub(super) outbox: Vec<Message>,
 }
 
-base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, proposed } without { outbox });
+base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed } without { outbox });
 
 impl Assignee {
     /// Takes a step: messages first, then the work, then what is due.
@@ -154,6 +156,9 @@ impl Assignee {
             return;
         };
         let from = received.from;
+        if let (RobotId::OPERATOR, Dispatch::Service(is_in)) = (from, dispatch) {
+            self.set_service(is_in);
+        }
         if !ability.is_controller(from) {
             return;
         }
@@ -240,6 +245,9 @@ impl Assignee {
         let (Some(offer), Some(at)) = (offered.copied(), moment.at) else {
             return Err(Reason::Lease);
         };
+        if self.is_out_of_service {
+            return Err(Reason::OutOfService);
+        }
         if self.jobs.list.len() >= ability.max_goals {
             return Err(Reason::Full);
         }
@@ -252,6 +260,16 @@ impl Assignee {
         self.jobs
             .add(Job::new(offer.task, from, offer.due_at_s), at);
         Ok(())
+    }
+
+    /// Out of service, the robot returns its goals.
+    fn set_service(&mut self, is_in: bool) {
+        self.is_out_of_service = !is_in;
+        let goals = self.jobs.list.iter().map(|job| job.task.id);
+        let goals: Vec<GoalId> = goals.filter(|_| !is_in).collect();
+        for goal in goals {
+            self.release(goal);
+        }
     }
 
     fn take_withdrawal(&mut self, from: RobotId, claim: Claim, is_only_one: bool) {

@@ -70,9 +70,6 @@ impl<'b> Bidder<'b> {
         let detour = self.detour(task);
         let detour = detour.filter(|_| !self.failures.is_resting(task.id, self.now_s));
         let detour = detour.ok_or(Reason::Unreachable)?;
-        if self.is_full {
-            return Err(Reason::Full);
-        }
         let work_s = ability.work_s(task);
         let time_s = ability.travel_s(detour * self.tour.increment_m(task.at())) + work_s;
         let all_s = self.busy_s + time_s;
@@ -81,6 +78,10 @@ impl<'b> Bidder<'b> {
         }
         if self.now_s + self.arrival_s(offer, detour) + work_s > offer.due_at_s {
             return Err(Reason::Deadline);
+        }
+        // Last: a robot that is full could serve the goal instead of another.
+        if self.is_full {
+            return Err(Reason::Full);
         }
         let reachable = reachable_probability(all_s, self.moment.battery_s);
         Ok(Estimate {

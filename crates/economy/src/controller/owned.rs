@@ -53,6 +53,8 @@ pub(super) struct Owned {
     /// The robots that have been awarded it.
     pub(super) assignees: Vec<RobotId>,
     pub(super) lapses: Lapses,
+    /// The robot that is to be awarded it next, as it has displaced another goal of the robot.
+    pub(super) reserved: Option<Reservation>,
 }
 
 base::hashed!(Owned {
@@ -73,7 +75,8 @@ base::hashed!(Owned {
     reason,
     rest,
     assignees,
-    lapses
+    lapses,
+    reserved
 });
 
 /// The award of a goal.
@@ -92,6 +95,8 @@ pub(super) struct Assigned {
     pub(super) is_contested: bool,
     /// Whether the robot is to release it.
     pub(super) is_withdrawn: bool,
+    /// When the robot is there, by its last report; infinity before.
+    pub(super) there_s: f64,
 }
 
 base::hashed!(Assigned {
@@ -102,8 +107,18 @@ base::hashed!(Assigned {
     next_s,
     overdue_s,
     is_contested,
-    is_withdrawn
+    is_withdrawn,
+    there_s
 });
+
+/// A robot that is to be awarded a goal first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reservation {
+    pub(super) robot: RobotId,
+    pub(super) until_s: f64,
+}
+
+base::hashed!(Reservation { robot, until_s });
 
 /// The rest of a goal that no robot can serve.
 #[derive(Debug, Clone, Copy)]
@@ -175,6 +190,7 @@ impl Owned {
             },
             assignees: Vec::new(),
             lapses: Lapses::default(),
+            reserved: None,
         }
     }
 

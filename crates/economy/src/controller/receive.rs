@@ -38,8 +38,11 @@ impl Controller {
             Dispatch::Refuse(refusal) => self.take_refusal(from, refusal),
             Dispatch::Done(claim) => self.take_done(from, claim),
             Dispatch::Stuck(refusal) => self.take_stuck(from, refusal),
-            Dispatch::Fitness(fitness) if fitness.verdict == Verdict::Approaching => {
-                self.is_approaching(from, fitness.goal, fitness.remaining_s.into());
+            Dispatch::Fitness(fitness) => {
+                self.note_progress(from, &fitness);
+                if fitness.verdict == Verdict::Approaching {
+                    self.is_approaching(from, fitness.goal, fitness.remaining_s.into());
+                }
             }
             Dispatch::Release(claim) => self.take_release(from, claim),
             Dispatch::Renew(renewal) => self.renew_services(from, renewal),
@@ -116,6 +119,7 @@ impl Controller {
         let now_s = self.now_s;
         if reason == Reason::Full {
             self.picture.is_full(from, now_s);
+            self.displace(from, goal);
         }
         let claim = Claim { goal, number };
         if self.services.release(from, claim).is_some() {
@@ -130,6 +134,7 @@ impl Controller {
     fn take_release(&mut self, from: RobotId, claim: Claim) {
         if self.services.release(from, claim).is_some() {
             self.reopen(claim);
+            self.call_reserved(from);
         }
     }
 

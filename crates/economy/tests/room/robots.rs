@@ -141,6 +141,35 @@ fn leases_that_differ_are_renewed_one_by_one() {
 }
 
 #[test]
+fn a_robot_out_of_service_returns_its_goals_and_bids_again_when_it_is_back() {
+    let (mut robot, number) = assignee();
+    // Only the operator decides that.
+    robot.take(OWNER, Dispatch::Service(false));
+    robot.take(OTHER, Dispatch::Service(false));
+    assert_eq!(robot.agent.served_goals().len(), 1);
+    let sent = robot.take(RobotId::OPERATOR, Dispatch::Service(false));
+    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(number)))));
+    assert_eq!(robot.agent.served_goals().len(), 0);
+    let sent = robot.take(OWNER, CALL);
+    let refused = Dispatch::Refuse(refusal(4, Reason::OutOfService));
+    assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
+    assert_eq!(bid(&robot.wait(6.0)), None);
+    robot.take(RobotId::OPERATOR, Dispatch::Service(true));
+    assert!(bid(&robot.wait(6.0)).is_some());
+}
+
+#[test]
+fn an_award_that_arrives_out_of_service_is_refused() {
+    let mut robot = robot();
+    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let number = bid(&sent).unwrap().number;
+    robot.take(RobotId::OPERATOR, Dispatch::Service(false));
+    let sent = robot.take(OWNER, award(number));
+    let refused = Dispatch::Refuse(refusal(number, Reason::OutOfService));
+    assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
+}
+
+#[test]
 fn a_query_is_answered_by_a_report() {
     let sent = robot().take(OWNER, Dispatch::Query {});
     assert!(sent_any(
