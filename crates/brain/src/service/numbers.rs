@@ -54,4 +54,16 @@ mod tests {
         let mut restarted = Numbers::default();
         assert!((0..100).all(|_| !before.contains(&restarted.next(&at(2.0)))));
     }
+
+    #[test]
+    fn agents_with_the_same_clock_and_other_random_words_have_other_numbers() {
+        let first = |words: u32| {
+            let percept = Percept {
+                random_words: [words; 4],
+                ..at(1.0)
+            };
+            Numbers::default().next(&percept)
+        };
+        assert_ne!(first(1), first(2));
+    }
 }

@@ -26,13 +26,13 @@ impl Controller {
         if self.settings.is_robot(from, self.own) {
             self.receive_of_robot(from, dispatch, received.message.confidence);
         } else if self.settings.is_other_controller(from, self.own) {
-            self.receive_of_controller(from, dispatch, percept);
+            self.receive_of_controller(received, dispatch, percept);
         }
     }
 
     fn receive_of_robot(&mut self, from: RobotId, dispatch: Dispatch, confidence: f64) {
         match dispatch {
-            Dispatch::Report(report) => self.take_report(from, &report),
+            Dispatch::Report(report) => self.take_report(from, &report, confidence),
             Dispatch::Bid(bid) => self.take_bid(from, bid, confidence),
             Dispatch::Commit(claim) => self.take_commitment(from, claim),
             Dispatch::Refuse(refusal) => self.take_refusal(from, refusal),
@@ -61,9 +61,9 @@ impl Controller {
         }
     }
 
-    fn take_report(&mut self, from: RobotId, report: &Report) {
+    fn take_report(&mut self, from: RobotId, report: &Report, confidence: f64) {
         self.note_robot(from);
-        self.picture.report(from, report, self.now_s);
+        self.picture.report(from, report, confidence, self.now_s);
     }
 
     /// A bid counts if its goal is on offer under the number of the bid. If it is not, the robot is to
@@ -185,12 +185,19 @@ impl Controller {
         self.send(from, answer);
     }
 
-    fn receive_of_controller(&mut self, from: RobotId, dispatch: Dispatch, percept: &Percept) {
+    fn receive_of_controller(
+        &mut self,
+        received: &ReceivedMessage,
+        dispatch: Dispatch,
+        percept: &Percept,
+    ) {
+        let from = received.from;
         match dispatch {
             Dispatch::Serial(serial) => self.colleagues.note(from, serial, self.now_s),
             Dispatch::Seen(seen) => {
                 let at = Point::from(seen.at_m.map(f64::from));
-                self.picture.see(seen.robot, at, self.now_s);
+                self.picture
+                    .see(seen.robot, at, received.message.confidence, self.now_s);
             }
             Dispatch::Entrust(task) => self.take_entrusted(from, task, percept),
             Dispatch::Entrusted(answer) => self.take_answer(from, answer),

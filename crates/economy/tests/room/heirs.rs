@@ -5,7 +5,8 @@ use crate::hand::{
 };
 use crate::team::{goal_id, station_id};
 use brain::{Assignment, Award, Dispatch, RobotId};
-use economy::Controller;
+use economy::{Controller, Settings};
+use std::sync::Arc;
 
 /// An heir that has inherited the goal, after messages of its owner.
 fn inheritor(reports: &[Dispatch]) -> Hand<Controller> {
@@ -209,4 +210,24 @@ fn a_returned_goal_is_owned_again_when_the_heir_grants_it() {
     assert_eq!(owner.agent.goals().count(), 0);
     owner.take(HEIR, entrusted(number.unwrap()));
     assert_eq!(owner.agent.goals().count(), 1);
+}
+
+#[test]
+fn a_controller_that_restarts_takes_no_goal_back_for_the_longest_lease() {
+    let mut owner = controller(OWNER);
+    owner.agent = Controller::restarted(Arc::new(Settings {
+        max_drift: 0.0,
+        ..Settings::default()
+    }));
+    let is_bind = |sent: &Dispatch| matches!(sent, Dispatch::Bind(_));
+    owner.wait(1.0);
+    assert!(!sent_any(
+        &owner.take(HEIR, Dispatch::Restore(TASK)),
+        is_bind
+    ));
+    owner.wait(30.0);
+    assert!(sent_any(
+        &owner.take(HEIR, Dispatch::Restore(TASK)),
+        is_bind
+    ));
 }
