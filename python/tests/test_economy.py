@@ -176,6 +176,51 @@ def test_a_replay_repeats_failures_on_command(scenario: ae.Scenario, mcap: Path)
     assert replayed.hash == f"{simulation.hash:016x}"
 
 
+def test_a_robot_out_of_service_returns_its_goals_and_serves_again_when_it_is_back(
+    scenario: ae.Scenario,
+) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    simulation.step(100)
+
+    def assigned() -> int:
+        goals = simulation.controllers[0]["goals"]
+        return sum(goal["assignee"] == "rover/2" for goal in goals)
+
+    assert assigned() > 0
+    simulation.set_service("rover/2", in_service=False)
+    simulation.step(50)
+    assert assigned() == 0
+    assert simulation.changes[-1].path == "robots.rover.out_of_service"
+    before = simulation.snapshot()
+    simulation.finish()
+    assert simulation.outcome().row["served"] == 12
+    simulation.restore(before)
+    for index in (0, 1, 3):
+        simulation.set_service(f"rover/{index}", in_service=False)
+    simulation.set_service("rover/2", in_service=True)
+    simulation.step(100)
+    assert assigned() > 0
+
+
+def test_a_replay_repeats_orders_out_of_service(scenario: ae.Scenario, mcap: Path) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    with ae.Recording(simulation, mcap) as recording:
+        recording.step(50)
+        simulation.set_service("rover/1", in_service=False)
+        recording.step(50)
+        simulation.set_service("rover/1", in_service=True)
+        recording.step(50)
+    replayed = ae.replay(mcap)
+    assert replayed.agrees
+    assert replayed.hash == f"{simulation.hash:016x}"
+
+
+def test_only_robots_are_taken_out_of_service(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    with pytest.raises(ae.InputError, match=r'name = "base/0": must be a robot'):
+        simulation.set_service("base/0", in_service=False)
+
+
 def test_an_external_body_does_not_fail_on_command(scenario: ae.Scenario) -> None:
     simulation = ae.Simulation(scenario, seed=1, external=["rover/0"])
     with pytest.raises(ae.InputError, match='name = "rover/0": must be a robot whose body'):

@@ -128,9 +128,7 @@ impl Brain {
     }
 
     fn assignee(&self) -> Option<&Assignee> {
-        let place = self.kind.server?;
-        let (behaviour, layer) = (self.kind.behaviours.get(place)?, self.layers.get(place)?);
-        behaviour.assignee(layer.memory_now())
+        self.kind.assignee(&self.layers)
     }
 
     /// The goals of controllers that it serves, in the order in which it serves them; none if it has
@@ -256,7 +254,8 @@ impl Brain {
         self.odometry.decided_by = leading.and_then(|place| u16::try_from(place).ok());
         self.repeat_into(command);
         if let Some(brain) = &mut self.beliefs {
-            brain.publish(elapsed_s, &mut command.outbox);
+            let service = self.kind.assignee(&self.layers);
+            brain.publish(elapsed_s, service, &mut command.outbox);
         }
         if let Some((behaviour, layer)) = self.kind.server(&mut self.layers) {
             behaviour.publish(layer.memory(), &mut command.outbox);
@@ -374,6 +373,14 @@ impl Kind {
     ) -> Option<(&'k Ready, &'l mut Layer<Memory>)> {
         let place = self.server?;
         self.behaviours.get(place).zip(layers.get_mut(place))
+    }
+
+    /// The memory of that behaviour.
+    #[inline]
+    fn assignee<'l>(&self, layers: &'l [Layer<Memory>]) -> Option<&'l Assignee> {
+        let place = self.server?;
+        let (behaviour, layer) = (self.behaviours.get(place)?, layers.get(place)?);
+        behaviour.assignee(layer.memory_now())
     }
 
     /// Passes a person's orders to the behaviour that takes them.

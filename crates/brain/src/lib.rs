@@ -54,7 +54,8 @@ pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, 
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
 pub use io::dispatch::{
-    Award, Bid, Claim, Dispatch, Fitness, Reason, Refusal, Renewal, Report, Seen, Task, Work,
+    Assignment, Award, Bid, Claim, Dispatch, Fitness, Reason, Refusal, Renewal, Report, Seen, Task,
+    Work,
 };
 pub use io::goal_id::{GoalId, issuer_of};
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
@@ -65,6 +66,6 @@ pub use perception::beliefs::{BeliefsSpec, TrustSpec};
 pub use perception::believed::{BelievedItem, BelievedRobot};
 pub use service::grantor::{Grant, Grantor, wait_s};
 pub use service::holder::{Holder, Lease};
-pub use service::numbers::{Numbers, is_since};
+pub use service::numbers::Numbers;
 pub use service::served::ServedGoal;
 pub use spec::BrainSpec;

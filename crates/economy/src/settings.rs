@@ -38,6 +38,18 @@ impl Settings {
         let is_known = self.robot_kinds > 0;
         id.kind < if is_known { self.robot_kinds } else { own.kind }
     }
+
+    /// Whether an id is that of another controller.
+    pub(crate) fn is_other_controller(&self, id: RobotId, own: RobotId) -> bool {
+        let is_person = id.kind == RobotId::OPERATOR.kind;
+        id != own && !is_person && !self.is_robot(id, own)
+    }
+
+    /// The shortest lease that an heir can grant: a shorter one could end before it is renewed, and
+    /// leave the goal without an owner.
+    pub(crate) fn min_owner_lease_s(&self) -> f64 {
+        self.owner_lease_s / 10.0
+    }
 }
 
 impl Default for Settings {

@@ -187,6 +187,24 @@ impl Simulation {
         Ok((format!("{group}.{kind}.failed"), id.index))
     }
 
+    /// The path of the scenario's key that lists the robots of a kind that are out of service, and the index of one
+    /// of them, by its name.
+    fn service(&self, py: Python, name: &str) -> PyResult<(String, u32)> {
+        let run = self.locked(py)?;
+        let scenario = run.scenario();
+        let id = participant_of(scenario, "name", name);
+        let is_robot = |id: &brain::RobotId| usize::from(id.kind) < scenario.team().len();
+        let id = id.and_then(|id| {
+            let allowed = "a robot: a controller is always in service".to_owned();
+            let given = Some(format!("{name:?}"));
+            let error = InputError::new("name".to_owned(), given, allowed);
+            Some(id).filter(is_robot).ok_or(error)
+        });
+        let id = id.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
+        let kind = name.rsplit_once('/').map_or(name, |(kind, _)| kind);
+        Ok((format!("robots.{kind}.out_of_service"), id.index))
+    }
+
     /// The beliefs and goals of a robot; None if its brain has no beliefs.
     fn belief_state<'py>(
         &self,

@@ -361,6 +361,28 @@ class Simulation(Stepped):
             failed = self.scenario.to_dict()[group][kind].get(key, [])
             self.change(path, sorted({*failed, index}))
 
+    def set_service(self, name: str, *, in_service: bool) -> None:
+        """Take a robot out of service now, or put it back into service.
+
+        Out of service, a robot returns the goals that controllers awarded to it, and bids for none;
+        its other behaviours continue. The order reaches each robot that has a radio, whatever its
+        range. It is a change of `robots.KIND.out_of_service`, and in `changes` as such.
+
+        Args:
+            name: Name of the robot, KIND/INDEX.
+            in_service: Whether it is in service.
+
+        Raises:
+            InputError: If there is no robot of that name.
+        """
+        validation.of_type("name", name, str, "the name of a robot")
+        validation.of_type("in_service", in_service, bool, "true or false")
+        with self._lock:
+            path, index = self._run.service(name)
+            group, kind, key = path.split(".")
+            out = {*self.scenario.to_dict()[group][kind].get(key, [])}
+            self.change(path, sorted(out - {index} if in_service else out | {index}))
+
     def hash_decisions(self, start: int = 0) -> None:
         """Hash all decisions from now on: see `decision_hash`. It changes nothing else.
 

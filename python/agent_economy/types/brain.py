@@ -224,6 +224,18 @@ class Seen(TypedDict):
     at_m: Sequence[float]
 
 
+class Assignment(TypedDict):
+    """A robot that has been awarded a goal.
+
+    Attributes:
+        goal: The goal.
+        robot: The robot.
+    """
+
+    goal: GoalId
+    robot: RobotId
+
+
 class DispatchQuery(TypedDict):
     """From a controller to robots: a request of a report."""
 
@@ -275,6 +287,8 @@ class Dispatch(TypedDict, total=False):
     relieved: Claim
     restore: Task
     bind: Award
+    assigned: Assignment
+    service: bool
 
 
 class AboutItem(TypedDict):

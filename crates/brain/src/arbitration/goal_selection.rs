@@ -16,10 +16,12 @@ use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
 use crate::io::message::Message;
 use crate::messaging::Messaging;
+use crate::messaging::commitment::Commitment;
 use crate::messaging::peers::Peers;
 use crate::navigation::navigator::Navigator;
 use crate::perception::beliefs::{Beliefs, BeliefsSpec};
 use crate::perception::dead_reckoning::Odometry;
+use crate::service::assignee::Assignee;
 use crate::situation::Situation;
 use alloc::vec::Vec;
 
@@ -72,11 +74,20 @@ impl BeliefBrain {
         parts.unzip()
     }
 
-    /// Adds the messages of this step to the outbox.
-    pub(crate) fn publish(&mut self, elapsed_s: f64, outbox: &mut Vec<Message>) {
-        let goal = self.selection.pursued;
+    /// Adds the messages of this step to the outbox. The goals of controllers are done when they have
+    /// been served, and all others when the robot is there.
+    pub(crate) fn publish(
+        &mut self,
+        elapsed_s: f64,
+        service: Option<&Assignee>,
+        outbox: &mut Vec<Message>,
+    ) {
+        let commitment = Commitment {
+            goal: self.selection.pursued,
+            service,
+        };
         self.messaging
-            .broadcast(&mut self.beliefs, goal, elapsed_s, outbox);
+            .broadcast(&mut self.beliefs, &commitment, elapsed_s, outbox);
     }
 
     /// Changes the ids of the other robots; those without a new id are forgotten.

@@ -3,13 +3,13 @@
 use super::goal_behaviour::GoalBehaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
-use crate::io::body::Body;
+use crate::io::body::{Body, Detector};
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::perception::beliefs::field::Field;
 use crate::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -138,6 +138,13 @@ pub(super) fn swath_m(body: &Body) -> (f64, f64) {
         |one, other| if other.0 > one.0 { other } else { one },
     );
     if widest.0 > 0.0 { widest } else { (2.0, 1.0) }
+}
+
+/// Within this distance, a body detects items in all directions.
+pub(super) fn all_round_m(body: &Body) -> f64 {
+    let is_all_round = |detector: &&Detector| detector.width_rad >= TAU - 1e-6;
+    let detectors = body.detectors.iter().filter(is_all_round);
+    detectors.fold(0.0, |range_m, detector| detector.range_m.max(range_m))
 }
 
 /// The path over a field: lanes along its longer side, from one end to the other.

@@ -1,7 +1,7 @@
 //! Serving the goals of controllers.
 
 use super::behaviour::Behaviour;
-use super::lawnmower::swath_m;
+use super::lawnmower::{all_round_m, swath_m};
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::{Body, RobotId};
@@ -10,14 +10,17 @@ use crate::io::message::Message;
 use crate::perception::beliefs::Beliefs;
 use crate::service::ability::{Ability, Moment};
 use crate::service::assignee::Assignee;
+use crate::service::lanes::Lanes;
 use crate::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use base::geometry::{Point, Rectangle};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Bids for the goals of controllers, and serves those that it is awarded on the shortest path
 /// through them. It needs a position, a heading and a radio. Without an awarded goal, it does nothing.
+/// A stationary robot serves the goals at which it stands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
@@ -56,15 +59,29 @@ impl Ready {
         let speed_m_s = spec.speed_m_s.unwrap_or(body.max_speed_m_s);
         Self {
             ability: Ability {
-                speed_m_s: speed_m_s.max(1e-3),
+                speed_m_s: speed_m_s.min(body.max_speed_m_s),
                 max_goals: spec.max_goals as usize,
-                lane_m: swath_m(body).0,
+                lanes: Lanes {
+                    apart_m: swath_m(body).0,
+                    within: body.field.map(|field| inset(field, body.radius_m)),
+                },
+                all_round_m: all_round_m(body),
                 capabilities: body.capabilities.clone(),
                 robot_kinds: body.others.len(),
             },
             value: spec.value,
         }
     }
+}
+
+/// Where the centre of a robot can be in a field.
+fn inset(field: Rectangle, radius_m: f64) -> Rectangle {
+    let size = field.size();
+    let [x, y] = [size.x, size.y].map(|size_m| radius_m.min(size_m / 2.0));
+    Rectangle::spanned(
+        field.min().plus(Point { x, y }),
+        field.max().plus(Point { x: -x, y: -y }),
+    )
 }
 
 impl Behaviour for Ready {

@@ -105,6 +105,12 @@ dispatch! {
     /// The number is that of the answer to which it refers, the duration that of its longest service
     /// lease.
     25 Bind(Award),
+    /// From an owner to its heir: a robot that has been awarded a goal. Of an inherited goal, only such
+    /// a robot can report that it is done.
+    26 Assigned(Assignment),
+    /// From the operator to a robot: whether it is in service. Out of service, it releases its goals,
+    /// bids for none, and refuses awards.
+    27 Service(bool),
 }
 
 impl Dispatch {
@@ -283,6 +289,18 @@ base::hashed!(Award {
     number,
     lease_s
 });
+
+/// A robot that has been awarded a goal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Assignment {
+    /// The goal.
+    pub goal: GoalId,
+    /// The robot.
+    pub robot: RobotId,
+}
+
+base::hashed!(Assignment { goal, robot });
 
 /// Why a robot or a controller does not serve a goal.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

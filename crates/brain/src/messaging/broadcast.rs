@@ -1,5 +1,6 @@
 //! Broadcasts: their schedule, their messages, and what the robot sent last.
 
+use super::commitment::Commitment;
 use super::visits::OwnVisits;
 use crate::goals::proposal::Destination;
 use crate::io::body::RobotId;
@@ -81,12 +82,13 @@ impl BroadcastState {
     /// Broadcasts the current destination, and the status of the previous one.
     pub(super) fn broadcast_goal(
         &mut self,
-        goal: Option<Destination>,
+        commitment: &Commitment,
         at: Point,
         is_due: bool,
         outbox: &mut Vec<Message>,
     ) {
         let previous = self.goal;
+        let goal = commitment.after(previous);
         let ids = [goal, previous].map(|goal| goal.map(|destination| destination.id));
         let places = [goal, previous].map(|goal| goal.map(|destination| destination.at));
         let (is_new, has_moved) = (ids[0] != ids[1], places[0] != places[1]);
@@ -101,7 +103,7 @@ impl BroadcastState {
             })
         };
         if let Some(ended) = previous.filter(|_| is_new) {
-            if at.to(ended.at).length() <= ended.tolerance_m {
+            if commitment.is_done(&ended, at) {
                 self.visits.add(ended.goal());
                 outbox.push(message(ended, CommitmentStatus::Done));
             } else if goal.is_none() {

@@ -6,6 +6,7 @@
 //! observations confirmed, and [`reports`] combines reports of items by it.
 
 mod broadcast;
+pub(crate) mod commitment;
 pub(crate) mod peers;
 mod receive;
 pub(crate) mod reports;

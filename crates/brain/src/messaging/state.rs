@@ -1,10 +1,10 @@
 //! What a robot keeps for its messages, and what it sends in a step.
 
 use super::broadcast::BroadcastState;
+use super::commitment::Commitment;
 use super::peers::Peers;
 use super::reports::Reception;
 use super::trust::Trust;
-use crate::goals::proposal::Destination;
 use crate::io::body::{Body, RobotId};
 use crate::io::message::Message;
 use crate::perception::beliefs::{Beliefs, BeliefsSpec};
@@ -56,12 +56,11 @@ impl Messaging {
         self.trust.renumber(keep);
     }
 
-    /// Appends the messages that are due after a step of `elapsed_s` to the outbox; `goal` is the
-    /// current destination.
+    /// Appends the messages that are due after a step of `elapsed_s` to the outbox.
     pub(crate) fn broadcast(
         &mut self,
         beliefs: &mut Beliefs,
-        goal: Option<Destination>,
+        commitment: &Commitment,
         elapsed_s: f64,
         outbox: &mut Vec<Message>,
     ) {
@@ -75,7 +74,7 @@ impl Messaging {
             self.broadcast.repeat_visit(outbox);
         }
         self.broadcast
-            .broadcast_goal(goal, pose.at, is_repeat_due, outbox);
+            .broadcast_goal(commitment, pose.at, is_repeat_due, outbox);
         self.broadcast
             .broadcast_pose(&pose, beliefs.observations, is_due, outbox);
         if is_repeat_due {

@@ -1,4 +1,5 @@
 use super::Messaging;
+use super::commitment::Commitment;
 use super::receive::MAX_OBSERVATION_RATE_HZ;
 use crate::goals::proposal::Destination;
 use crate::io::body::Body;
@@ -86,8 +87,12 @@ impl Robot {
     }
 
     fn broadcast(&mut self, goal: Option<Destination>, elapsed_s: f64, outbox: &mut Vec<Message>) {
+        let commitment = Commitment {
+            goal,
+            service: None,
+        };
         self.messaging
-            .broadcast(&mut self.beliefs, goal, elapsed_s, outbox);
+            .broadcast(&mut self.beliefs, &commitment, elapsed_s, outbox);
     }
 
     fn last_confidence(&self) -> f64 {

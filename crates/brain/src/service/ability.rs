@@ -1,11 +1,15 @@
 //! What a robot can do for goals, the same for all robots of a kind, and its state in a step.
 
+use super::lanes::Lanes;
 use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
 use crate::perception::beliefs::Map;
 use alloc::vec::Vec;
 use base::geometry::Point;
+
+/// A slower robot is stationary.
+const MIN_SPEED_M_S: f64 = 1e-3;
 
 /// What a robot can do.
 #[derive(Debug, Clone)]
@@ -14,8 +18,10 @@ pub(crate) struct Ability {
     pub(crate) speed_m_s: f64,
     /// Maximum number of goals that it serves.
     pub(crate) max_goals: usize,
-    /// Distance between the lanes of a search.
-    pub(crate) lane_m: f64,
+    /// Its path of a search.
+    pub(crate) lanes: Lanes,
+    /// Within this distance, it detects items in all directions.
+    pub(crate) all_round_m: f64,
     pub(crate) capabilities: Vec<u8>,
     /// Kinds of participants from this number on are controllers.
     pub(crate) robot_kinds: usize,
@@ -32,9 +38,31 @@ impl Ability {
     pub(crate) fn work_s(&self, task: &Task) -> f64 {
         let search_m = match task.work {
             Work::Visit => 0.0,
-            Work::Search => super::lanes::length_m(task, self.lane_m),
+            Work::Search => self.lanes.length_m(task),
         };
-        f64::from(task.service_s) + search_m / self.speed_m_s
+        f64::from(task.service_s) + self.travel_s(search_m)
+    }
+
+    /// Whether it cannot drive: it serves only goals that it [covers](Self::covers).
+    pub(crate) fn is_stationary(&self) -> bool {
+        self.speed_m_s < MIN_SPEED_M_S
+    }
+
+    /// Time to drive a distance; none for a robot that does not drive to its goals.
+    pub(crate) fn travel_s(&self, distance_m: f64) -> f64 {
+        if self.is_stationary() {
+            0.0
+        } else {
+            distance_m / self.speed_m_s
+        }
+    }
+
+    /// Whether a robot that remains at a position is at a goal there and, for a search, detects items
+    /// in the whole area.
+    pub(crate) fn covers(&self, task: &Task, at: Point) -> bool {
+        let (away_m, radius_m) = (at.to(task.at()).length(), f64::from(task.radius_m));
+        let is_seen = task.work == Work::Visit || away_m + radius_m <= self.all_round_m;
+        away_m <= radius_m && is_seen
     }
 
     /// Whether an agent is a controller.

@@ -33,17 +33,20 @@ pub(crate) struct Assignee {
     pub(super) failures: Failures,
     pub(super) finished: Finished,
     pub(super) schedule: Schedule,
+    /// Whether a person has taken it out of service.
+    pub(super) is_out_of_service: bool,
     /// The goal that it proposed last.
     pub(super) proposed: Option<GoalId>,
     pub(super) outbox: Vec<Message>,
 }
 
-base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, proposed } without { outbox });
+base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed } without { outbox });
 
 impl Assignee {
     /// Takes a step: messages first, then the work, then what is due.
     pub(crate) fn step(&mut self, ability: &Ability, moment: &Moment) {
         self.outbox.clear();
+        self.proposed = self.proposed.filter(|goal| self.serves(*goal));
         self.now_s = moment
             .percept
             .time_s
@@ -71,6 +74,17 @@ impl Assignee {
         let job = *self.jobs.current(self.now_s)?;
         self.proposed = Some(job.task.id);
         Some((job, is_there(&job, ability, at) && job.is_swept(ability)))
+    }
+
+    /// Whether it serves a goal.
+    pub(crate) fn serves(&self, goal: GoalId) -> bool {
+        self.jobs.get(goal).is_some()
+    }
+
+    /// Whether it has served a goal that it proposed in the last step; `None` for goals of other behaviours.
+    pub(crate) fn has_served(&self, goal: GoalId) -> Option<bool> {
+        let is_done = self.finished.contains(goal);
+        (is_done || self.serves(goal) || self.proposed == Some(goal)).then_some(is_done)
     }
 
     /// Takes the verdict on the goal that it proposed last.
@@ -119,7 +133,7 @@ impl Assignee {
             return;
         };
         let needed_s = |job: &Job| {
-            let path_s = at.to(job.target(ability).0).length() / ability.speed_m_s;
+            let path_s = ability.travel_s(at.to(job.target(ability).0).length());
             path_s + job.left_s()
         };
         let hopeless = self.jobs.list.iter().find_map(|job| {
@@ -142,6 +156,9 @@ impl Assignee {
             return;
         };
         let from = received.from;
+        if let (RobotId::OPERATOR, Dispatch::Service(is_in)) = (from, dispatch) {
+            self.set_service(is_in);
+        }
         if !ability.is_controller(from) {
             return;
         }
@@ -228,6 +245,9 @@ impl Assignee {
         let (Some(offer), Some(at)) = (offered.copied(), moment.at) else {
             return Err(Reason::Lease);
         };
+        if self.is_out_of_service {
+            return Err(Reason::OutOfService);
+        }
         if self.jobs.list.len() >= ability.max_goals {
             return Err(Reason::Full);
         }
@@ -240,6 +260,16 @@ impl Assignee {
         self.jobs
             .add(Job::new(offer.task, from, offer.due_at_s), at);
         Ok(())
+    }
+
+    /// Out of service, the robot returns its goals.
+    fn set_service(&mut self, is_in: bool) {
+        self.is_out_of_service = !is_in;
+        let goals = self.jobs.list.iter().map(|job| job.task.id);
+        let goals: Vec<GoalId> = goals.filter(|_| !is_in).collect();
+        for goal in goals {
+            self.release(goal);
+        }
     }
 
     fn take_withdrawal(&mut self, from: RobotId, claim: Claim, is_only_one: bool) {
@@ -255,13 +285,17 @@ impl Assignee {
         let lease = self.holder.lease(goal).copied();
         match lease {
             Some(lease) if lease.grantor != from => {}
-            Some(lease) if is_only_one && super::numbers::is_since(claim.number, lease.number) => {
+            // The number is that of the lease, or of a request that the owner does not grant.
+            Some(lease)
+                if is_only_one
+                    && (lease.number == claim.number || self.holder.is_answer(from, claim)) =>
+            {
                 self.release(goal);
             }
+            // From now on, the robot accepts no grant that answers an earlier request.
             None if is_only_one && !self.finished.contains(goal) => {
                 self.holder.release(goal);
-                let number = self.numbers.last();
-                self.send(from, Dispatch::Release(Claim { goal, number }));
+                self.send(from, Dispatch::Release(claim));
             }
             _ => {}
         }
@@ -306,7 +340,7 @@ impl Assignee {
     fn release(&mut self, goal: GoalId) {
         self.jobs.remove(goal);
         if let Some(lease) = self.holder.release(goal) {
-            let number = self.numbers.last();
+            let number = lease.number;
             self.send(lease.grantor, Dispatch::Release(Claim { goal, number }));
         }
     }
@@ -318,6 +352,9 @@ impl Assignee {
 }
 
 fn is_there(job: &Job, ability: &Ability, at: Point) -> bool {
+    if ability.is_stationary() {
+        return ability.covers(&job.task, at);
+    }
     let (target, near_m) = job.target(ability);
     at.to(target).length() <= near_m
 }

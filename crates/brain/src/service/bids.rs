@@ -16,6 +16,7 @@ impl Assignee {
         let is_full = self.jobs.list.len() >= ability.max_goals;
         let versions = [self.offers.version, self.jobs.version];
         if is_full
+            || self.is_out_of_service
             || self.offers.iter().next().is_none()
             || !self.schedule.is_turn(moment.percept, versions, self.now_s)
         {
@@ -56,6 +57,9 @@ impl Assignee {
         ability: &Ability,
         moment: &Moment,
     ) -> Result<Estimate, Reason> {
+        if self.is_out_of_service {
+            return Err(Reason::OutOfService);
+        }
         let known = (&self.jobs, &self.failures);
         let bidder = Bidder::new(ability, known, moment, self.now_s);
         bidder.map_or(Err(Reason::Unreachable), |bidder| bidder.estimate(offer))

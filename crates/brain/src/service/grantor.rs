@@ -7,10 +7,12 @@
 //! L (1 + rho) / (1 - rho)        rho: maximum drift of any clock
 //! ```
 //!
+//! A lease has the number of the request by which it was granted, also after renewals. A release names
+//! it: one of an earlier lease, however late or repeated, has another number and no effect.
+//!
 //! The holder's L, counted on its clock from before the grant, takes at most L / (1 - rho), and
 //! that takes at most (1 + rho) times as long on the grantor's clock.
 
-use super::numbers::is_since;
 use super::set_hash::set_hash;
 use crate::io::body::RobotId;
 use crate::io::dispatch::{Claim, Renewal};
@@ -32,7 +34,7 @@ pub struct Grant {
     pub goal: GoalId,
     /// The agent that may hold it.
     pub holder: RobotId,
-    /// The number of the last request that was granted.
+    /// The number of the request that was granted; renewals do not change it.
     pub number: u32,
     /// The time for which another grant waits after this one.
     pub wait_s: f64,
@@ -92,7 +94,7 @@ impl Grantor {
         let mut grants = self.grants.iter_mut();
         let own = grants.find(|grant| grant.goal == claim.goal && grant.is_renewed_by(from));
         if let Some(grant) = own {
-            grant.extend(claim.number, now_s);
+            grant.extend(now_s);
             return true;
         }
         false
@@ -105,7 +107,7 @@ impl Grantor {
         if is_same {
             let all = self.grants.iter_mut();
             let all = all.filter(|grant| grant.is_renewed_by(from));
-            all.for_each(|grant| grant.extend(renewal.number, now_s));
+            all.for_each(|grant| grant.extend(now_s));
         }
         is_same
     }
@@ -122,16 +124,8 @@ impl Grantor {
         self.remove(|grant| grant.goal == goal);
     }
 
-    /// Takes the release of a lease by its holder; one from before the grant has no effect.
+    /// Takes the release or refusal of a lease by its holder; that of another lease has no effect.
     pub fn release(&mut self, from: RobotId, claim: Claim) -> Option<Grant> {
-        self.remove(|grant| {
-            let is_meant = grant.goal == claim.goal && grant.holder == from;
-            is_meant && is_since(claim.number, grant.number)
-        })
-    }
-
-    /// Takes the refusal of a grant that has not been renewed.
-    pub fn refuse(&mut self, from: RobotId, claim: Claim) -> Option<Grant> {
         self.remove(|grant| {
             grant.goal == claim.goal && grant.holder == from && grant.number == claim.number
         })
@@ -156,10 +150,7 @@ impl Grant {
         self.holder == holder && !self.is_withdrawn
     }
 
-    fn extend(&mut self, number: u32, now_s: f64) {
-        if is_since(number, self.number) {
-            self.number = number;
-        }
+    fn extend(&mut self, now_s: f64) {
         self.until_s = self.until_s.max(now_s + self.wait_s);
     }
 }
@@ -196,10 +187,24 @@ mod tests {
     }
 
     #[test]
-    fn a_release_from_before_the_grant_has_no_effect() {
-        for (from, number, ends) in [(HOLDER, 4, false), (OTHER, 5, false), (HOLDER, 6, true)] {
+    fn a_release_ends_the_lease_that_it_names_and_no_other() {
+        for (from, number, ends) in [
+            (HOLDER, 4, false),
+            (HOLDER, 6, false),
+            (OTHER, 5, false),
+            (HOLDER, 5, true),
+        ] {
             assert_eq!(grantor().release(from, claim(number)).is_some(), ends);
         }
+    }
+
+    #[test]
+    fn a_release_counts_however_many_renewals_came_before() {
+        let mut grantor = grantor();
+        for number in 6..5000 {
+            assert!(grantor.renew_one(HOLDER, claim(number), 1.0));
+        }
+        assert!(grantor.release(HOLDER, claim(5)).is_some());
     }
 
     #[test]
@@ -208,7 +213,7 @@ mod tests {
         grantor.withdraw(claim(5).goal);
         assert!(!grantor.renew_one(HOLDER, claim(6), 1.0));
         assert!(!grantor.grant(OTHER, claim(1), 10.0, 1.0));
-        assert!(grantor.release(HOLDER, claim(6)).is_some());
+        assert!(grantor.release(HOLDER, claim(5)).is_some());
         assert!(grantor.grant(OTHER, claim(1), 10.0, 1.0));
     }
 
@@ -217,7 +222,7 @@ mod tests {
         let mut grantor = grantor();
         assert!(!grantor.renew_one(OTHER, claim(7), 1.0));
         assert!(grantor.renew_one(HOLDER, claim(7), 1.0));
-        assert_eq!(grantor.refuse(HOLDER, claim(5)), None);
+        assert_eq!(grantor.release(OTHER, claim(5)), None);
         let (count, hash) = set_hash(core::iter::once(claim(7).goal));
         let renewal = Renewal {
             number: 8,

@@ -33,7 +33,7 @@ pub struct Lease {
     pub goal: GoalId,
     /// The agent that granted it.
     pub grantor: RobotId,
-    /// The number of the last request that was granted.
+    /// The number of the request that was granted; renewals do not change it.
     pub number: u32,
     /// When it was granted first.
     pub since_s: f64,
@@ -128,14 +128,14 @@ impl Holder {
     /// Takes the renewal of one lease.
     pub fn renew_one(&mut self, from: RobotId, claim: Claim, now_s: f64) {
         if let Some(sent_s) = self.answered(from, claim.number, Some(claim.goal)) {
-            self.extend(from, Some(claim.goal), (claim.number, sent_s), now_s);
+            self.extend(from, Some(claim.goal), sent_s, now_s);
         }
     }
 
     /// Takes the renewal of all leases of a grantor.
     pub fn renew(&mut self, from: RobotId, number: u32, now_s: f64) {
         if let Some(sent_s) = self.answered(from, number, None) {
-            self.extend(from, None, (number, sent_s), now_s);
+            self.extend(from, None, sent_s, now_s);
         }
     }
 
@@ -190,19 +190,13 @@ impl Holder {
     }
 
     /// Extends a lease, or all of a grantor, that were held when the request was sent and still are.
-    fn extend(
-        &mut self,
-        from: RobotId,
-        goal: Option<GoalId>,
-        (number, sent_s): (u32, f64),
-        now_s: f64,
-    ) {
+    fn extend(&mut self, from: RobotId, goal: Option<GoalId>, sent_s: f64, now_s: f64) {
         for lease in &mut self.leases {
             let is_meant = goal.is_none_or(|goal| goal == lease.goal);
             let was_held = lease.grantor == from && lease.since_s <= sent_s;
             let is_longer = sent_s + lease.lasts_s > lease.until_s;
             if is_meant && was_held && is_longer && now_s < lease.until_s {
-                (lease.number, lease.until_s) = (number, sent_s + lease.lasts_s);
+                lease.until_s = sent_s + lease.lasts_s;
             }
         }
     }

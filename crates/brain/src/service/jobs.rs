@@ -1,7 +1,6 @@
 //! The goals that a robot serves, in the order in which it serves them.
 
 use super::ability::Ability;
-use super::lanes;
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
 use crate::io::dispatch::{Task, Work};
@@ -9,6 +8,9 @@ use crate::io::goal_id::GoalId;
 use crate::io::verdict::Verdict;
 use alloc::vec::Vec;
 use base::geometry::Point;
+
+/// Times in messages have the precision of 32-bit floats.
+const ROUNDING_S: f64 = 1e-6;
 
 /// A goal that a robot serves.
 #[derive(Debug, Clone, Copy)]
@@ -54,21 +56,23 @@ impl Job {
         let radius_m = f64::from(self.task.radius_m);
         let corner = match self.task.work {
             Work::Visit => None,
-            Work::Search => lanes::corner(&self.task, ability.lane_m, self.corners),
+            Work::Search => ability.lanes.corner(&self.task, self.corners),
         };
-        let near_m = (ability.lane_m / 4.0).clamp(0.2, 2.0);
+        let near_m = (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0);
         corner.map_or((self.task.at(), radius_m), |corner| (corner, near_m))
     }
 
     /// Whether it remains only to be there for the time of service.
     pub(crate) fn is_swept(&self, ability: &Ability) -> bool {
         self.task.work == Work::Visit
-            || lanes::corner(&self.task, ability.lane_m, self.corners).is_none()
+            || ability.is_stationary()
+            || ability.lanes.corner(&self.task, self.corners).is_none()
     }
 
-    /// Remaining time of service.
+    /// Remaining time of service; none when it is within the rounding of a sum of steps.
     pub(crate) fn left_s(&self) -> f64 {
-        (f64::from(self.task.service_s) - self.served_s).max(0.0)
+        let left_s = f64::from(self.task.service_s) - self.served_s;
+        if left_s < ROUNDING_S { 0.0 } else { left_s }
     }
 }
 

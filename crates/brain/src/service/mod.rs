@@ -15,7 +15,7 @@ mod finished;
 pub(crate) mod grantor;
 pub(crate) mod holder;
 mod jobs;
-mod lanes;
+pub(crate) mod lanes;
 pub(crate) mod numbers;
 mod offers;
 mod reach;

@@ -4,9 +4,6 @@ use crate::io::percept::Percept;
 use base::hash::Hash;
 use base::hashed::Hashed;
 
-/// A later request of the same agent has a number that is higher by less than this, modulo 2^32.
-const LATER: u32 = 1024;
-
 /// Numbers of the requests of an agent, each different from all others.
 ///
 /// The first number is a hash of the agent's first percept: an agent that restarts, and remembers
@@ -27,18 +24,6 @@ impl Numbers {
         self.last = Some(next);
         next
     }
-
-    /// The last number; 0 before the first.
-    #[must_use]
-    pub fn last(&self) -> u32 {
-        self.last.unwrap_or(0)
-    }
-}
-
-/// Whether a number is that of the same request as another, or of a later one.
-#[must_use]
-pub fn is_since(number: u32, earlier: u32) -> bool {
-    number.wrapping_sub(earlier) < LATER
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a hash")]
@@ -68,6 +53,17 @@ mod tests {
         let before: Vec<u32> = (0..100).map(|_| numbers.next(&at(1.0))).collect();
         let mut restarted = Numbers::default();
         assert!((0..100).all(|_| !before.contains(&restarted.next(&at(2.0)))));
-        assert!(is_since(before[9], before[3]) && !is_since(before[3], before[9]));
+    }
+
+    #[test]
+    fn agents_with_the_same_clock_and_other_random_words_have_other_numbers() {
+        let first = |words: u32| {
+            let percept = Percept {
+                random_words: [words; 4],
+                ..at(1.0)
+            };
+            Numbers::default().next(&percept)
+        };
+        assert_ne!(first(1), first(2));
     }
 }

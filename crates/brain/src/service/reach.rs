@@ -1,4 +1,4 @@
-//! Which goals a robot can reach, by its map.
+//! Which goals a robot can reach, and on what detour, by its map.
 
 use super::ability::Moment;
 use crate::navigation::path::Wavefront;
@@ -8,9 +8,14 @@ use base::geometry::Point;
 /// An obstacle may lie this much farther away than the centre of its cell, as a fraction of the cell.
 const TIGHT_CLEARANCE: f64 = 0.5;
 
+/// Length of a diagonal step of a [`Wavefront`] in cells.
+const DIAGONAL_STEP: f64 = 1.4;
+
 /// The places that are connected to the robot's position. Unknown places count as free.
 pub(crate) struct Reach<'m> {
     known: Option<(&'m Map, Wavefront)>,
+    /// Cell of the robot.
+    start: usize,
 }
 
 impl<'m> Reach<'m> {
@@ -24,17 +29,37 @@ impl<'m> Reach<'m> {
             wavefront.expand(whole, at, clearance_m.max(0.0), |_, _| true);
             (map, wavefront)
         });
-        Self { known }
+        let start = map.map_or(0, |map| map.field.nearest_cell(at));
+        Self { known, start }
     }
 
-    /// Whether a place is connected to the robot's position.
-    pub(crate) fn contains(&self, place: Point) -> bool {
-        self.known.as_ref().is_none_or(|(map, wavefront)| {
-            let cell = map.field.nearest_cell(place);
-            wavefront.cell_distance_m(&map.field, cell).is_some()
-                || wavefront.exit(&map.field, &map.occupancy, place).is_some()
+    /// How many times as long as the straight line the path to a place is, by the map: 1 without
+    /// obstacles between; `None` for a place that is not connected to the robot's position.
+    pub(crate) fn detour(&self, place: Point) -> Option<f64> {
+        let Some((map, wavefront)) = &self.known else {
+            return Some(1.0);
+        };
+        let cell = map.field.nearest_cell(place);
+        let to_cell_m = wavefront.cell_distance_m(&map.field, cell);
+        let (cell, path_m) = to_cell_m.map_or_else(
+            || wavefront.exit(&map.field, &map.occupancy, place),
+            |path_m| Some((cell, path_m)),
+        )?;
+        let free_m = stepwise_m(map.field.centre(self.start), map.field.centre(cell));
+        Some(if free_m > 0.0 {
+            (path_m / free_m).max(1.0)
+        } else {
+            1.0
         })
     }
+}
+
+/// Distance without obstacles over the cells of a map, which is up to 8% longer than the straight line.
+fn stepwise_m(from: Point, to: Point) -> f64 {
+    let away = from.to(to);
+    let (one_m, other_m) = (away.x.abs(), away.y.abs());
+    let diagonal_m = one_m.min(other_m);
+    one_m.max(other_m) - diagonal_m + DIAGONAL_STEP * diagonal_m
 }
 
 #[cfg(test)]
@@ -78,7 +103,12 @@ mod tests {
             charge: None,
         };
         let reach = Reach::new(&moment, corner(3.0, 3.0));
-        assert!(!reach.contains(corner(10.0, 10.0)));
-        assert!(reach.contains(corner(15.0, 15.0)));
+        assert_eq!(reach.detour(corner(10.0, 10.0)), None);
+        assert!(
+            reach
+                .detour(corner(15.0, 15.0))
+                .is_some_and(|detour| detour > 1.05)
+        );
+        assert_eq!(reach.detour(corner(3.0, 15.0)), Some(1.0));
     }
 }

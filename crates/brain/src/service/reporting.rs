@@ -45,7 +45,7 @@ impl Assignee {
     pub(super) fn fitness(&self, owner: RobotId, ability: &Ability, at: Point) -> Option<Fitness> {
         let job = self.jobs.list.iter().find(|job| job.owner == owner)?;
         let away_m = at.to(job.task.at()).length();
-        let remaining_s = away_m / ability.speed_m_s + ability.work_s(&job.task) - job.served_s;
+        let remaining_s = ability.travel_s(away_m) + ability.work_s(&job.task) - job.served_s;
         Some(Fitness {
             goal: job.task.id,
             verdict: job.verdict,

@@ -2,8 +2,8 @@
 
 use crate::{body, brain, now, percept_at};
 use brain::{
-    About, Award, Body, Brain, Claim, Dispatch, GoalId, Message, Other, Percept, Reason,
-    ReceivedMessage, RobotId, Task, Work,
+    About, Award, Body, Brain, Claim, Command, CommitmentStatus, Dispatch, GoalId, Message, Other,
+    Percept, Reason, ReceivedMessage, RobotId, Task, Work,
 };
 
 const OWNER: RobotId = RobotId { kind: 1, index: 0 };
@@ -49,6 +49,15 @@ impl Robot {
 
     /// A step; returns the messages about goals.
     fn step(&mut self, messages: &[Dispatch], touches: bool) -> Vec<Dispatch> {
+        let sent = self.command(messages, touches).outbox.into_iter();
+        let sent = sent.filter_map(|message| match message.about {
+            About::Dispatch(dispatch) => Some(dispatch),
+            _ => None,
+        });
+        sent.collect()
+    }
+
+    fn command(&mut self, messages: &[Dispatch], touches: bool) -> Command {
         self.time_s += 0.1;
         let inbox = messages.iter().map(|dispatch| ReceivedMessage {
             from: OWNER,
@@ -64,12 +73,7 @@ impl Robot {
         };
         let command = self.brain.step(&percept);
         self.x += 0.1 * command.motion.speed_m_s;
-        let sent = command.outbox.into_iter();
-        let sent = sent.filter_map(|message| match message.about {
-            About::Dispatch(dispatch) => Some(dispatch),
-            _ => None,
-        });
-        sent.collect()
+        command
     }
 
     fn speed_m_s(&self) -> f64 {
@@ -78,7 +82,11 @@ impl Robot {
 
     /// Bids for the goal and is awarded it, for a long time.
     fn win(&mut self) {
-        let sent = self.step(&[CALL], false);
+        self.win_task(TASK);
+    }
+
+    fn win_task(&mut self, task: Task) {
+        let sent = self.step(&[Dispatch::Call { number: 0, task }], false);
         let number = sent.iter().find_map(|sent| match sent {
             Dispatch::Bid(bid) => Some(bid.number),
             _ => None,
@@ -141,6 +149,69 @@ fn a_robot_drives_to_its_goal_stays_for_the_service_and_reports_that() {
         }
     }
     panic!("not done");
+}
+
+/// The announcements of the goal in all steps until a message that is about to be sent, and in it.
+fn announced(robot: &mut Robot, until: impl Fn(&Command) -> bool) -> Vec<CommitmentStatus> {
+    let mut statuses = Vec::new();
+    for _ in 0..200 {
+        let command = robot.command(&[], false);
+        let own = command
+            .outbox
+            .iter()
+            .filter_map(|message| match message.about {
+                About::Goal { id, status, .. } if id == TASK.id => Some(status),
+                _ => None,
+            });
+        statuses.extend(own);
+        if until(&command) {
+            break;
+        }
+    }
+    statuses
+}
+
+fn has_done(command: &Command) -> bool {
+    let mut sent = command.outbox.iter();
+    sent.any(|message| matches!(message.about, About::Dispatch(Dispatch::Done(_))))
+}
+
+#[test]
+fn a_robot_announces_a_goal_as_done_after_its_service_and_not_at_its_arrival() {
+    let mut robot = Robot::new("", "");
+    robot.win();
+    let statuses = announced(&mut robot, has_done);
+    let (last, before) = statuses.split_last().unwrap();
+    assert_eq!(*last, CommitmentStatus::Done);
+    assert!(
+        before
+            .iter()
+            .all(|status| *status == CommitmentStatus::Active),
+        "{before:?}"
+    );
+}
+
+#[test]
+fn a_robot_stays_for_the_time_of_service_to_the_step() {
+    for service_s in [0.1, 1.0, 2.0, 5.0] {
+        let mut robot = Robot::new("", "");
+        robot.win_task(Task { service_s, ..TASK });
+        let mut arrived_s = f64::INFINITY;
+        loop {
+            let at_s = robot.time_s + 0.1;
+            if (robot.x - 10.0).abs() <= 0.5 {
+                arrived_s = arrived_s.min(at_s);
+            }
+            if has_done(&robot.command(&[], false)) {
+                break;
+            }
+        }
+        let stayed_s = robot.time_s - arrived_s;
+        assert!(
+            (stayed_s - f64::from(service_s)).abs() < 0.01,
+            "{service_s} {stayed_s}"
+        );
+    }
 }
 
 #[test]

@@ -5,6 +5,8 @@
 //! is stuck, or is overdue: other robots can bid for it, and the first valid bid moves it. If there is
 //! none, the robot keeps it and tries again; if it approaches again, the contest ends.
 //! A robot that refuses, releases or is silent until its lease ends has lost the goal at once.
+//! A goal that waits because all robots are full displaces a goal of at most half its value whose
+//! service has not begun.
 //! ```
 //!
 //! A goal never moves back and forth: a robot that has lost it rests before it bids again, each time
@@ -102,7 +104,7 @@ impl Controller {
     }
 
     /// The robot is to release the goal; until it does, its lease is not renewed.
-    fn withdraw(&mut self, goal: GoalId) {
+    pub(super) fn withdraw(&mut self, goal: GoalId) {
         let now_s = self.now_s;
         let Some(owned) = self.goal_mut(goal) else {
             return;

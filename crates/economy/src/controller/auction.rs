@@ -94,6 +94,9 @@ impl Controller {
         self.bids.iter().filter_map(|standing| {
             let goal = goals.iter().position(|task| task.id == standing.bid.goal)?;
             let robot = robots.iter().position(|robot| robot.id == standing.robot)?;
+            if self.is_reserved(standing.robot, standing.bid.goal) {
+                return None;
+            }
             let (bidder, task) = (&robots[robot], &goals[goal]);
             Some(Offer {
                 pair: Pair { goal, robot },
@@ -161,12 +164,14 @@ impl Controller {
             overdue_s,
             is_contested: false,
             is_withdrawn: false,
+            there_s: f64::INFINITY,
         };
         if let Some(owned) = self.goal_mut(goal) {
             owned.assign(assigned);
         }
         self.bids.remove_for(goal);
         self.bids.remove_of(robot);
+        self.report_assignees(goal);
         self.repeat_awards();
     }
 

@@ -3,9 +3,9 @@
 
 use super::Controller;
 use super::heirs::{MAX_LEASE_S, RETRY_S};
-use super::owned::{Heir, Owned};
+use super::owned::{Heir, Owned, note_assignee};
 use super::wards::Ward;
-use brain::{Award, Claim, Dispatch, GoalId, Percept, Renewal, RobotId, Task, wait_s};
+use brain::{Assignment, Award, Claim, Dispatch, GoalId, Percept, Renewal, RobotId, Task, wait_s};
 
 impl Controller {
     /// Takes the description of a goal of which it is to be the heir.
@@ -24,14 +24,8 @@ impl Controller {
             _ => {
                 self.wards.retain(|ward| ward.task.id != task.id);
                 let number = self.numbers.next(percept);
-                self.wards.push(Ward {
-                    task,
-                    due_at_s: self.now_s + f64::from(task.due_s),
-                    owner: from,
-                    number,
-                    is_bound: false,
-                    service_wait_s: 0.0,
-                });
+                let due_at_s = self.now_s + f64::from(task.due_s);
+                self.wards.push(Ward::new(task, due_at_s, from, number));
                 number
             }
         };
@@ -82,6 +76,23 @@ impl Controller {
         }
     }
 
+    /// Notes a robot to which the owner of a goal has awarded it: it may report that the goal is done
+    /// after this controller has inherited it. The message may arrive after the inheritance.
+    pub(super) fn take_assignment(&mut self, from: RobotId, assignment: Assignment) {
+        let Assignment { goal, robot } = assignment;
+        if !self.settings.is_robot(robot, self.own) {
+            return;
+        }
+        let mut wards = self.wards.iter_mut();
+        if let Some(ward) = wards.find(|ward| ward.task.id == goal && ward.owner == from) {
+            note_assignee(&mut ward.assignees, robot);
+        }
+        let inherited = self.goal_mut(goal);
+        if let Some(owned) = inherited.filter(|owned| owned.origin == Some(from)) {
+            note_assignee(&mut owned.assignees, robot);
+        }
+    }
+
     /// Offers an inherited goal to the controller that owned it, while no robot serves it.
     pub(super) fn offer_return(&mut self, index: usize) -> bool {
         let now_s = self.now_s;
@@ -116,14 +127,9 @@ impl Controller {
         };
         let owned = self.goals.remove(index);
         self.bids.remove_for(goal);
-        self.wards.push(Ward {
-            task: owned.task,
-            due_at_s: owned.due_at_s,
-            owner: origin,
-            number,
-            is_bound: false,
-            service_wait_s: 0.0,
-        });
+        let mut ward = Ward::new(owned.task, owned.due_at_s, origin, number);
+        ward.assignees = owned.assignees;
+        self.wards.push(ward);
     }
 
     /// Renews the leases by which the sender owns its goals.
@@ -178,7 +184,7 @@ impl Controller {
             let ward = self.wards.remove(index);
             let mut owned = Owned::new(ward.task, self.now_s, ward.service_wait_s);
             owned.due_at_s = ward.due_at_s;
-            owned.origin = Some(ward.owner);
+            (owned.origin, owned.assignees) = (Some(ward.owner), ward.assignees);
             self.goals.retain(|owned| owned.task.id != grant.goal);
             self.goals.push(owned);
         }

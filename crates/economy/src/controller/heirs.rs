@@ -19,9 +19,9 @@
 //! orphaned. An heir that owns the goal of a controller that is in range again returns it: it sends
 //! `Restore`, and the answer is `Bind`.
 
-use super::Controller;
 use super::owned::Heir;
-use brain::{Award, Claim, Dispatch, GoalId, Percept, RobotId};
+use super::{Controller, short};
+use brain::{Assignment, Award, Claim, Dispatch, GoalId, Percept, RobotId};
 
 /// A message without an answer is repeated after this time, in seconds.
 pub(super) const RETRY_S: f64 = 2.0;
@@ -154,7 +154,8 @@ impl Controller {
             number,
             lease_s,
         } = answer;
-        if !(lease_s > 0.0 && lease_s <= MAX_LEASE_S) {
+        let min_lease_s = short(self.settings.min_owner_lease_s());
+        if !(min_lease_s..=MAX_LEASE_S).contains(&lease_s) {
             return;
         }
         let (now_s, claim) = (self.now_s, Claim { goal, number });
@@ -180,6 +181,7 @@ impl Controller {
                         next_s,
                     };
                 }
+                self.report_assignees(goal);
             }
             // It names another answer than the one to which the binding refers.
             Some(Heir::Bound {
@@ -189,6 +191,18 @@ impl Controller {
             }) if heir == from => self.bind(goal, heir, number),
             None => self.take_back(from, claim, lease_s.into()),
             Some(_) => {}
+        }
+    }
+
+    /// Reports to the heir which robots can report that a goal is done: when it becomes the heir, at each
+    /// award, and again at its commitment, as messages may be lost.
+    pub(super) fn report_assignees(&mut self, goal: GoalId) {
+        let owned = self.goals.iter().find(|owned| owned.task.id == goal);
+        let Some((heir, owned)) = owned.and_then(|owned| Some((owned.heir.bound()?, owned))) else {
+            return;
+        };
+        for robot in owned.assignees.clone() {
+            self.send(heir, Dispatch::Assigned(Assignment { goal, robot }));
         }
     }
 

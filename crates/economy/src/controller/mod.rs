@@ -4,6 +4,7 @@
 //! * [`receive`]: the effect of each message;
 //! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal; [`lapses`]: robots
 //!   that fell silent;
+//!   [`displacement`]: valuable goals before others;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`].
@@ -12,6 +13,7 @@ mod arbitration;
 mod auction;
 mod bids;
 mod colleagues;
+mod displacement;
 mod estates;
 mod heirs;
 mod lapses;
@@ -174,6 +176,7 @@ impl Controller {
         self.call();
         self.award();
         self.arbitrate();
+        self.call_full_robots();
         self.probe();
         self.settle_heirs(percept);
         command.outbox.append(&mut self.outbox);

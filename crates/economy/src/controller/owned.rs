@@ -9,6 +9,16 @@ use brain::{Reason, RobotId, Task};
 /// Maximum number of robots that are remembered for a goal.
 const MAX_ROBOTS: usize = 64;
 
+/// Adds a robot to those that have been awarded a goal; the first one is forgotten first.
+pub(super) fn note_assignee(assignees: &mut Vec<RobotId>, robot: RobotId) {
+    if !assignees.contains(&robot) {
+        if assignees.len() == MAX_ROBOTS {
+            assignees.remove(0);
+        }
+        assignees.push(robot);
+    }
+}
+
 /// A goal that no robot can serve is tried again after this time, in seconds; each further failure
 /// doubles it, up to a maximum.
 const MIN_REST_S: f64 = 20.0;
@@ -43,6 +53,8 @@ pub(super) struct Owned {
     /// The robots that have been awarded it.
     pub(super) assignees: Vec<RobotId>,
     pub(super) lapses: Lapses,
+    /// The robot that is to be awarded it next, as it has displaced another goal of the robot.
+    pub(super) reserved: Option<Reservation>,
 }
 
 base::hashed!(Owned {
@@ -63,7 +75,8 @@ base::hashed!(Owned {
     reason,
     rest,
     assignees,
-    lapses
+    lapses,
+    reserved
 });
 
 /// The award of a goal.
@@ -82,6 +95,8 @@ pub(super) struct Assigned {
     pub(super) is_contested: bool,
     /// Whether the robot is to release it.
     pub(super) is_withdrawn: bool,
+    /// When the robot is there, by its last report; infinity before.
+    pub(super) there_s: f64,
 }
 
 base::hashed!(Assigned {
@@ -92,8 +107,18 @@ base::hashed!(Assigned {
     next_s,
     overdue_s,
     is_contested,
-    is_withdrawn
+    is_withdrawn,
+    there_s
 });
+
+/// A robot that is to be awarded a goal first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Reservation {
+    pub(super) robot: RobotId,
+    pub(super) until_s: f64,
+}
+
+base::hashed!(Reservation { robot, until_s });
 
 /// The rest of a goal that no robot can serve.
 #[derive(Debug, Clone, Copy)]
@@ -165,6 +190,7 @@ impl Owned {
             },
             assignees: Vec::new(),
             lapses: Lapses::default(),
+            reserved: None,
         }
     }
 
@@ -230,13 +256,7 @@ impl Owned {
     }
 
     pub(super) fn assign(&mut self, assigned: Assigned) {
-        let robot = assigned.robot;
-        if !self.assignees.contains(&robot) {
-            if self.assignees.len() == MAX_ROBOTS {
-                self.assignees.remove(0);
-            }
-            self.assignees.push(robot);
-        }
+        note_assignee(&mut self.assignees, assigned.robot);
         self.assigned = Some(assigned);
         (self.rest.total_s, self.called_s) = (0.0, None);
     }

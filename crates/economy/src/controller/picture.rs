@@ -1,4 +1,9 @@
 //! The picture that a controller has of the robots: what they report, and where they are seen.
+//!
+//! A position has a weight: the trust in its source times the confidence of the message, halved every
+//! [`HALF_LIFE_S`]. Own sensors and other controllers have a trust of 1, a robot the one that its
+//! awards have earned. Of two positions of a robot, the one with the higher weight counts: what others
+//! see outweighs the report of a robot that is not trusted, until it is old.
 
 use super::trust::Trust;
 use alloc::vec::Vec;
@@ -8,6 +13,9 @@ use brain::{Report, RobotId, Task};
 /// A robot is forgotten when nothing has been received of it for this time, in seconds, except for
 /// the trust in it.
 const LIFE_S: f64 = 20.0;
+
+/// Time in which the weight of a position halves, in seconds: robots report every three seconds.
+const HALF_LIFE_S: f64 = 3.0;
 
 /// Maximum number of robots; the one that has been silent the longest is forgotten first.
 const MAX_ROBOTS: usize = 4096;
@@ -25,6 +33,9 @@ base::hashed!(Picture { robots });
 pub(super) struct Robot {
     pub(super) id: RobotId,
     pub(super) at: Option<Point>,
+    /// The weight of the position when it was received, and that time.
+    weight: f64,
+    at_s: f64,
     pub(super) speed_m_s: f64,
     /// Number of goals that it serves, and that it can serve in addition.
     pub(super) goals: u16,
@@ -37,6 +48,8 @@ pub(super) struct Robot {
 base::hashed!(Robot {
     id,
     at,
+    weight,
+    at_s,
     speed_m_s,
     goals,
     payload,
@@ -50,6 +63,15 @@ impl Robot {
     pub(super) fn distance_m(&self, task: &Task) -> f64 {
         self.at
             .map_or(f64::INFINITY, |at| at.to(task.at()).length())
+    }
+
+    /// Takes a position, unless the known one has a higher weight.
+    fn place(&mut self, at: Point, weight: f64, now_s: f64) {
+        let known = self.weight * libm::exp2((self.at_s - now_s) / HALF_LIFE_S);
+        let is_valid = at.x.is_finite() && at.y.is_finite() && (0.0..=1.0).contains(&weight);
+        if is_valid && (self.at.is_none() || weight >= known) {
+            (self.at, self.weight, self.at_s) = (Some(at), weight, now_s);
+        }
     }
 }
 
@@ -70,19 +92,18 @@ impl Picture {
         !core::mem::replace(&mut robot.is_present, true)
     }
 
-    pub(super) fn report(&mut self, id: RobotId, report: &Report, now_s: f64) {
+    /// Takes the report of a robot, with the confidence of the message.
+    pub(super) fn report(&mut self, id: RobotId, report: &Report, confidence: f64, now_s: f64) {
         let robot = self.robot(id, now_s);
         let at = Point::from(report.at_m.map(f64::from));
-        robot.at = Some(at).filter(|at| at.x.is_finite() && at.y.is_finite());
+        robot.place(at, robot.trust.value() * confidence, now_s);
         robot.speed_m_s = f64::from(report.speed_m_s).clamp(1e-3, 1e3);
         (robot.goals, robot.payload) = (report.goals, report.payload);
     }
 
-    /// Notes where a robot is seen, by this controller or another.
-    pub(super) fn see(&mut self, id: RobotId, at: Point, now_s: f64) {
-        if at.x.is_finite() && at.y.is_finite() {
-            self.robot(id, now_s).at = Some(at);
-        }
+    /// Notes where a robot is seen, by this controller or another, and with what confidence.
+    pub(super) fn see(&mut self, id: RobotId, at: Point, confidence: f64, now_s: f64) {
+        self.robot(id, now_s).place(at, confidence, now_s);
     }
 
     /// A robot has refused a goal because it serves the maximum number.
@@ -113,6 +134,8 @@ impl Picture {
             self.robots.push(Robot {
                 id,
                 at: None,
+                weight: 0.0,
+                at_s: now_s,
                 speed_m_s: 1.0,
                 goals: 0,
                 payload: 1,
@@ -123,5 +146,40 @@ impl Picture {
             self.robots.len() - 1
         });
         &mut self.robots[index]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROBOT: RobotId = RobotId { kind: 0, index: 0 };
+
+    fn reported(x: f32) -> Report {
+        Report {
+            at_m: [x, 0.0],
+            speed_m_s: 1.0,
+            battery: 1.0,
+            goals: 0,
+            payload: 1,
+        }
+    }
+
+    /// Where a robot is in the picture that is seen at 0 m, and then reports 50 m.
+    fn x_m(failures: u32, confidence: f64, after_s: f64) -> f64 {
+        let mut picture = Picture::default();
+        (0..failures).for_each(|_| picture.learn(ROBOT, false, 0.0));
+        picture.see(ROBOT, Point::default(), 1.0, 0.0);
+        picture.report(ROBOT, &reported(50.0), confidence, after_s);
+        picture.get(ROBOT).unwrap().at.unwrap().x
+    }
+
+    #[test]
+    fn what_is_seen_outweighs_the_report_of_a_distrusted_robot_until_it_is_old() {
+        let is_reported = |failures, confidence, after_s| x_m(failures, confidence, after_s) > 25.0;
+        assert!(is_reported(0, 1.0, 1.0) && !is_reported(8, 1.0, 1.0));
+        assert!(!is_reported(0, 0.5, 1.0));
+        assert!(is_reported(8, 1.0, 10.0) && is_reported(0, 0.5, 10.0));
+        assert!(!is_reported(0, f64::NAN, 10.0) && !is_reported(0, 2.0, 10.0));
     }
 }

@@ -21,7 +21,7 @@ impl Controller {
     pub(super) fn sense(&mut self, percept: &Percept) {
         for (id, at) in seen(percept) {
             let is_new = self.picture.get(id).is_none();
-            self.picture.see(id, at, self.now_s);
+            self.picture.see(id, at, 1.0, self.now_s);
             if is_new && self.settings.is_robot(id, self.own) {
                 self.send(id, Dispatch::Query {});
             }

@@ -25,21 +25,24 @@ impl Controller {
         }
         if self.settings.is_robot(from, self.own) {
             self.receive_of_robot(from, dispatch, received.message.confidence);
-        } else {
-            self.receive_of_controller(from, dispatch, percept);
+        } else if self.settings.is_other_controller(from, self.own) {
+            self.receive_of_controller(received, dispatch, percept);
         }
     }
 
     fn receive_of_robot(&mut self, from: RobotId, dispatch: Dispatch, confidence: f64) {
         match dispatch {
-            Dispatch::Report(report) => self.take_report(from, &report),
+            Dispatch::Report(report) => self.take_report(from, &report, confidence),
             Dispatch::Bid(bid) => self.take_bid(from, bid, confidence),
             Dispatch::Commit(claim) => self.take_commitment(from, claim),
             Dispatch::Refuse(refusal) => self.take_refusal(from, refusal),
             Dispatch::Done(claim) => self.take_done(from, claim),
             Dispatch::Stuck(refusal) => self.take_stuck(from, refusal),
-            Dispatch::Fitness(fitness) if fitness.verdict == Verdict::Approaching => {
-                self.is_approaching(from, fitness.goal, fitness.remaining_s.into());
+            Dispatch::Fitness(fitness) => {
+                self.note_progress(from, &fitness);
+                if fitness.verdict == Verdict::Approaching {
+                    self.is_approaching(from, fitness.goal, fitness.remaining_s.into());
+                }
             }
             Dispatch::Release(claim) => self.take_release(from, claim),
             Dispatch::Renew(renewal) => self.renew_services(from, renewal),
@@ -58,9 +61,9 @@ impl Controller {
         }
     }
 
-    fn take_report(&mut self, from: RobotId, report: &Report) {
+    fn take_report(&mut self, from: RobotId, report: &Report, confidence: f64) {
         self.note_robot(from);
-        self.picture.report(from, report, self.now_s);
+        self.picture.report(from, report, confidence, self.now_s);
     }
 
     /// A bid counts if its goal is on offer under the number of the bid. If it is not, the robot is to
@@ -103,6 +106,7 @@ impl Controller {
         if let Some(assigned) = own.filter(|assigned| !assigned.is_committed) {
             assigned.is_committed = true;
             self.close_offer(claim.goal);
+            self.report_assignees(claim.goal);
         }
     }
 
@@ -115,9 +119,10 @@ impl Controller {
         let now_s = self.now_s;
         if reason == Reason::Full {
             self.picture.is_full(from, now_s);
+            self.displace(from, goal);
         }
         let claim = Claim { goal, number };
-        if self.services.refuse(from, claim).is_some() {
+        if self.services.release(from, claim).is_some() {
             self.reopen(claim);
         }
         let is_unable = reason != Reason::Lease && reason != Reason::Full;
@@ -129,18 +134,21 @@ impl Controller {
     fn take_release(&mut self, from: RobotId, claim: Claim) {
         if self.services.release(from, claim).is_some() {
             self.reopen(claim);
+            self.call_reserved(from);
         }
     }
 
-    /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the awards
-    /// of the previous owner are unknown.
+    /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the previous
+    /// owner has reported its awards; a robot of which no such message arrived has served it in vain.
     fn take_done(&mut self, from: RobotId, claim: Claim) {
         let now_s = self.now_s;
         self.restore_orphan(from, claim.goal);
         let Some(owned) = self.goal_mut(claim.goal) else {
             return;
         };
-        if !owned.is_done && !owned.assignees.contains(&from) && owned.origin.is_none() {
+        if !owned.is_done && !owned.assignees.contains(&from) {
+            // It does not bid for what it has served.
+            owned.decline(from, now_s + DECLINED_S, Reason::Lease);
             return;
         }
         if !owned.is_done {
@@ -177,15 +185,23 @@ impl Controller {
         self.send(from, answer);
     }
 
-    fn receive_of_controller(&mut self, from: RobotId, dispatch: Dispatch, percept: &Percept) {
+    fn receive_of_controller(
+        &mut self,
+        received: &ReceivedMessage,
+        dispatch: Dispatch,
+        percept: &Percept,
+    ) {
+        let from = received.from;
         match dispatch {
             Dispatch::Serial(serial) => self.colleagues.note(from, serial, self.now_s),
             Dispatch::Seen(seen) => {
                 let at = Point::from(seen.at_m.map(f64::from));
-                self.picture.see(seen.robot, at, self.now_s);
+                self.picture
+                    .see(seen.robot, at, received.message.confidence, self.now_s);
             }
             Dispatch::Entrust(task) => self.take_entrusted(from, task, percept),
             Dispatch::Entrusted(answer) => self.take_answer(from, answer),
+            Dispatch::Assigned(assignment) => self.take_assignment(from, assignment),
             Dispatch::Bind(binding) => self.take_binding(from, binding),
             Dispatch::Renew(renewal) => self.renew_estates(from, renewal),
             Dispatch::RenewOne(claim) => self.renew_estate(from, claim),

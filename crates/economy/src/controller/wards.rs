@@ -1,10 +1,11 @@
 //! Goals of lost owners: those of which a controller is the heir, and those that it has lost itself.
 
 use super::owned::Owned;
+use alloc::vec::Vec;
 use brain::{RobotId, Task};
 
 /// A goal of another controller, of which this one is the heir.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Ward {
     pub(super) task: Task,
     pub(super) due_at_s: f64,
@@ -14,6 +15,23 @@ pub(super) struct Ward {
     pub(super) is_bound: bool,
     /// How long the owner's service leases can last after its own lease.
     pub(super) service_wait_s: f64,
+    /// The robots that the owner has awarded it to, as far as its messages arrived.
+    pub(super) assignees: Vec<RobotId>,
+}
+
+impl Ward {
+    /// A goal whose owner is not bound yet.
+    pub(super) fn new(task: Task, due_at_s: f64, owner: RobotId, number: u32) -> Self {
+        Self {
+            task,
+            due_at_s,
+            owner,
+            number,
+            is_bound: false,
+            service_wait_s: 0.0,
+            assignees: Vec::new(),
+        }
+    }
 }
 
 base::hashed!(Ward {
@@ -22,7 +40,8 @@ base::hashed!(Ward {
     owner,
     number,
     is_bound,
-    service_wait_s
+    service_wait_s,
+    assignees
 });
 
 /// A goal that a controller owned until its lease ended.

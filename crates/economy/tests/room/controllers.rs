@@ -30,7 +30,6 @@ fn the_best_bid_wins_and_a_refusal_or_release_offers_the_goal_again() {
     for answer in [
         Dispatch::Refuse(refusal(7, Reason::Full)),
         Dispatch::Release(claim(7)),
-        Dispatch::Release(claim(9)),
     ] {
         let mut owner = awarder();
         assert_eq!(assignee_of(&owner), Some(ROBOT));
@@ -43,6 +42,19 @@ fn the_best_bid_wins_and_a_refusal_or_release_offers_the_goal_again() {
             Dispatch::Call { number: 1, .. }
         )));
     }
+}
+
+#[test]
+fn a_release_names_its_lease_and_one_of_another_lease_has_no_effect() {
+    let mut owner = awarder();
+    for number in 8..3000 {
+        owner.take(ROBOT, Dispatch::RenewOne(claim(number)));
+    }
+    owner.take(ROBOT, Dispatch::Release(claim(6)));
+    owner.take(ROBOT, Dispatch::Release(claim(2999)));
+    assert_eq!(assignee_of(&owner), Some(ROBOT));
+    owner.take(ROBOT, Dispatch::Release(claim(7)));
+    assert_eq!(assignee_of(&owner), None);
 }
 
 #[test]

@@ -1,9 +1,73 @@
 //! The effect of each message between controllers.
 
-use crate::hand::{HEIR, Hand, OWNER, TASK, claim, controller, sent_any};
+use crate::hand::{
+    HEIR, Hand, OTHER, OWNER, ROBOT, TASK, awarder, bid_of, claim, controller, sent_any,
+};
 use crate::team::{goal_id, station_id};
-use brain::{Award, Dispatch, RobotId};
-use economy::Controller;
+use brain::{Assignment, Award, Dispatch, RobotId};
+use economy::{Controller, Settings};
+use std::sync::Arc;
+
+/// An heir that has inherited the goal, after messages of its owner.
+fn inheritor(reports: &[Dispatch]) -> Hand<Controller> {
+    let mut heir = controller(HEIR);
+    let sent = heir.take(OWNER, Dispatch::Entrust(TASK));
+    let number = sent.iter().find_map(|(_, sent)| match sent {
+        Dispatch::Entrusted(award) => Some(award.number),
+        _ => None,
+    });
+    let binding = Award {
+        goal: goal_id(0),
+        number: number.unwrap(),
+        lease_s: 20.0,
+    };
+    heir.take(OWNER, Dispatch::Bind(binding));
+    for report in reports {
+        heir.take(OWNER, *report);
+    }
+    heir.wait(31.0);
+    assert_eq!(heir.agent.goals().count(), 1);
+    heir
+}
+
+fn assigned(robot: RobotId) -> Dispatch {
+    let goal = goal_id(0);
+    Dispatch::Assigned(Assignment { goal, robot })
+}
+
+#[test]
+fn an_inherited_goal_is_done_only_by_a_robot_to_which_the_owner_has_awarded_it() {
+    let mut heir = inheritor(&[assigned(ROBOT)]);
+    // A robot cannot vouch for itself.
+    heir.take(OTHER, assigned(OTHER));
+    heir.take(OTHER, Dispatch::Done(claim(7)));
+    assert_eq!(heir.agent.done().count(), 0);
+    let sent = heir.take(ROBOT, Dispatch::Done(claim(7)));
+    assert!(heir.agent.done().eq([goal_id(0)]));
+    assert!(sent.contains(&(ROBOT, Dispatch::Withdraw(claim(7)))));
+    // If the messages of the owner were lost, the goal is awarded again.
+    let mut heir = inheritor(&[]);
+    heir.take(ROBOT, Dispatch::Done(claim(7)));
+    assert_eq!(heir.agent.done().count(), 0);
+    heir.take(OWNER, assigned(ROBOT));
+    heir.take(ROBOT, Dispatch::Done(claim(7)));
+    assert_eq!(heir.agent.done().count(), 1);
+}
+
+#[test]
+fn an_owner_reports_each_award_to_its_heir() {
+    let report = (HEIR, assigned(ROBOT));
+    let mut owner = bound();
+    owner.take(ROBOT, bid_of(7));
+    assert!(owner.wait(2.0).contains(&report));
+    let sent = owner.take(ROBOT, Dispatch::Commit(claim(7)));
+    assert!(sent.contains(&report));
+    // An heir that is named after the award knows of it, too.
+    let mut late = awarder();
+    late.take(HEIR, Dispatch::Serial(9));
+    late.take(HEIR, entrusted(5));
+    assert!(late.take(HEIR, entrusted(5)).contains(&report));
+}
 
 /// An owner that is bound to its heir.
 fn bound() -> Hand<Controller> {
@@ -45,6 +109,33 @@ fn an_owner_without_an_answer_of_its_heir_loses_the_goal_and_one_that_is_relieve
     relieved.take(HEIR, Dispatch::Relieved(relief.unwrap()));
     relieved.wait(40.0);
     assert_eq!(relieved.agent.goals().count(), 1);
+}
+
+#[test]
+fn an_answer_with_an_absurd_lease_or_of_no_controller_makes_no_heir() {
+    for lease_s in [1e-6, 2.9, -1.0, 1e9, f32::NAN, f32::INFINITY] {
+        let mut owner = controller(OWNER);
+        owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+        owner.take(HEIR, Dispatch::Serial(9));
+        let answer = Award {
+            goal: goal_id(0),
+            number: 5,
+            lease_s,
+        };
+        let sent = owner.take(HEIR, Dispatch::Entrusted(answer));
+        assert!(!sent_any(&sent, |sent| matches!(sent, Dispatch::Bind(_))));
+        owner.wait(60.0);
+        assert_eq!(owner.agent.goals().count(), 1, "{lease_s}");
+    }
+    for from in [RobotId::OPERATOR, RobotId::EVERYONE, ROBOT, OWNER] {
+        let mut owner = controller(OWNER);
+        owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+        let sent = owner.take(from, Dispatch::Serial(u32::MAX));
+        assert!(!sent_any(&sent, |sent| matches!(
+            sent,
+            Dispatch::Entrust(_)
+        )));
+    }
 }
 
 #[test]
@@ -119,4 +210,24 @@ fn a_returned_goal_is_owned_again_when_the_heir_grants_it() {
     assert_eq!(owner.agent.goals().count(), 0);
     owner.take(HEIR, entrusted(number.unwrap()));
     assert_eq!(owner.agent.goals().count(), 1);
+}
+
+#[test]
+fn a_controller_that_restarts_takes_no_goal_back_for_the_longest_lease() {
+    let mut owner = controller(OWNER);
+    owner.agent = Controller::restarted(Arc::new(Settings {
+        max_drift: 0.0,
+        ..Settings::default()
+    }));
+    let is_bind = |sent: &Dispatch| matches!(sent, Dispatch::Bind(_));
+    owner.wait(1.0);
+    assert!(!sent_any(
+        &owner.take(HEIR, Dispatch::Restore(TASK)),
+        is_bind
+    ));
+    owner.wait(30.0);
+    assert!(sent_any(
+        &owner.take(HEIR, Dispatch::Restore(TASK)),
+        is_bind
+    ));
 }

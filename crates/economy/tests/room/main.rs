@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, clippy::expect_used, reason = "tests may panic")]
 
 mod controllers;
+mod displacement;
 mod hand;
 mod heirs;
 mod missions;

@@ -76,6 +76,22 @@ fn a_withdrawal_ends_the_service_and_is_answered_by_a_release() {
 }
 
 #[test]
+fn a_release_has_the_number_of_the_award_also_after_renewals() {
+    let (mut robot, number) = assignee();
+    let sent = robot.wait(8.0);
+    let renewal = sent.iter().rev().find_map(|(_, sent)| match sent {
+        Dispatch::Renew(renewal) => Some(renewal.number),
+        _ => None,
+    });
+    robot.take(OWNER, Dispatch::Renewed(renewal.unwrap()));
+    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(number)));
+    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(number)))));
+    // A robot that never held the lease answers with the number of the withdrawal.
+    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(99)));
+    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(99)))));
+}
+
+#[test]
 fn a_withdrawal_to_all_ends_the_offer_and_not_the_service() {
     let mut bidder = robot();
     bidder.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
@@ -122,6 +138,35 @@ fn leases_that_differ_are_renewed_one_by_one() {
     robot.take(OWNER, Dispatch::RenewedOne(one.unwrap()));
     robot.wait(14.0);
     assert_eq!(robot.agent.served_goals().len(), 1);
+}
+
+#[test]
+fn a_robot_out_of_service_returns_its_goals_and_bids_again_when_it_is_back() {
+    let (mut robot, number) = assignee();
+    // Only the operator decides that.
+    robot.take(OWNER, Dispatch::Service(false));
+    robot.take(OTHER, Dispatch::Service(false));
+    assert_eq!(robot.agent.served_goals().len(), 1);
+    let sent = robot.take(RobotId::OPERATOR, Dispatch::Service(false));
+    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(number)))));
+    assert_eq!(robot.agent.served_goals().len(), 0);
+    let sent = robot.take(OWNER, CALL);
+    let refused = Dispatch::Refuse(refusal(4, Reason::OutOfService));
+    assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
+    assert_eq!(bid(&robot.wait(6.0)), None);
+    robot.take(RobotId::OPERATOR, Dispatch::Service(true));
+    assert!(bid(&robot.wait(6.0)).is_some());
+}
+
+#[test]
+fn an_award_that_arrives_out_of_service_is_refused() {
+    let mut robot = robot();
+    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let number = bid(&sent).unwrap().number;
+    robot.take(RobotId::OPERATOR, Dispatch::Service(false));
+    let sent = robot.take(OWNER, award(number));
+    let refused = Dispatch::Refuse(refusal(number, Reason::OutOfService));
+    assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
 }
 
 #[test]

@@ -69,6 +69,11 @@ pub struct RobotSpec {
     /// broken when their index is removed. Others than those of the team have no effect.
     #[serde(default)]
     pub failed: Vec<u32>,
+    /// Indices of robots that are out of service: from the start, or from when this changes in a run. They
+    /// return the goals that controllers awarded to them, and bid for none until their index is removed.
+    /// Others than those of the team have no effect.
+    #[serde(default)]
+    pub out_of_service: Vec<u32>,
     /// The sensors, each under a name of your choice.
     #[serde(default)]
     pub sensors: BTreeMap<String, SensorSpec>,

@@ -32,7 +32,7 @@ impl GoalMoment<'_> {
     #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
     pub(super) fn is_long_enough(&self, goal: &Goal, steps: u64) -> bool {
         let needed = self.scenario.goals[usize::from(goal.kind)].service_steps;
-        (steps + 1) as f64 >= needed as f64 * (1.0 - self.scenario.clocks.max_drift)
+        steps as f64 >= needed as f64 * (1.0 - self.scenario.clocks.max_drift)
     }
 
     /// Whether a goal has expired.

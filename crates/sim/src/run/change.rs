@@ -52,6 +52,7 @@ impl State {
         }
         next.keep_controllers(self, to, &old_controllers, &ids);
         next.fail_named(to);
+        next.change_service((self, from), to, &old);
         next.make_room(to, &starts)?;
         let kept = next.keep_items(self, from, to)?;
         let removed = removed(self, &old);

@@ -9,6 +9,7 @@ mod failing;
 mod goals;
 pub(crate) mod participant;
 pub(crate) mod placing;
+mod service;
 pub(crate) mod snapshot;
 pub(crate) mod state;
 mod state_hash;

@@ -120,7 +120,9 @@ impl Participant {
 
     /// Renumbers the senders of its messages; those of participants that were removed are dropped.
     pub(crate) fn renumber(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
-        let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
+        let renumber = |id: &mut RobotId| {
+            *id == RobotId::OPERATOR || numbers.get(id).map(|now| *id = *now).is_some()
+        };
         let inbox = &mut self.inbox.entries;
         inbox.retain_mut(|late| renumber(&mut late.what.from));
     }

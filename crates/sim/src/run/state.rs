@@ -74,6 +74,7 @@ impl State {
         state.place_robots(scenario)?;
         state.controllers = place_controllers(scenario, (seed, run), &state.ids)?;
         state.fail_named(scenario);
+        state.order_service(scenario);
         Ok(state)
     }
 

@@ -5,6 +5,7 @@ use brain::RobotId;
 use sim::judge::GoalOutcome;
 use sim::run::Goal;
 use sim::simulation::Simulation;
+use std::collections::BTreeMap;
 
 /// Three robots in a yard, of which two have an arm, and a controller with nine goals.
 const YARD: &str = r#"
@@ -69,6 +70,55 @@ fn robots_stay_for_the_time_of_service() {
     assert!((4.6..8.0).contains(&outcome.service_s), "{outcome:?}");
 }
 
+/// The times in seconds for which the robots that served the goals had been there, by their true
+/// positions, and an outcome.
+fn stays_s(text: &str) -> (Vec<f64>, GoalOutcome) {
+    let mut simulation = Simulation::new(scenario(text), 1, 0).unwrap();
+    let goals = |simulation: &Simulation| -> Vec<Goal> {
+        let goals = simulation.state().each_goal(simulation.scenario());
+        goals.collect()
+    };
+    let mut arrived_s: BTreeMap<(usize, RobotId), f64> = BTreeMap::new();
+    let mut stays_s: BTreeMap<usize, f64> = BTreeMap::new();
+    while stays_s.len() < 9 && simulation.time_s() < 300.0 {
+        simulation.step();
+        // The position at which the robots decided, which is that before the next motion.
+        for (number, goal) in goals(&simulation).iter().enumerate() {
+            let now_s = simulation.time_s();
+            if let Some(since_s) = goal.served_by.and_then(|by| arrived_s.get(&(number, by))) {
+                stays_s.entry(number).or_insert(now_s - since_s);
+            }
+            for robot in simulation.state().each_robot(simulation.scenario()) {
+                if robot.at.to(goal.at).length() > 1.05 {
+                    arrived_s.remove(&(number, robot.id));
+                } else {
+                    arrived_s.entry((number, robot.id)).or_insert(now_s);
+                }
+            }
+        }
+    }
+    let outcome = simulation.outcome().goals.unwrap();
+    (stays_s.into_values().collect(), outcome)
+}
+
+#[test]
+fn a_service_takes_its_time_and_at_most_two_steps_more() {
+    for service_s in [0.2, 1.0, 2.0, 5.0] {
+        let text = YARD.replace(
+            "within_m = 1\n",
+            &format!("within_m = 1\nservice_s = {service_s}\n"),
+        );
+        let text = text.replace("noise_m = 0.1", "noise_m = 0");
+        let (stays_s, outcome) = stays_s(&text);
+        assert_eq!(stays_s.len(), 9);
+        for stay_s in stays_s {
+            let is_right = stay_s > service_s - 1e-6 && stay_s < service_s + 0.4 + 1e-6;
+            assert!(is_right, "{stay_s} of {service_s}");
+        }
+        assert!((outcome.service_s - service_s).abs() < 0.4, "{outcome:?}");
+    }
+}
+
 #[test]
 fn a_robot_that_is_at_the_goal_already_serves_it() {
     let text = YARD
@@ -103,6 +153,45 @@ fn only_robots_with_the_capability_serve_a_goal() {
             .iter()
             .all(|goal| goal.served_by.is_some_and(|id| id.kind == 0))
     );
+}
+
+const SPOTS: &str = "placement = { kind = \"fixed\", at_m = [[5, 5], [50, 8], [12, 50], [30, 35], [55, 55], [8, 30], [40, 20], [20, 15], [33, 56]] }";
+
+#[test]
+fn a_stationary_machine_owns_and_serves_the_goals_at_which_it_stands() {
+    let text = YARD
+        .replace("max_speed_m_s = 2", "max_speed_m_s = 0")
+        .replace(
+            "start = { kind = \"fixed\", at_m = [[30, 30]] }",
+            "aboard = \"eye\"",
+        )
+        .replace("within_m = 1\n", "within_m = 1\nservice_s = 2\n")
+        .replace("count = 9", "count = 4")
+        .replace(
+            SPOTS,
+            "placement = { kind = \"fixed\", at_m = [[28.5, 30], [30, 27.5], [32, 30], [40, 40]] }",
+        );
+    let (goals, outcome) = finished(&text);
+    assert_eq!((outcome.served, outcome.served_twice), (3, 0), "{goals:?}");
+    let by = |goal: &Goal| goal.served_by.map(|id| (id.kind, id.index));
+    let served: Vec<_> = goals.iter().map(by).collect();
+    assert_eq!(served, [Some((0, 0)), Some((1, 0)), Some((0, 1)), None]);
+    assert_eq!(goals[3].awarded_s, None);
+}
+
+#[test]
+fn an_area_that_lies_half_beyond_the_border_is_searched_and_finished() {
+    for at_m in ["[0, 30]", "[30, 59.9]", "[60, 60]"] {
+        let text = YARD
+            .replace("within_m = 1\n", "within_m = 6\nwork = \"search\"\n")
+            .replace("count = 9", "count = 1")
+            .replace(
+                SPOTS,
+                &format!("placement = {{ kind = \"fixed\", at_m = [{at_m}] }}"),
+            );
+        let (_, outcome) = finished(&text);
+        assert_eq!(outcome.served, 1, "{at_m}");
+    }
 }
 
 #[test]

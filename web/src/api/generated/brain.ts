@@ -3,6 +3,14 @@
 /** The content of a message. */
 export type About = { item: { kind: number; at: Point; provenance: Provenance } } | { sender: { at: Point; heading_rad: number; observations: number } } | { goal: { id: GoalId; at: Point; status: CommitmentStatus } } | { order: { goal: GoalId; at: Point; action: OrderAction } } | { dispatch: Dispatch };
 
+/** A robot that has been awarded a goal. */
+export interface Assignment {
+  /** The goal. */
+  goal: GoalId;
+  /** The robot. */
+  robot: RobotId;
+}
+
 /** The award of a goal, or the grant of its ownership. */
 export interface Award {
   /** The goal. */
@@ -103,7 +111,7 @@ export interface Contact {
 }
 
 /** A message about a goal that a controller owns or awards. */
-export type Dispatch = { issue: Task } | { serial: number } | { query: Record<string, never> } | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { restore: Task } | { bind: Award };
+export type Dispatch = { issue: Task } | { serial: number } | { query: Record<string, never> } | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { restore: Task } | { bind: Award } | { assigned: Assignment } | { service: boolean };
 
 /** The progress of a robot towards a goal. */
 export interface Fitness {

@@ -1,0 +1,128 @@
+//! A valuable goal that waits because all robots are full displaces one of at most half its value.
+//!
+//! The controller calls the robot with the least valuable such goal alone. If it answers that it is
+//! full, and so could serve the goal otherwise, its less valuable goal is withdrawn and on offer again,
+//! and it is awarded no other before the valuable one. Each displacement at least doubles the value
+//! of what the robot serves, so goals do not move back and forth.
+
+use super::Controller;
+use super::owned::{Assigned, Owned, Reservation};
+use super::picture::Robot;
+use brain::{Fitness, GoalId, RobotId};
+
+/// For this time, in seconds, the robot is reserved for the valuable goal, which displaces no other
+/// for as long again and more.
+const RESERVED_S: f64 = 10.0;
+const REST_S: f64 = 60.0;
+
+/// Robots report in this period, in seconds: until the next report, one may begin its service.
+const REPORT_PERIOD_S: f64 = 3.0;
+
+impl Controller {
+    /// Calls robots that may give up a goal for one that waits.
+    pub(super) fn call_full_robots(&mut self) {
+        if !self.may_grant() {
+            return;
+        }
+        for index in 0..self.goals.len() {
+            let goal = self.goals[index].task.id;
+            if let Some(robot) = self.waits_for(index) {
+                self.call_to(goal, robot);
+            }
+        }
+    }
+
+    /// A robot answers that it could serve a goal if it were not full.
+    pub(super) fn displace(&mut self, robot: RobotId, goal: GoalId) {
+        let mut goals = self.goals.iter();
+        let index = goals.position(|owned| owned.task.id == goal);
+        let Some(index) = index.filter(|index| self.waits_for(*index) == Some(robot)) else {
+            return;
+        };
+        let Some(displaced) = self.displaceable(index, robot).map(|owned| owned.task.id) else {
+            return;
+        };
+        let until_s = self.now_s + RESERVED_S;
+        self.goals[index].reserved = Some(Reservation { robot, until_s });
+        self.withdraw(displaced);
+    }
+
+    /// Calls a robot that has released a goal for the goal that displaced it.
+    pub(super) fn call_reserved(&mut self, robot: RobotId) {
+        let now_s = self.now_s;
+        let mut goals = self.goals.iter_mut();
+        let waiting = goals.find(|owned| {
+            let reserved = owned.reserved.filter(|reserved| reserved.robot == robot);
+            owned.is_on_offer(now_s) && reserved.is_some_and(|reserved| now_s < reserved.until_s)
+        });
+        if let Some(owned) = waiting {
+            owned.next_probe_s = now_s;
+            let goal = owned.task.id;
+            self.call_to(goal, robot);
+        }
+    }
+
+    /// Whether a robot is reserved for another goal than this one.
+    pub(super) fn is_reserved(&self, robot: RobotId, goal: GoalId) -> bool {
+        let mut waiting = self.goals.iter().filter(|owned| {
+            let is_due =
+                |reserved: Reservation| reserved.robot == robot && self.now_s < reserved.until_s;
+            owned.is_on_offer(self.now_s) && owned.reserved.is_some_and(is_due)
+        });
+        waiting.any(|owned| owned.task.id != goal)
+    }
+
+    /// Notes when a robot begins the service of a goal.
+    pub(super) fn note_progress(&mut self, robot: RobotId, fitness: &Fitness) {
+        let now_s = self.now_s;
+        let speed_m_s = self.picture.get(robot).map_or(1.0, |robot| robot.speed_m_s);
+        let Some(owned) = self.goal_mut(fitness.goal) else {
+            return;
+        };
+        let work_s = f64::from(owned.task.service_s) + f64::from(owned.task.radius_m) / speed_m_s;
+        let assigned = owned.assigned.as_mut();
+        if let Some(assigned) = assigned.filter(|assigned| assigned.robot == robot) {
+            assigned.there_s = now_s + f64::from(fitness.remaining_s) - work_s;
+        }
+    }
+
+    /// The robot that serves the least valuable goal which a waiting one can displace. It waits if all
+    /// robots that have not declined it are full.
+    fn waits_for(&self, index: usize) -> Option<RobotId> {
+        let (owned, now_s) = (&self.goals[index], self.now_s);
+        let is_ripe = |called_s: f64| now_s >= called_s + self.settings.auction_s;
+        let has_rested = |reserved: Reservation| now_s >= reserved.until_s + REST_S;
+        let waits = owned.assigned.is_none()
+            && owned.is_on_offer(now_s)
+            && owned.called_s.is_some_and(is_ripe)
+            && owned.reserved.is_none_or(has_rested)
+            && !self
+                .bids
+                .iter()
+                .any(|standing| standing.bid.goal == owned.task.id);
+        let is_willing = |robot: &&Robot| !owned.is_declined_by(robot.id, now_s);
+        let mut willing = self.picture.present().filter(is_willing);
+        if !waits || willing.any(|robot| robot.payload > 0) {
+            return None;
+        }
+        let willing = self.picture.present().filter(is_willing);
+        let displaceable = willing.filter_map(|robot| self.displaceable(index, robot.id));
+        let least = displaceable.min_by(|one, other| one.task.value.total_cmp(&other.task.value));
+        Some(least?.assigned?.robot)
+    }
+
+    /// The least valuable goal of a robot that a waiting one can displace.
+    fn displaceable(&self, index: usize, robot: RobotId) -> Option<&Owned> {
+        let value = self.goals[index].task.value;
+        let can_stop = |assigned: Assigned| {
+            let is_kept = assigned.is_committed && !assigned.is_withdrawn;
+            let is_away = self.now_s + REPORT_PERIOD_S < assigned.there_s;
+            assigned.robot == robot && is_kept && is_away
+        };
+        let goals = self.goals.iter().filter(|owned| {
+            let is_less = owned.task.value <= value / 2.0 && owned.task.value < value;
+            is_less && !owned.is_done && owned.assigned.is_some_and(can_stop)
+        });
+        goals.min_by(|one, other| one.task.value.total_cmp(&other.task.value))
+    }
+}

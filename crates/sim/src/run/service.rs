@@ -1,0 +1,49 @@
+//! Robots that a person takes out of service, or puts back into it.
+
+use super::state::State;
+use crate::scenario::Scenario;
+use brain::{About, Dispatch, Message, ReceivedMessage, RobotId};
+
+impl State {
+    /// Orders the robots out of service that the scenario names.
+    pub(super) fn order_service(&mut self, scenario: &Scenario) {
+        for robot in 0..self.robots() {
+            if is_out(scenario, self.ids[robot]) {
+                self.set_service(robot, false);
+            }
+        }
+    }
+
+    /// Orders robots that stay, each from its `old` number, out of service or back into it.
+    pub(super) fn change_service(
+        &mut self,
+        (before, from): (&Self, &Scenario),
+        to: &Scenario,
+        old: &[Option<usize>],
+    ) {
+        for (robot, was) in old.iter().enumerate() {
+            let is_out_now = is_out(to, self.ids[robot]);
+            let was_out = was.map(|was| is_out(from, before.ids[was]));
+            if was_out.is_some_and(|was_out| was_out != is_out_now) {
+                self.set_service(robot, !is_out_now);
+            }
+        }
+    }
+
+    /// A person's order reaches a robot that has a radio.
+    fn set_service(&mut self, robot: usize, is_in: bool) {
+        let (id, now) = (self.ids[robot], self.tick);
+        if let Some(participant) = &mut self.agents[robot].inputs.participant {
+            let order = ReceivedMessage {
+                from: RobotId::OPERATOR,
+                age_s: 0.0,
+                message: Message::to(id, About::Dispatch(Dispatch::Service(is_in))),
+            };
+            participant.receive_order(order, now);
+        }
+    }
+}
+
+fn is_out(scenario: &Scenario, id: RobotId) -> bool {
+    scenario.kind_of(id).out_of_service.contains(&id.index)
+}
