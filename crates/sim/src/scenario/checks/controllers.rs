@@ -17,6 +17,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         .flat_map(|(name, kind)| {
             let at = at.key("controllers").key(name);
             let mut errors = of_carriers(kind, spec, &at);
+            errors.extend(of_radio(&kind.radio, &at.key("radio")));
             errors.extend(of_leases(kind, spec, &at));
             errors.extend(of_services(name, spec, &at));
             errors
@@ -44,6 +45,20 @@ fn of_carriers(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<In
             errors.push(at.key("count").error(allowed));
         }
         Some(_) => {}
+    }
+    errors
+}
+
+/// A radio over which a controller reaches nobody: messages are all that it has.
+fn of_radio(radio: &RadioSpec, at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
+    if radio.range_m == 0.0 {
+        let allowed = "above 0: a controller acts only through messages";
+        errors.push(at.key("range_m").error(allowed));
+    }
+    if radio.messages_per_step == 0 {
+        let allowed = "at least 1: a controller acts only through messages";
+        errors.push(at.key("messages_per_step").error(allowed));
     }
     errors
 }
