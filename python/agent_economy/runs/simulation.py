@@ -323,8 +323,9 @@ class Simulation(Stepped):
 
         Args:
             path: Keys from the root, separated by dots, such as "robots.rover.count". Not allowed:
-                `clock.step_s`, `clock.max_offset_s`, `clock.max_drift`, `world.size_m` and
-                `world.periodic`.
+                `clock.step_s`, `clock.max_offset_s`, `clock.max_drift`, `world.size_m`,
+                `world.periodic`, the positions of goals and controllers that exist, and what
+                controllers know of goals that have been issued, such as `goals.NAME.value`.
             value: The new value, as in the file.
 
         Raises:

@@ -49,7 +49,7 @@ fn of_carriers(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<In
     errors
 }
 
-/// A radio over which a controller reaches nobody: messages are all that it has.
+/// A radio over which a controller reaches no other agent: messages are all that it has.
 fn of_radio(radio: &RadioSpec, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
     if radio.range_m == 0.0 {

@@ -3,6 +3,7 @@
 mod battery;
 mod change;
 mod change_pending;
+mod changes_of_economy;
 mod collision_warnings;
 mod collisions;
 mod contact;
