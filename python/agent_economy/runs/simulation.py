@@ -466,7 +466,8 @@ class Simulation(Stepped):
         `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
         `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
         `blocked_s` (time for which it stood under way), `served_by` (empty if it was not served),
-        `served_twice` and `expired`.
+        `served_twice`, `expired` and `unserved` (why no robot can serve it, as a controller last
+        reported; empty if none did or it was served).
         """
         goals: dict[str, Any] = _core.goals(self._run)
         return arrow.table(
