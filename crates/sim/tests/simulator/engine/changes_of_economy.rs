@@ -93,13 +93,18 @@ fn has_effect(to: Arc<Scenario>) -> bool {
 }
 
 /// Keys with a value that changes the outcome.
-const EFFECTIVE: [(&str, &str, &str); 17] = [
+const EFFECTIVE: [(&str, &str, &str); 18] = [
     ("controllers.base", "count", "3"),
     ("controllers.base", "aboard", "\"bird\""),
     ("controllers.base.radio", "range_m", "5"),
     ("controllers.base.radio", "loss_probability", "0.9"),
     ("controllers.base.radio", "delay_s", "1.5"),
     ("controllers.base.radio", "messages_per_step", "1"),
+    (
+        "controllers.base",
+        "sensors",
+        "{ eye = { kind = \"robots\", range_m = 60 } }",
+    ),
     ("controllers.base", "price", "7"),
     ("controllers.base", "mean_time_between_failures_s", "2"),
     ("controllers.base", "failed", "[0]"),

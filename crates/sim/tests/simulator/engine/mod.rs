@@ -7,6 +7,7 @@ mod changes_of_economy;
 mod collision_warnings;
 mod collisions;
 mod contact;
+mod controller_sensors;
 mod controllers;
 mod correct;
 mod dead_end;

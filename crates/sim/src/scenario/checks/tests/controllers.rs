@@ -129,3 +129,31 @@ fn controllers_have_other_names_than_robots_and_free_places() {
     let few = format!("{RADIO}start = {{ kind = \"fixed\", at_m = [] }}");
     assert!(error_of(&few).contains("at least 1 places"));
 }
+
+#[test]
+fn controllers_have_detectors_of_robots_only() {
+    let sensor = |keys: &str| errors_of(&format!("{RADIO}sensors = {{ eye = {{ {keys} }} }}"));
+    assert_eq!(
+        sensor("kind = \"robots\", range_m = 9, rate_hz = 2"),
+        [""; 0]
+    );
+    assert_eq!(
+        sensor("kind = \"position\""),
+        [
+            "controllers.base.sensors.eye.kind = \"position\": must be \"robots\": controllers have no other sensors"
+        ]
+    );
+    let odd =
+        sensor("kind = \"robots\", range_m = 9, latency_s = 1, power_w = 2, rate_hz = 99").concat();
+    for error in [
+        "eye.latency_s = 1: must be 0",
+        "eye.power_w = 2: must be 0",
+        "eye.rate_hz = 99: must be at most 10",
+    ] {
+        assert!(odd.contains(error), "{odd}");
+    }
+    let aboard = error_of(&format!(
+        "{RADIO}aboard = \"rover\"\nsensors = {{ eye = {{ kind = \"robots\", range_m = 9 }} }}"
+    ));
+    assert!(aboard.contains("does not know its position"), "{aboard}");
+}
