@@ -54,6 +54,15 @@ def test_controllers_own_the_goals_that_are_not_served(scenario: ae.Scenario) ->
     )
 
 
+def test_a_robot_that_has_failed_serves_no_goals(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    for _ in range(100):
+        simulation.step()
+    robot = next(each for each in simulation.robots if simulation.served_goals(each))
+    simulation.fail(robot)
+    assert simulation.served_goals(robot) == []
+
+
 @pytest.mark.parametrize(
     ("path", "value", "expected"),
     [

@@ -200,8 +200,8 @@ class Simulation(Stepped):
             robot: Name of the robot.
 
         Returns:
-            An empty list if there are none, its brain has no behaviour `serve`, or it is a Python
-            brain.
+            An empty list if there are none, the robot has failed or has no energy, its brain has
+            no behaviour `serve`, or it is a Python brain.
 
         Raises:
             InputError: If there is no such robot.
