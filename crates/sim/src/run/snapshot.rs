@@ -78,7 +78,7 @@ impl State {
     }
 
     /// The goals of controllers that a robot serves, in its order; none if there is no such robot, or it has failed
-    /// or has no energy: the clock of its leases stands still.
+    /// or has no energy: its leases are not counted down.
     #[must_use]
     pub fn served_goals(&self, id: RobotId) -> Vec<ServedGoal> {
         let robot = self.ids.binary_search(&id).ok();

@@ -21,7 +21,7 @@ pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
         .iter()
         .filter(|(_, kind)| kind.count > 0 && !has_owner(kind, spec));
     goals
-        .filter_map(|(name, kind)| of_kind(kind, spec, &at.key("goals").key(name)))
+        .filter_map(|(name, kind)| of_goals(kind, spec, &at.key("goals").key(name)))
         .collect()
 }
 
@@ -32,7 +32,7 @@ fn has_owner(kind: &GoalSpec, spec: &ScenarioSpec) -> bool {
     owner.is_some_and(|owner| owner.count > 0)
 }
 
-fn of_kind(kind: &GoalSpec, spec: &ScenarioSpec, at: &Place) -> Option<Warning> {
+fn of_goals(kind: &GoalSpec, spec: &ScenarioSpec, at: &Place) -> Option<Warning> {
     let places: &[Point] = match &kind.placement {
         Placement::Fixed { at_m, .. } => at_m,
         _ => &[],
