@@ -132,6 +132,16 @@ def test_tables_of_goals_without_items_have_no_rows_of_items() -> None:
     assert "found" in [row["column"] for row in columns]
 
 
+def test_goals_that_no_robot_can_serve_are_printed_with_the_reason() -> None:
+    few = ("run", "waypoints", "--set", "goals.spot.count=2", "--set", "clock.time_limit_s=60")
+    silent = (*few, "--set", "robots.rover.radio.range_m=1")
+    assert succeed(*silent).stdout.count("Goal spot/1: no robot is in range.\n") == 1
+    printed = json.loads(succeed(*silent, "--json").stdout)["unserved_goals"]
+    assert printed == [{"goal": f"spot/{index}", "reason": "no_robot"} for index in range(2)]
+    assert "Goal" not in succeed(*few).stdout
+    assert json.loads(succeed(*few, "--json").stdout)["unserved_goals"] == []
+
+
 def summary(*arguments: str | Path) -> dict[str, dict[str, Any]]:
     """Return the summary of `replicate` by column, and the number of runs that it counts."""
     printed = json.loads(succeed("replicate", *arguments, "--json").stdout)

@@ -87,3 +87,24 @@ def test_too_many_configurations_are_an_error() -> None:
 def test_a_range_in_a_factorial_is_an_error() -> None:
     with pytest.raises(InputError, match="clock.paints_per_s: must be a list of values"):
         design.points([TEAM, RATE])
+
+
+BASES = Factor("controllers.base.count", (0, 1, 2))
+RULE = Factor("controllers.base.allocation", ("nearest", "auction"))
+SPEED = Factor("robots.rover.drive.max_speed_m_s", (), (1.0, 2.0))
+ROVERS = Factor("robots.rover.count", (0, 3))
+
+
+def test_without_controllers_or_robots_their_other_factors_are_one_configuration() -> None:
+    rows = [tuple(point.values()) for point in design.points([BASES, RULE])]
+    assert rows == [(0, "nearest"), (1, "nearest"), (1, "auction"), (2, "nearest"), (2, "auction")]
+    # Also where the number varies fastest, and of points that fill a space.
+    assert len(design.points([RULE, BASES])) == 5
+    points = design.points([ROVERS, SPEED], "lhs:32", seed=1)
+    assert [point[SPEED.path] for point in points if point[ROVERS.path] == 0] == [1.0]
+    assert len(points) == 17
+
+
+def test_factors_of_other_kinds_stay_where_a_kind_is_absent() -> None:
+    mast = Factor("controllers.mast.allocation", ("nearest", "auction"))
+    assert len(design.points([BASES, mast])) == 6

@@ -54,6 +54,34 @@ def test_controllers_own_the_goals_that_are_not_served(scenario: ae.Scenario) ->
     )
 
 
+def test_a_robot_that_has_failed_serves_no_goals(scenario: ae.Scenario) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    for _ in range(100):
+        simulation.step()
+    robot = next(each for each in simulation.robots if simulation.served_goals(each))
+    simulation.fail(robot)
+    assert simulation.served_goals(robot) == []
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "expected"),
+    [
+        ("goals.spot.value", 2, "goals.spot.value = 2: must be 1, as when the first of these"),
+        ("goals.spot.arrive_s", 9, "goals.spot.arrive_s = 9: must be 0: all of these goals have"),
+        ("controllers.base.start", {"kind": "uniform"}, "controllers.base.start = .*: must be as"),
+        ("goals.spot.placement", {"kind": "uniform"}, "goals.spot.placement = .*: they do not"),
+    ],
+)
+def test_changes_that_no_agent_would_notice_are_rejected(
+    scenario: ae.Scenario, path: str, value: Any, expected: str
+) -> None:
+    simulation = ae.Simulation(scenario, seed=1)
+    simulation.step()
+    with pytest.raises(ae.InputError, match=expected):
+        simulation.change(path, value)
+    assert not simulation.changes
+
+
 def test_allocation_and_number_of_controllers_change_in_mid_run(scenario: ae.Scenario) -> None:
     simulation = ae.Simulation(scenario, seed=1)
     simulation.step()

@@ -161,6 +161,7 @@ def test_controllers_come_after_robots_in_names() -> None:
     assert label(values) == "8 rovers, 1 base, allocation auction"
     assert recommendation(values) == "Send 8 rovers with 1 base, allocation auction"
     assert recommendation({BASES: 2}) == "Choose 2 bases"
+    assert label({ALLOCATION: "auction", BASES: 0, ROVERS: 8}) == "8 rovers, 0 bases"
     assert label({ALLOCATION: "none", "controllers.van.allocation": "auction"}) == (
         "controllers.base.allocation none, controllers.van.allocation auction"
     )

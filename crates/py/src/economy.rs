@@ -26,7 +26,8 @@ const NUMBERS: [(&str, NumberOf); 9] = [
 ];
 
 /// The goals of a run, by column: `name` (KIND/INDEX), `issuer` and `number` of the id, the numbers above, `served_by`,
-/// `served_twice` and `expired`. The robot of a goal that was not served is empty.
+/// `served_twice`, `expired` and `unserved`. The robot of a goal that was not served is empty, and so is `unserved` of
+/// one that no controller reported.
 #[pyfunction]
 pub(crate) fn goals<'py>(
     py: Python<'py>,
@@ -55,6 +56,11 @@ pub(crate) fn goals<'py>(
     };
     dict.set_item("served_twice", flags(|goal| goal.is_served_twice))?;
     dict.set_item("expired", flags(|goal| goal.has_expired))?;
+    let reasons = goals
+        .iter()
+        .map(|goal| goal.unserved.as_ref().and_then(word))
+        .map(Option::unwrap_or_default);
+    dict.set_item("unserved", reasons.collect::<Vec<_>>())?;
     Ok(dict)
 }
 

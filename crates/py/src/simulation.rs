@@ -261,7 +261,8 @@ impl Simulation {
     fn change(&self, py: Python, scenario: &Bound<MetricScenario>) -> PyResult<u64> {
         let mut run = self.locked(py)?;
         let to = &scenario.get().0;
-        let errors = unchangeable(run.scenario(), to);
+        let mut errors = unchangeable(run.scenario(), to);
+        errors.extend(run.state().without_effect(run.scenario(), to));
         InputErrors::or(errors, Some(())).map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run).saturating_add(to.robots() as u64);
         let changed = self.advance(py, &mut run, work, |run, _| {

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import typer
 from rich import box
@@ -16,12 +16,16 @@ from agent_economy._core import InputError
 from agent_economy.cli.errors import FAILED, error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
+from agent_economy.cli.unserved_goals import Unserved, unserved_goals
 from agent_economy.cli.whole_table import print_whole
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Scenario
+
+Ended: TypeAlias = tuple[Outcome, list[Unserved]]
+"""The outcome of a run, and the goals that no robot could serve."""
 
 
 def run(  # noqa: PLR0913  (typer's options are arguments)
@@ -71,15 +75,20 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         given = Scenario.load(scenario, overrides(sets))
         print_warnings(given.warnings)
         if record is None:
-            outcome = watched(given, seed, number)
+            outcome, unserved = watched(given, seed, number)
         else:
-            outcome = recorded(
+            outcome, unserved = recorded(
                 factory.create(given, seed, number), record, every or 1, percepts or []
             )
     if as_json:
-        typer.echo(json.dumps({"seed": seed, "status": outcome.status, **outcome.row}, indent=2))
+        document = {"seed": seed, "status": outcome.status, **outcome.row}
+        if "goals" in outcome.row:
+            document["unserved_goals"] = [each._asdict() for each in unserved]
+        typer.echo(json.dumps(document, indent=2))
     else:
         show(given, seed, outcome)
+        for each in unserved:
+            typer.echo(str(each))
 
 
 def require_record(options: Mapping[str, object]) -> None:
@@ -93,21 +102,21 @@ def require_record(options: Mapping[str, object]) -> None:
         raise InputError(message)
 
 
-def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
+def watched(scenario: Scenario, seed: int, number: int) -> Ended:
     """Run once, with a progress bar if it takes long."""
     if scenario.engine != "metric":
-        return api.run(scenario, seed, number)
+        return api.run(scenario, seed, number), []
     try:
         simulation = Simulation(scenario, seed, number)
     except InputError as no_room:
         # A run without room is quarantined, as in replicate; any other error is raised again.
         outcome = api.run(scenario, seed, number)
         typer.echo(str(no_room), err=True)
-        return outcome
+        return outcome, []
     return shown(simulation, simulation.step)
 
 
-def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
+def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> Ended:
     """Run once and record it; exit with a code if the recording cannot be written."""
     # Importing the writer doubles the start-up time.
     from agent_economy.recording import Recording, RecordingError  # noqa: PLC0415
@@ -120,13 +129,13 @@ def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str
         raise typer.Exit(FAILED) from None
 
 
-def shown(simulation: Stepped, step: Callable[[], object]) -> Outcome:
+def shown(simulation: Stepped, step: Callable[[], object]) -> Ended:
     """Step until the run is over."""
     with progress_bar(simulation.scenario.time_limit_s, "simulated seconds") as report:
         while not simulation.is_over:
             step()
             report(simulation.time_s)
-    return simulation.outcome()
+    return simulation.outcome(), unserved_goals(simulation)
 
 
 def show(scenario: Scenario, seed: int, outcome: Outcome) -> None:

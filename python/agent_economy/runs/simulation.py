@@ -200,8 +200,8 @@ class Simulation(Stepped):
             robot: Name of the robot.
 
         Returns:
-            An empty list if there are none, its brain has no behaviour `serve`, or it is a Python
-            brain.
+            An empty list if there are none, the robot has failed or has no energy, its brain has
+            no behaviour `serve`, or it is a Python brain.
 
         Raises:
             InputError: If there is no such robot.
@@ -323,8 +323,9 @@ class Simulation(Stepped):
 
         Args:
             path: Keys from the root, separated by dots, such as "robots.rover.count". Not allowed:
-                `clock.step_s`, `clock.max_offset_s`, `clock.max_drift`, `world.size_m` and
-                `world.periodic`.
+                `clock.step_s`, `clock.max_offset_s`, `clock.max_drift`, `world.size_m`,
+                `world.periodic`, the positions of goals and controllers that exist, and what
+                controllers know of goals that have been issued, such as `goals.NAME.value`.
             value: The new value, as in the file.
 
         Raises:
@@ -487,7 +488,8 @@ class Simulation(Stepped):
         `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
         `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
         `blocked_s` (time for which it stood under way), `served_by` (empty if it was not served),
-        `served_twice` and `expired`.
+        `served_twice`, `expired` and `unserved` (why no robot can serve it, as a controller last
+        reported; empty if none did or it was served).
         """
         goals: dict[str, Any] = _core.goals(self._run)
         return arrow.table(

@@ -1,7 +1,7 @@
 """The configurations of a study: full factorial, Latin hypercube or Sobol' points."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Factor, Value
+from agent_economy.study.paths import is_of_absent_kind
 
 MAX_CONFIGURATIONS = 100_000
 """Maximum number of configurations of a study."""
@@ -25,17 +26,31 @@ def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) 
         design: "factorial" (all combinations of values, the first factor varies slowest), "lhs:N"
             or "sobol:N" (N space-filling points, N a power of two for sobol), as in
             `Scenario.design`. A list of values divides its axis into equal parts, one per value;
-            points with the same values are one configuration.
+            points with the same values are one configuration. Where the number of a kind of robots
+            or controllers is 0, its other factors have no effect: they have their first values.
         seed: Seed of lhs and sobol; 0 to 2^64 - 1.
 
     Raises:
         InputError: If there are more than 100,000, or a factorial design has a range.
     """
     if design == "factorial" or not factors:
-        return factorial(factors)
-    paths = [factor.path for factor in factors]
-    rows = zip(*columns(factors, sample(design, len(factors), seed)), strict=True)
-    return [dict(zip(paths, row, strict=True)) for row in dict.fromkeys(rows)]
+        drawn = factorial(factors)
+    else:
+        paths = [factor.path for factor in factors]
+        rows = zip(*columns(factors, sample(design, len(factors), seed)), strict=True)
+        drawn = [dict(zip(paths, row, strict=True)) for row in rows]
+    distinct = {tuple(each.values()): each for each in with_absent_kinds(factors, drawn)}
+    return list(distinct.values())
+
+
+def with_absent_kinds(factors: Sequence[Factor], points: Sequence[Values]) -> Iterator[Values]:
+    """Yield points in which factors of kinds without robots or controllers have first values."""
+    first = {factor.path: (factor.range or factor.values)[0] for factor in factors}
+    for values in points:
+        yield {
+            path: first[path] if is_of_absent_kind(path, values) else value
+            for path, value in values.items()
+        }
 
 
 def describe(design: str, configurations: int) -> str:

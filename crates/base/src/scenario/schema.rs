@@ -126,15 +126,15 @@ fn study() -> Json {
             },
             "minimize": {
                 "description": "With `[require]`, what the selected configuration has least of: \
-                                `robots`, `price`, or an expression of team sizes, such as \
-                                `rover_a + 2 * rover_b`.",
+                                `robots`, `price`, or an expression of the numbers of robots and \
+                                controllers of each kind, such as `rover_a + 2 * rover_b`.",
                 "type": "string",
                 "minLength": 1,
                 "default": MINIMIZE,
             },
             "where": {
-                "description": "Which configurations to compare, as a condition on team sizes, `robots` \
-                                and `price`, such as `rover_a == 0 or rover_b == 0`. Without it, all.",
+                "description": "Which configurations to compare, as a condition on the numbers of robots \
+                                and controllers of each kind, `robots` and `price`, such as `rover_a == 0 or rover_b == 0`. Without it, all.",
                 "type": "string",
                 "minLength": 1,
             },

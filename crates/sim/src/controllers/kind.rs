@@ -2,6 +2,7 @@
 
 use super::ControllerSpec;
 use crate::radio::Radio;
+use crate::sensors::Sensor;
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
 use economy::Settings;
@@ -16,6 +17,7 @@ pub(crate) struct ControllerKind {
     pub(crate) count: u32,
     pub(crate) base: ControllerBase,
     pub(crate) radio: Radio,
+    pub(crate) sensors: Vec<Sensor>,
     pub(crate) price: f64,
     pub(crate) mean_time_between_failures_s: Option<f64>,
     pub(crate) failed: Vec<u32>,
@@ -42,7 +44,10 @@ impl ControllerKind {
         let carrier = carrier.and_then(|kind| robots.position(|known| known == kind));
         let carrier = carrier.and_then(|number| u8::try_from(number).ok());
         let placed = || ControllerBase::Placed(spec.start.clone().unwrap_or_default());
+        let sensors = spec.sensors.iter();
+        let sensors = sensors.map(|(name, spec)| Sensor::new(name, spec, &[], step_s));
         Self {
+            sensors: sensors.collect(),
             name: name.clone(),
             key: kind_key(name),
             count: spec.count,

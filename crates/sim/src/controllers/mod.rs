@@ -3,10 +3,12 @@
 pub(crate) mod kind;
 
 use crate::radio::RadioSpec;
+use crate::sensors::SensorSpec;
 use base::placement::Placement;
 use economy::{Allocation, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A kind of controller, and the number of these controllers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,6 +23,10 @@ pub struct ControllerSpec {
     pub aboard: Option<String>,
     /// The radio.
     pub radio: RadioSpec,
+    /// Detectors of robots and other controllers, of `kind = "robots"`, each under a name of your choice. A controller
+    /// faces along the x axis. It reports what it detects to the other controllers.
+    #[serde(default)]
+    pub sensors: BTreeMap<String, SensorSpec>,
     /// Price of one controller, in the currency of the robots' prices. The outcome `price` includes it.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12))]

@@ -30,8 +30,9 @@ pub(crate) struct GoalKind {
     service_s: f64,
     deadline_s: Option<f64>,
     capability: u8,
+    requires: Option<String>,
     /// Arrival of the first, and time until the next.
-    timetable_s: [f64; 2],
+    pub(crate) timetable_s: [f64; 2],
 }
 
 /// What a kind depends on besides its own keys.
@@ -68,6 +69,7 @@ impl GoalKind {
             service_s: spec.service_s,
             deadline_s: spec.deadline_s,
             capability: required.map_or(0, |name| capability(name, context.capabilities)),
+            requires: spec.requires.clone(),
             timetable_s: [spec.arrive_s, spec.every_s],
         }
     }
@@ -94,6 +96,24 @@ impl GoalKind {
             work: self.work,
             capability: self.capability,
         }
+    }
+
+    /// The keys whose values agents know of a goal that is issued to a controller, with the values as text.
+    pub(crate) fn described(&self) -> [(&'static str, String); 6] {
+        let none = || "omitted".to_owned();
+        let work = match self.work {
+            Work::Visit => "visit",
+            Work::Search => "search",
+        };
+        let deadline_s = self.deadline_s.map(|time_s| time_s.to_string());
+        [
+            ("work", work.to_owned()),
+            ("value", self.value.to_string()),
+            ("within_m", self.within_m.to_string()),
+            ("service_s", self.service_s.to_string()),
+            ("deadline_s", deadline_s.unwrap_or_else(none)),
+            ("requires", self.requires.clone().unwrap_or_else(none)),
+        ]
     }
 
     /// The key of one of its goals in random streams.

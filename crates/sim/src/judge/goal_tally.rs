@@ -5,7 +5,7 @@ use super::journey::{Journey, Service};
 use super::stays::Stays;
 use crate::bodies::body_state::Status;
 use crate::radio::channel::Outgoing;
-use brain::{About, CommitmentStatus, Dispatch, GoalId, RobotId};
+use brain::{About, CommitmentStatus, Dispatch, GoalId, Reason, RobotId};
 
 /// Counts of the goals of a run, and of its messages.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -41,6 +41,8 @@ pub(crate) struct GoalRecord {
     pub(crate) served: Option<Service>,
     /// Whether several robots served it.
     pub(crate) is_served_twice: bool,
+    /// Why no robot can serve it, as a controller last reported to the operator.
+    pub(crate) unserved: Option<Reason>,
 }
 
 base::hashed!(GoalRecord {
@@ -50,6 +52,9 @@ base::hashed!(GoalRecord {
     pursued_at,
     served,
     is_served_twice
+} without {
+    // It follows from the messages, and affects no outcome.
+    unserved
 });
 
 impl GoalTally {
@@ -75,6 +80,7 @@ impl GoalTally {
         let mut is_counted = false;
         for outgoing in sent.clone() {
             self.messages_sent += 1;
+            self.note_unserved(moment, outgoing);
             if let Some(goal) = done(outgoing).and_then(|id| moment.goals.number(id)) {
                 is_counted |= self.note_done(moment, outgoing.from as usize, goal);
             }
@@ -96,6 +102,19 @@ impl GoalTally {
             } else {
                 *journey = Journey::default();
             }
+        }
+    }
+
+    /// Notes that a controller reports to the operator that no robot can serve a goal.
+    fn note_unserved(&mut self, moment: &GoalMoment, outgoing: &Outgoing) {
+        let message = &outgoing.message;
+        let is_of_controller = self.journeys.len() <= outgoing.from as usize;
+        if let About::Dispatch(Dispatch::Stuck(refusal)) = message.about
+            && let Some(goal) = moment.goals.number(refusal.goal)
+            && message.to == RobotId::OPERATOR
+            && is_of_controller
+        {
+            self.records[goal].unserved = Some(refusal.reason);
         }
     }
 

@@ -1,4 +1,4 @@
-//! What the runs of a scenario cannot show, because they end at a number of finds.
+//! What the runs of a scenario cannot show, because they end at a number of finds or of served goals.
 
 use super::find_times::{find_time, find_times};
 use crate::end::{Count, EndCondition};
@@ -23,9 +23,15 @@ pub(crate) fn unseen(document: &Document, columns: &[String]) -> Vec<Unseen> {
     let kinds = kinds(document);
     let names = kinds.iter().map(|kind| kind.name.as_str());
     let end = EndCondition::parse(text, names, ScenarioSpec::has_goals(document));
-    let finds = end.ok().and_then(|end| finds(&end, &kinds));
-    let Some((of, last)) = finds else {
+    let Ok(end) = end else {
         return Vec::new();
+    };
+    let ranges = match finds(&end, &kinds) {
+        Some((of, last)) => ranges(&kinds, of, last),
+        None => served(&end)
+            .map(|last| ("served".to_owned(), (0.0, last)))
+            .into_iter()
+            .collect(),
     };
     let place = |name: String| columns.iter().position(|known| *known == name);
     let seen = |(name, seen): (String, (f64, f64))| {
@@ -36,10 +42,7 @@ pub(crate) fn unseen(document: &Document, columns: &[String]) -> Vec<Unseen> {
             end,
         })
     };
-    ranges(&kinds, of, last)
-        .into_iter()
-        .filter_map(seen)
-        .collect()
+    ranges.into_iter().filter_map(seen).collect()
 }
 
 fn kinds(document: &Document) -> Vec<Kind> {
@@ -59,8 +62,7 @@ fn kinds(document: &Document) -> Vec<Kind> {
 fn finds(end: &EndCondition, kinds: &[Kind]) -> Option<(Option<usize>, f64)> {
     let number = end.comparison.number;
     let last = match (end.count, end.comparison.operator) {
-        (Count::Found | Count::FoundOf(_), Operator::AtLeast | Operator::Equal) => number.ceil(),
-        (Count::Found | Count::FoundOf(_), Operator::Above) => number.floor() + 1.0,
+        (Count::Found | Count::FoundOf(_), _) => reached(end)?,
         (Count::MissedOf(of), Operator::AtMost | Operator::Equal) if kinds[of].is_fixed => {
             f64::from(kinds[of].count) - number.floor()
         }
@@ -72,6 +74,21 @@ fn finds(end: &EndCondition, kinds: &[Kind]) -> Option<(Option<usize>, f64)> {
     match end.count {
         Count::FoundOf(of) | Count::MissedOf(of) => Some((Some(of), last)),
         _ => Some((None, last)),
+    }
+}
+
+/// At which number of served goals a run ends.
+fn served(end: &EndCondition) -> Option<f64> {
+    reached(end).filter(|_| end.count == Count::Served)
+}
+
+/// The smallest number of which a condition holds that a rising count meets.
+fn reached(end: &EndCondition) -> Option<f64> {
+    let number = end.comparison.number;
+    match end.comparison.operator {
+        Operator::AtLeast | Operator::Equal => Some(number.ceil()),
+        Operator::Above => Some(number.floor() + 1.0),
+        _ => None,
     }
 }
 

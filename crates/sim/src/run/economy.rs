@@ -6,7 +6,7 @@ use crate::clock::seconds;
 use crate::judge::goal_moment::is_late;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{GoalId, RobotId, Task};
+use brain::{GoalId, Reason, RobotId, Task};
 use economy::OwnedGoal;
 
 /// A goal of a run; times are `None` for what has not happened.
@@ -40,6 +40,8 @@ pub struct Goal {
     pub is_served_twice: bool,
     /// Whether its deadline is over and no robot served it.
     pub has_expired: bool,
+    /// Why no robot can serve it, as a controller last reported; `None` if it was served.
+    pub unserved: Option<Reason>,
 }
 
 /// A controller of a run.
@@ -87,6 +89,7 @@ impl State {
                 blocked_s: time_s(served.map(|served| served.blocked)),
                 served_by: served.and_then(|served| served.by),
                 is_served_twice: record.is_served_twice,
+                unserved: record.unserved.filter(|_| served.is_none()),
                 has_expired: served.is_none() && record.issued_at.is_some_and(is_late),
             }
         })

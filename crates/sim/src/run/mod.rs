@@ -6,6 +6,7 @@ mod change;
 pub(crate) mod controller;
 mod economy;
 mod failing;
+mod fixed;
 mod goals;
 pub(crate) mod participant;
 pub(crate) mod placing;

@@ -77,14 +77,13 @@ impl State {
         )
     }
 
-    /// The goals of controllers that a robot serves, in its order; none if there is no such robot.
+    /// The goals of controllers that a robot serves, in its order; none if there is no such robot, or it has failed
+    /// or has no energy: its leases are not counted down.
     #[must_use]
     pub fn served_goals(&self, id: RobotId) -> Vec<ServedGoal> {
-        let robot = self.ids.binary_search(&id);
-        robot.map_or_else(
-            |_| Vec::new(),
-            |robot| self.agents[robot].brain.served_goals(),
-        )
+        let robot = self.ids.binary_search(&id).ok();
+        let robot = robot.filter(|robot| self.body_states[*robot].status == Status::Active);
+        robot.map_or_else(Vec::new, |robot| self.agents[robot].brain.served_goals())
     }
 
     /// The map of a robot; `None` if there is no such robot, or it has none.

@@ -5,21 +5,24 @@ use super::checks;
 use super::models;
 use super::spec::{SCHEMA, ScenarioSpec};
 use base::document::{Document, Files};
-use base::error::{InputErrors, Problem};
+use base::error::{InputError, InputErrors, Problem};
 
 impl ScenarioSpec {
     /// Reads [`ScenarioSpec::KEYS`], and nothing else.
     ///
     /// # Errors
-    /// Everything that is wrong there: keys and values first and, if these are valid, their meaning
-    /// together.
+    /// Everything that is wrong there. Where a value has the wrong type or is missing, its meaning is unknown, and only
+    /// keys and values are checked; positions are checked once all keys and values are valid.
     pub fn read(document: &Document) -> Result<Checked, InputErrors> {
         let filled = Self::filled(document);
         let of_models = models::errors(document);
         let read = match Self::typed(&filled) {
             Ok(spec) if of_models.is_empty() => checks::checked(spec, &filled),
             Ok(_) => Err(InputErrors(of_models)),
-            Err(InputErrors(errors)) => Err(InputErrors([of_models, errors].concat())),
+            Err(InputErrors(errors)) => {
+                let of_meaning = Self::of_meaning(&filled, &errors);
+                Err(InputErrors([of_models, errors, of_meaning].concat()))
+            }
         };
         read.map_err(|errors| models::at_models(errors, document))
     }
@@ -30,6 +33,15 @@ impl ScenarioSpec {
         filled.typed_unless(&SCHEMA, |error| {
             error.problem == Problem::Missing && error.path.starts_with("models.")
         })
+    }
+
+    /// Errors of meaning in a document with other `errors`, as far as its values have the right types. A key that was
+    /// misspelled is not missing as well.
+    fn of_meaning(filled: &Document, errors: &[InputError]) -> Vec<InputError> {
+        let spec: Result<Self, InputErrors> = filled.typed_unless(&SCHEMA, |_| true);
+        let mut found = spec.map_or_else(|_| Vec::new(), |spec| checks::of_meaning(&spec, filled));
+        found.retain(|error| !errors.iter().any(|known| explains(known, error)));
+        found
     }
 
     /// The same for a document whose files `open` reads: it returns the bytes of a file by its
@@ -62,4 +74,16 @@ impl ScenarioSpec {
             |spec| checks::missing_files(&spec, document),
         )
     }
+}
+
+/// Whether an error at the same place, or of a misspelled key, explains another one.
+fn explains(known: &InputError, error: &InputError) -> bool {
+    let meant = match (&known.problem, &known.suggestion) {
+        (Problem::UnknownKey(_), Some(key)) => known
+            .path
+            .rsplit_once('.')
+            .map(|(at, _)| format!("{at}.{key}")),
+        _ => None,
+    };
+    meant.is_some_and(|path| path == error.path) || known.path == error.path
 }

@@ -3,6 +3,7 @@
 use super::decide::WorkerScratch;
 use super::decision_hash::decision_hash;
 use super::external::ExternalInputs;
+use super::surroundings::Surroundings;
 use crate::bodies::body_state::BodyState;
 use crate::radio::channel::Outgoing;
 use crate::run::controller::ControllerAgent;
@@ -17,6 +18,7 @@ use brain::{Command, Percept, Reading};
 pub(crate) struct ControllerScratch {
     percept: Percept,
     command: Command,
+    surroundings: Surroundings,
 }
 
 /// What all controllers step from.
@@ -35,6 +37,7 @@ impl ControllerScratch {
         external: &ExternalInputs,
         results: &mut WorkerScratch,
     ) {
+        self.surroundings.refresh(scenario, state);
         let moment = Moment {
             scenario,
             tick: state.tick,
@@ -71,8 +74,9 @@ impl ControllerScratch {
             tick: state.tick,
             body_states: &state.body_states,
         };
-        let agent = &mut state.controllers[controller];
         let mut scratch = Self::default();
+        scratch.surroundings.refresh(scenario, &state);
+        let agent = &mut state.controllers[controller];
         agent.participant.is_working(moment.body_states).then(|| {
             scratch.perceive(&moment, agent);
             scratch.percept
@@ -95,6 +99,11 @@ impl ControllerScratch {
             Place::Fixed(value, _) => Some(Reading { value, age_s: 0.0 }),
             Place::Aboard(_) => None,
         };
+        percept.neighbours.clear();
+        let sensors = &scenario.controller_kind_of(participant.id).sensors;
+        let moment = (scenario, tick);
+        self.surroundings
+            .detect(moment, participant, sensors, &mut percept.neighbours);
         percept.inbox.clear();
         participant.deliver(tick, scenario.step_s, &mut percept.inbox);
     }

@@ -18,6 +18,7 @@ mod parallel;
 pub(crate) mod pending_decisions;
 mod plan;
 mod sense;
+mod surroundings;
 pub(crate) mod tick;
 pub(crate) mod view;
 

@@ -5,6 +5,7 @@
 
 mod configurations;
 mod cropped_maps;
+mod goals;
 mod room;
 
 use crate::scenario::{Checked, ScenarioSpec};
@@ -17,7 +18,7 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 2] = [cropped_maps::warnings, room::warnings];
+const EXAMINATIONS: [Examination; 3] = [cropped_maps::warnings, room::warnings, goals::warnings];
 
 /// Warnings about `configurations` of a document, each with values by path. Invalid configurations have
 /// none: their errors are reported when they are read.

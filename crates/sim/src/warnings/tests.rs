@@ -191,3 +191,40 @@ fn an_invalid_configuration_has_no_warning_of_its_own() {
     let negative = vec![("robots.rover.count".to_owned(), Value::Integer(-1))];
     assert!(warnings(&document, &[negative]).is_empty());
 }
+
+/// The warnings for a rover that visits a waypoint, with a goal of these keys.
+fn warnings_of_goals(behaviour: &str, goal: &str, controllers: u32) -> String {
+    let rover = "sensors = { gps = { kind = \"position\" }, compass = { kind = \"heading\" } }\nradio = { range_m = 9 }\n";
+    let brain = format!("brain = {{ behaviours = [{{ {behaviour} }}, {{ kind = \"serve\" }}] }}\n");
+    let text = without_map(JOB).replace(
+        "[robots.rover]\n",
+        &format!("[robots.rover]\n{rover}{brain}"),
+    ) + &format!(
+        "[controllers.base]\ncount = {controllers}\nradio = {{ range_m = 9 }}\n[goals.spot]\ncount = 1\n{goal}\n"
+    );
+    warnings_of(&text, "[0, 0, 0]").concat()
+}
+
+#[test]
+fn goals_that_no_robot_serves_without_controllers_have_a_warning() {
+    let navigate = "kind = \"navigate\", waypoints_m = [[5, 5]]";
+    let there = "placement = { kind = \"fixed\", at_m = [[5, 5]] }";
+    let takes_time = format!("{there}\nservice_s = 5");
+    assert_eq!(warnings_of_goals(navigate, there, 0), "");
+    assert_eq!(warnings_of_goals(navigate, &takes_time, 1), "");
+    let left = warnings_of_goals(navigate, &takes_time, 0);
+    assert!(
+        left.contains("goals.spot.service_s = 5: without controllers"),
+        "{left}"
+    );
+    assert!(left.ends_with("does not stay at its waypoints"), "{left}");
+    for unvisited in [
+        warnings_of_goals(navigate, "", 0),
+        warnings_of_goals("kind = \"cruise\"", there, 0),
+    ] {
+        assert!(
+            unvisited.contains("goals.spot = {...}: no robot serves them"),
+            "{unvisited}"
+        );
+    }
+}

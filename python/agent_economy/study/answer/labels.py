@@ -2,7 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 
-from agent_economy.study.paths import counted_kind, is_of_controllers, robot_kind
+from agent_economy.study.paths import (
+    counted_kind,
+    is_of_absent_kind,
+    is_of_controllers,
+    robot_kind,
+)
 
 Values = Mapping[str, float | str]
 
@@ -10,9 +15,10 @@ Values = Mapping[str, float | str]
 def label(values: Values) -> str:
     """Return the label of a configuration from its values of the varied factors.
 
-    Controllers come after the robots, their number first.
+    Controllers come after the robots, their number first. Factors of a kind whose number is 0 are
+    left out.
     """
-    values = dict(sorted(values.items(), key=place))
+    values = dict(sorted(present(values).items(), key=place))
     lasts = [path.rsplit(".", 1)[-1] for path in values]
     parts = [
         # Paths with the same last key are written in full.
@@ -20,6 +26,11 @@ def label(values: Values) -> str:
         for (path, value), last in zip(values.items(), lasts, strict=True)
     ]
     return ", ".join(parts) or "the scenario"
+
+
+def present(values: Values) -> Values:
+    """Return the values without those of kinds whose number is 0."""
+    return {path: value for path, value in values.items() if not is_of_absent_kind(path, values)}
 
 
 def place(item: tuple[str, float | str]) -> int:
@@ -51,6 +62,7 @@ def word(value: float | str) -> str:
 
 def recommendation(values: Values) -> str:
     """Return the recommendation: "Send 4 rovers", "Choose contact touch", or both."""
+    values = present(values)
     teams = {path: value for path, value in values.items() if robot_kind(path) is not None}
     others = {path: value for path, value in values.items() if path not in teams}
     if not values:

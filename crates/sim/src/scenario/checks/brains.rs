@@ -79,9 +79,25 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
             let allowed = "\"all\" or \"one_each\"; \"shared\" needs a radio, such as radio = { range_m = 100 }";
             errors.push(at.key("assignment").error(allowed));
         }
+        if behaviour.serves_controllers() && robot.radio.is_none() {
+            let allowed = "a behaviour that works without a radio: serve needs one, such as radio = { range_m = 100 }";
+            errors.push(at.key("kind").error(allowed));
+        }
         errors.extend(of_places(behaviour, spec, &at));
     }
+    errors.extend(of_second_serve(robot, &at.key("brain").key("behaviours")));
     errors
+}
+
+/// A second behaviour that bids for the same goals as the first.
+fn of_second_serve(robot: &RobotSpec, at: &Place) -> Vec<InputError> {
+    let behaviours = robot.brain.behaviours.iter().enumerate();
+    let serving = behaviours.filter(|(_, behaviour)| behaviour.serves_controllers());
+    let more = serving.skip(1).map(|(number, behaviour)| {
+        let allowed = format!("another behaviour: {} is listed before", behaviour.name());
+        at.item(number).key("kind").error(allowed)
+    });
+    more.collect()
 }
 
 /// Waypoints that do not exist, or are outside the world.

@@ -5,6 +5,7 @@ use crate::controllers::ControllerSpec;
 use crate::goals::GoalSpec;
 use crate::radio::RadioSpec;
 use crate::scenario::spec::ScenarioSpec;
+use crate::sensors::Measures;
 use base::document::Place;
 use base::error::InputError;
 
@@ -17,6 +18,8 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         .flat_map(|(name, kind)| {
             let at = at.key("controllers").key(name);
             let mut errors = of_carriers(kind, spec, &at);
+            errors.extend(of_sensors(kind, &at));
+            errors.extend(of_radio(&kind.radio, &at.key("radio")));
             errors.extend(of_leases(kind, spec, &at));
             errors.extend(of_services(name, spec, &at));
             errors
@@ -44,6 +47,45 @@ fn of_carriers(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<In
             errors.push(at.key("count").error(allowed));
         }
         Some(_) => {}
+    }
+    errors
+}
+
+/// Sensors that controllers do not have, or that have no effect on them.
+fn of_sensors(kind: &ControllerSpec, at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
+    if kind.aboard.is_some() && !kind.sensors.is_empty() {
+        let allowed = "omitted: a controller aboard a robot does not know its position, nor those of what it detects";
+        errors.push(at.key("sensors").error(allowed));
+    }
+    for (name, sensor) in &kind.sensors {
+        let at = at.key("sensors").key(name);
+        if !matches!(sensor.measures, Measures::Robots(_)) {
+            let allowed = "\"robots\": controllers have no other sensors";
+            errors.push(at.key("kind").error(allowed));
+        }
+        if sensor.latency_s > 0.0 {
+            let allowed = "0: sensors of controllers have no delay";
+            errors.push(at.key("latency_s").error(allowed));
+        }
+        if sensor.power_w > 0.0 {
+            let allowed = "0: controllers have no battery";
+            errors.push(at.key("power_w").error(allowed));
+        }
+    }
+    errors
+}
+
+/// A radio over which a controller reaches no other agent: messages are all that it has.
+fn of_radio(radio: &RadioSpec, at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
+    if radio.range_m == 0.0 {
+        let allowed = "above 0: a controller acts only through messages";
+        errors.push(at.key("range_m").error(allowed));
+    }
+    if radio.messages_per_step == 0 {
+        let allowed = "at least 1: a controller acts only through messages";
+        errors.push(at.key("messages_per_step").error(allowed));
     }
     errors
 }

@@ -14,9 +14,13 @@ const MAX_FALSE_ALARMS: f64 = 1000.0;
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
     let mut errors = Vec::new();
-    for (robot, of) in &spec.robots {
-        for (name, sensor) in &of.sensors {
-            let at = at.key("robots").key(robot).key("sensors").key(name);
+    let robots = spec.robots.iter();
+    let robots = robots.map(|(kind, of)| (at.key("robots").key(kind), &of.sensors));
+    let controllers = spec.controllers.iter();
+    let controllers = controllers.map(|(kind, of)| (at.key("controllers").key(kind), &of.sensors));
+    for (at, sensors) in robots.chain(controllers) {
+        for (name, sensor) in sensors {
+            let at = at.key("sensors").key(name);
             match &sensor.measures {
                 Measures::Items(items) => {
                     errors.extend(errors_of(items, &kinds, &at));

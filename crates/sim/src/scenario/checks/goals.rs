@@ -3,21 +3,29 @@
 use super::controllers::unknown;
 use crate::bodies::RobotSpec;
 use crate::goals::GoalSpec;
+use crate::scenario::counts::max_count;
 use crate::scenario::spec::ScenarioSpec;
-use base::document::Place;
+use base::document::{Document, Place};
 use base::error::InputError;
 use base::placement::Placement;
+use brain::behaviours::BehaviourSpec;
 use std::collections::BTreeSet;
 
 /// Maximum number of different capabilities: messages number them in one byte.
 const MAX_CAPABILITIES: usize = 255;
 
-pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError> {
+    let at = &document.place();
     let mut errors = of_capabilities(spec, at);
     for (name, kind) in &spec.goals {
         let at = at.key("goals").key(name);
         errors.extend(of_owner(kind, spec, &at));
-        errors.extend(of_servers(kind, spec, &at));
+        let of_servers = of_servers(kind, spec, &at);
+        if of_servers.is_none() {
+            errors.extend(of_assignees((name, kind), spec, document));
+        }
+        errors.extend(of_servers);
+        errors.extend(of_deadline(kind, &at));
         errors.extend(of_timetable(kind, spec, &at));
     }
     errors.extend(of_twins(spec, at));
@@ -84,6 +92,55 @@ fn of_servers(kind: &GoalSpec, spec: &ScenarioSpec, at: &Place) -> Option<InputE
             "a kind of goal that a kind of robots can serve: none has a radio and the capability \
              that it requires",
         )
+    })
+}
+
+/// Goals that controllers own and can award to no robot, in any configuration of the study.
+fn of_assignees(
+    (name, kind): (&String, &GoalSpec),
+    spec: &ScenarioSpec,
+    document: &Document,
+) -> Option<InputError> {
+    let exist = |table: &str, name: &str| max_count(document, table, name) > 0;
+    let owner = kind.owner.as_ref().or(spec.controllers.keys().next());
+    if !exist("goals", name) || !owner.is_some_and(|owner| exist("controllers", owner)) {
+        return None;
+    }
+    let robots = spec.robots.iter();
+    let robots = robots.filter(|(name, robot)| exist("robots", name) && can_be_awarded(robot));
+    let robots: Vec<&RobotSpec> = robots.map(|(_, robot)| robot).collect();
+    if robots.iter().any(|robot| can_serve(robot, kind)) {
+        return None;
+    }
+    let at = document.place().key("goals").key(name);
+    let Some(required) = kind.requires.as_ref().filter(|_| !robots.is_empty()) else {
+        return Some(at.error(
+            "a kind of goal that controllers can award: no kind of robots with a count above 0 has a radio and \
+             the behaviour serve, as in behaviours = [{ kind = \"serve\" }]",
+        ));
+    };
+    let capabilities = robots.iter().flat_map(|robot| &robot.capabilities);
+    let capabilities: BTreeSet<&String> = capabilities.collect();
+    let error = unknown(required, capabilities.iter().copied(), &at.key("requires"));
+    let allowed = error.allowed + " among capabilities of robots with the behaviour serve";
+    Some(InputError { allowed, ..error })
+}
+
+/// Whether controllers can award goals to such robots. Those without behaviours are driven by a program.
+fn can_be_awarded(robot: &RobotSpec) -> bool {
+    let behaviours = &robot.brain.behaviours;
+    let serves = behaviours.is_empty() || behaviours.iter().any(BehaviourSpec::serves_controllers);
+    serves && robot.radio.is_some()
+}
+
+/// Goals that expire before they can be served.
+fn of_deadline(kind: &GoalSpec, at: &Place) -> Option<InputError> {
+    let deadline_s = kind.deadline_s?;
+    let service_s = kind.service_s;
+    (deadline_s < service_s).then(|| {
+        let allowed =
+            format!("at least service_s = {service_s}: these goals expire before they are served");
+        at.key("deadline_s").error(allowed)
     })
 }
 

@@ -85,7 +85,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
 fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let sensors = robot.sensors.values();
     let sensors: f64 = sensors
-        .map(|sensor| bytes_of_sensor(sensor, robot, spec))
+        .map(|sensor| bytes_of_sensor(sensor, robot.brain.rate_hz, spec))
         .sum();
     let radio = robot.radio.as_ref();
     let rate_hz = robot.brain.rate_hz;
@@ -96,7 +96,11 @@ fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
 fn bytes_of_controller(kind: &ControllerSpec, spec: &ScenarioSpec) -> f64 {
     let goals: u32 = spec.goals.values().map(|kind| kind.count).sum();
     let owned = f64::from(goals.min(kind.max_goals));
-    CONTROLLER_BYTES + owned * OWNED_BYTES + bytes_of_radio(&kind.radio, None, spec)
+    let sensors = kind.sensors.values();
+    let sensors: f64 = sensors
+        .map(|sensor| bytes_of_sensor(sensor, None, spec))
+        .sum();
+    CONTROLLER_BYTES + owned * OWNED_BYTES + sensors + bytes_of_radio(&kind.radio, None, spec)
 }
 
 /// Approximate bytes of its beliefs.
@@ -122,13 +126,13 @@ fn bytes_of_radio(radio: &RadioSpec, rate_hz: Option<f64>, spec: &ScenarioSpec) 
     a_step * delay * receivers * size(SENT_BYTES) + waiting * size(MESSAGE_BYTES)
 }
 
-/// Bytes of measurements that are in transit, or wait for the brain.
-fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
+/// Bytes of measurements that are in transit, or wait for a brain that steps at a rate.
+fn bytes_of_sensor(sensor: &SensorSpec, rate_hz: Option<f64>, spec: &ScenarioSpec) -> f64 {
     let step_s = spec.clock.step_s;
     let counts = MeasurementCounts {
         late: sensor.latency_s / period_s(sensor.rate_hz, step_s),
-        per_brain_step: period_s(robot.brain.rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
-        is_immediate: sensor.latency_s == 0.0 && robot.brain.rate_hz.is_none(),
+        per_brain_step: period_s(rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
+        is_immediate: sensor.latency_s == 0.0 && rate_hz.is_none(),
     };
     match &sensor.measures {
         Measures::Range(range) => counts.bytes_kept(f64::from(range.rays), sensor),

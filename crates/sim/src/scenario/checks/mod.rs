@@ -27,15 +27,13 @@ use std::collections::BTreeSet;
 /// A check: the errors of a scenario at the place `at` in a document.
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
-const CHECKS: [Check; 9] = [
+/// Checks of what the conversion for runs relies on.
+const CHECKS_OF_FORM: [Check; 6] = [
     clock::errors,
     names::errors,
     rates::errors,
     drive::errors,
     detection::errors,
-    brains::errors,
-    controllers::errors,
-    goals::errors,
     memory::errors,
 ];
 
@@ -52,24 +50,39 @@ const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
 /// The scenario of `spec`, which a document contains, if it has no errors.
 pub(super) fn checked(spec: ScenarioSpec, document: &Document) -> Result<Checked, InputErrors> {
     let at = &document.place();
-    let mut errors: Vec<InputError> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
-    errors.extend(end::errors(&spec, document));
+    let form = CHECKS_OF_FORM.iter().flat_map(|check| check(&spec, at));
+    let form: Vec<InputError> = form.collect();
+    let meaning = of_meaning(&spec, document);
     let mut of_places = Vec::new();
     let open = |name: &str| document.open(name);
     let solids = ground::solids(&spec.world, &at.key("world"), &open, &mut of_places);
     let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut of_places);
-    if !errors.is_empty() {
-        return Err(InputErrors([errors, of_places].concat()));
+    if !form.is_empty() {
+        return Err(InputErrors([form, meaning, of_places].concat()));
     }
     let scenario = Scenario::new(&spec, solids, areas).among_those_of(document);
     let checked = Checked { spec, scenario };
     // An error in a world without the invalid obstacles is an error with them too.
     for check in CHECKS_OF_PLACES {
-        let reported: BTreeSet<String> = of_places.iter().map(|error| error.path.clone()).collect();
+        let known = meaning.iter().chain(&of_places);
+        let reported: BTreeSet<String> = known.map(|error| error.path.clone()).collect();
         let more = check(&checked, at).into_iter();
         of_places.extend(more.filter(|error| !reported.contains(&error.path)));
     }
-    InputErrors::or(of_places, Some(checked))
+    InputErrors::or([meaning, of_places].concat(), Some(checked))
+}
+
+/// Errors of behaviours, controllers, goals and the end. They need no valid numbers, and none of them prevents the
+/// conversion for runs, so that errors of positions are reported with them.
+pub(super) fn of_meaning(spec: &ScenarioSpec, document: &Document) -> Vec<InputError> {
+    let at = &document.place();
+    [
+        brains::errors(spec, at),
+        controllers::errors(spec, at),
+        goals::errors(spec, document),
+        end::errors(spec, document),
+    ]
+    .concat()
 }
 
 /// The files of obstacles that have not been read.

@@ -51,6 +51,10 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     errors.extend(twins(&names(&spec.goals), &at.key("goals")));
     errors.extend(twins(&names(&spec.items), &at.key("items")));
     errors.extend(time_columns(&names(&spec.items), &at.key("items")));
+    for (name, kind) in &spec.controllers {
+        let sensors = controllers.key(name).key("sensors");
+        errors.extend(errors_of(&names(&kind.sensors), 0, MAX_SENSORS, &sensors));
+    }
     for (name, robot) in &spec.robots {
         let sensors = robots.key(name).key("sensors");
         errors.extend(errors_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));

@@ -55,6 +55,10 @@ fn of_goals(checked: &Checked, at: &Place) -> Vec<InputError> {
         let robots = spec.robots.values().filter(|robot| can_serve(robot, kind));
         let range_m = kind.within_m;
         let servers: Vec<Finder> = robots.map(|robot| Finder { robot, range_m }).collect();
+        // Goals that no robot can serve anywhere are reported by another check.
+        if servers.is_empty() {
+            return Vec::new();
+        }
         let targets = Targets {
             placement: &kind.placement,
             count: kind.count,

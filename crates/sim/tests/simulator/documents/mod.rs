@@ -29,10 +29,12 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 battery = { capacity_j = 1000 }
 radio = { range_m = 10, delay_s = 0.3 }
 capabilities = ["arm"]
-brain = { behaviours = [{ kind = "cruise" }, { kind = "avoid", near_m = 0.2 }] }
+brain = { behaviours = [{ kind = "cruise" }, { kind = "serve" }, { kind = "avoid", near_m = 0.2 }] }
 [robots.rover.sensors]
 eye = { kind = "items", range_m = 3, detection_probability = { mine = [[0, 1], [3, 0.5]], scrap = 0.1 } }
 sonar = { kind = "range", rays = 8, range_m = 2 }
+gps = { kind = "position" }
+compass = { kind = "heading" }
 [controllers.base]
 count = 1
 aboard = "rover"

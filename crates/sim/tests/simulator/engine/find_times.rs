@@ -151,7 +151,11 @@ fn a_kind_without_items_has_no_times() {
 
 /// Whether a requirement of one condition is refused because of the end of runs, for four mines and one scrap.
 fn is_unseen(end: &str, condition: &str) -> bool {
-    let text = format!("{}\n[end]\nwhen = \"{end}\"\n", field());
+    is_unseen_in(&field(), end, condition)
+}
+
+fn is_unseen_in(field: &str, end: &str, condition: &str) -> bool {
+    let text = format!("{field}\n[end]\nwhen = \"{end}\"\n");
     let document = Document::parse("t.toml", &text).unwrap();
     let columns = Metric.condition_columns(&document);
     let parsed = parse(condition, &columns).unwrap();
@@ -197,4 +201,17 @@ fn a_run_that_ends_at_a_find_shows_nothing_of_later_ones() {
     assert!(is_unseen("found >= 3", "found >= 4") && is_unseen("found >= 3", "found_mine >= 4"));
     assert!(!is_unseen("found >= 3", "found_mine >= 3"));
     assert!(!is_unseen("collisions >= 1", "found_mine >= 4"));
+}
+
+#[test]
+fn a_run_that_ends_at_a_served_goal_shows_nothing_of_later_ones() {
+    let field = format!("{}\n[goals.spot]\ncount = 6\n", field());
+    for end in ["served >= 3", "served > 2", "served == 3"] {
+        for condition in ["served >= 4", "served > 3", "served == 6"] {
+            assert!(is_unseen_in(&field, end, condition), "{end}: {condition}");
+        }
+        for condition in ["served >= 3", "time_s <= 20", "found_mine >= 4"] {
+            assert!(!is_unseen_in(&field, end, condition), "{end}: {condition}");
+        }
+    }
 }

@@ -3,9 +3,11 @@
 mod battery;
 mod change;
 mod change_pending;
+mod changes_of_economy;
 mod collision_warnings;
 mod collisions;
 mod contact;
+mod controller_sensors;
 mod controllers;
 mod correct;
 mod dead_end;

@@ -23,6 +23,59 @@ fn a_controller_needs_a_radio() {
 }
 
 #[test]
+fn the_radio_of_a_controller_reaches_others() {
+    let range = error_of("radio = { range_m = 0 }");
+    assert!(
+        range.starts_with("controllers.base.radio.range_m = 0: must be above 0"),
+        "{range}"
+    );
+    let messages = error_of("radio = { range_m = 9, messages_per_step = 0 }");
+    assert!(
+        messages.contains("messages_per_step = 0: must be at least 1"),
+        "{messages}"
+    );
+}
+
+#[test]
+fn errors_of_keys_meaning_and_places_are_reported_together() {
+    let text = format!(
+        "{GOOD}[controllers.base]\ncount = -1\nprise = 3\naboard = \"rovr\"\nradio = {{ range_m = 0 }}\n\
+         [goals.spot]\ncount = 1\nonwer = \"base\"\nrequires = \"arm\"\n"
+    );
+    let places = text.replace("count = -1\nprise = 3\n", "count = 1\n");
+    let places =
+        places.replace("onwer", "owner") + "placement = { kind = \"fixed\", at_m = [[2, 2]] }\n";
+    let starts = |text: &str| {
+        let errors = errors_in(text);
+        let paths = errors
+            .iter()
+            .map(|error| error.split(' ').next().unwrap_or_default().to_owned());
+        paths.collect::<Vec<String>>()
+    };
+    assert_eq!(
+        starts(&places),
+        [
+            "controllers.base.aboard",
+            "controllers.base.radio.range_m",
+            "goals.spot.requires",
+            "goals.spot.placement.at_m[0]"
+        ]
+    );
+    let ranges = text.replace("count = -1", "count = 2000");
+    assert_eq!(
+        starts(&ranges),
+        [
+            "controllers.base.count",
+            "controllers.base.prise",
+            "goals.spot.onwer",
+            "controllers.base.aboard",
+            "controllers.base.radio.range_m",
+            "goals.spot.requires",
+        ]
+    );
+}
+
+#[test]
 fn controllers_are_aboard_a_kind_of_robots_that_has_enough_of_them() {
     assert_eq!(errors_of(&format!("{RADIO}aboard = \"rover\"")), [""; 0]);
     let unknown = error_of(&format!("{RADIO}aboard = \"rovr\""));
@@ -75,4 +128,32 @@ fn controllers_have_other_names_than_robots_and_free_places() {
     assert!(error_of(&start).starts_with("controllers.base.start.at_m[0]"));
     let few = format!("{RADIO}start = {{ kind = \"fixed\", at_m = [] }}");
     assert!(error_of(&few).contains("at least 1 places"));
+}
+
+#[test]
+fn controllers_have_detectors_of_robots_only() {
+    let sensor = |keys: &str| errors_of(&format!("{RADIO}sensors = {{ eye = {{ {keys} }} }}"));
+    assert_eq!(
+        sensor("kind = \"robots\", range_m = 9, rate_hz = 2"),
+        [""; 0]
+    );
+    assert_eq!(
+        sensor("kind = \"position\""),
+        [
+            "controllers.base.sensors.eye.kind = \"position\": must be \"robots\": controllers have no other sensors"
+        ]
+    );
+    let odd =
+        sensor("kind = \"robots\", range_m = 9, latency_s = 1, power_w = 2, rate_hz = 99").concat();
+    for error in [
+        "eye.latency_s = 1: must be 0",
+        "eye.power_w = 2: must be 0",
+        "eye.rate_hz = 99: must be at most 10",
+    ] {
+        assert!(odd.contains(error), "{odd}");
+    }
+    let aboard = error_of(&format!(
+        "{RADIO}aboard = \"rover\"\nsensors = {{ eye = {{ kind = \"robots\", range_m = 9 }} }}"
+    ));
+    assert!(aboard.contains("does not know its position"), "{aboard}");
 }

@@ -1,0 +1,197 @@
+//! Each key of goals and controllers that changes in a run has an effect, or is refused.
+
+use crate::common::start;
+use base::document::Document;
+use sim::scenario::{Scenario, ScenarioSpec};
+use sim::simulation::Simulation;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Two controllers and three rovers. Half of the goals are issued when the scenario changes.
+const RUN: &str = r#"
+[clock]
+time_limit_s = 150
+[world]
+size_m = [60, 40]
+[robots.rover]
+count = 3
+radius_m = 0.2
+capabilities = ["arm"]
+start = { kind = "fixed", at_m = [[10, 10], [12, 12], [50, 30]] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+radio = { range_m = 50, messages_per_step = 20, loss_probability = 0.1 }
+sensors = { gps = { kind = "position" }, compass = { kind = "heading" } }
+brain = { behaviours = [{ kind = "serve" }] }
+[robots.bird]
+count = 1
+radius_m = 0.2
+layer = "air"
+start = { kind = "fixed", at_m = [[30, 20]] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+brain = { behaviours = [] }
+[controllers.base]
+count = 1
+radio = { range_m = 80, messages_per_step = 20, loss_probability = 0.1 }
+[controllers.mast]
+count = 1
+start = { kind = "fixed", at_m = [[50, 30]] }
+radio = { range_m = 80 }
+[goals.spot]
+count = 8
+owner = "base"
+every_s = 10
+[goals.here]
+count = 2
+owner = "mast"
+placement = { kind = "fixed", at_m = [[20, 10], [40, 10], [30, 30]] }
+"#;
+
+const CHANGED_AT_S: f64 = 25.0;
+
+/// The run until it changes.
+fn begun() -> Simulation {
+    let mut simulation = start(RUN);
+    while simulation.time_s() < CHANGED_AT_S {
+        simulation.step();
+    }
+    simulation
+}
+
+fn outcome(mut simulation: Simulation) -> Vec<f64> {
+    while !simulation.state().is_over(simulation.scenario()) {
+        simulation.step();
+    }
+    let runs = sim::runner::Runs(simulation.scenario().clone());
+    runs.values(&simulation.outcome()).unwrap()
+}
+
+/// The scenario in which a table has a key with another value.
+fn with(table: &str, key: &str, value: &str) -> Arc<Scenario> {
+    let mut document = Document::parse("t.toml", RUN).unwrap();
+    let value = Document::parse("t.toml", &format!("value = {value}")).unwrap();
+    let keys: Vec<&str> = table.split('.').chain([key]).collect();
+    document.set(
+        &keys,
+        value.get(&["value"]).unwrap().value.clone(),
+        "change",
+    );
+    let checked = ScenarioSpec::read(&document).unwrap_or_else(|errors| panic!("{errors}"));
+    Arc::new(checked.scenario)
+}
+
+/// The paths of the values that cannot change.
+fn refused(to: &Scenario) -> Vec<String> {
+    let simulation = begun();
+    let errors = simulation.state().without_effect(simulation.scenario(), to);
+    errors.into_iter().map(|error| error.path).collect()
+}
+
+fn has_effect(to: Arc<Scenario>) -> bool {
+    let mut changed = begun();
+    changed.change(to).unwrap();
+    outcome(changed) != outcome(begun())
+}
+
+/// Keys with a value that changes the outcome.
+const EFFECTIVE: [(&str, &str, &str); 18] = [
+    ("controllers.base", "count", "3"),
+    ("controllers.base", "aboard", "\"bird\""),
+    ("controllers.base.radio", "range_m", "5"),
+    ("controllers.base.radio", "loss_probability", "0.9"),
+    ("controllers.base.radio", "delay_s", "1.5"),
+    ("controllers.base.radio", "messages_per_step", "1"),
+    (
+        "controllers.base",
+        "sensors",
+        "{ eye = { kind = \"robots\", range_m = 60 } }",
+    ),
+    ("controllers.base", "price", "7"),
+    ("controllers.base", "mean_time_between_failures_s", "2"),
+    ("controllers.base", "failed", "[0]"),
+    ("controllers.base", "allocation", "\"none\""),
+    ("controllers.base", "service_lease_s", "5"),
+    ("controllers.mast", "owner_lease_s", "0.8"),
+    ("controllers.base", "auction_s", "4"),
+    ("controllers.base", "max_goals", "1"),
+    ("goals.spot", "count", "4"),
+    ("goals.spot", "arrive_s", "20"),
+    ("goals.spot", "every_s", "2"),
+];
+
+/// Keys with a value that is refused, because agents would not notice it.
+const REFUSED: [(&str, &str, &str); 11] = [
+    (
+        "controllers.base",
+        "start",
+        "{ kind = \"uniform\", within_m = [[0, 0], [9, 9]] }",
+    ),
+    (
+        "goals.spot",
+        "placement",
+        "{ kind = \"uniform\", within_m = [[0, 0], [9, 9]] }",
+    ),
+    ("goals.spot", "work", "\"search\""),
+    ("goals.spot", "value", "2"),
+    ("goals.spot", "within_m", "2"),
+    ("goals.spot", "service_s", "2"),
+    ("goals.spot", "deadline_s", "40"),
+    ("goals.spot", "requires", "\"arm\""),
+    ("goals.spot", "owner", "\"mast\""),
+    ("goals.here", "arrive_s", "5"),
+    ("goals.here", "every_s", "5"),
+];
+
+#[test]
+fn a_key_that_changes_has_an_effect_or_is_refused() {
+    let mut silent = Vec::new();
+    for (table, key, value) in EFFECTIVE {
+        let to = with(table, key, value);
+        let path = format!("{table}.{key}");
+        assert_eq!(refused(&to), [""; 0], "{path}");
+        if !has_effect(to) {
+            silent.push(path);
+        }
+    }
+    assert_eq!(silent, [""; 0]);
+    for (table, key, value) in REFUSED {
+        assert_eq!(
+            refused(&with(table, key, value)),
+            [format!("{table}.{key}")]
+        );
+    }
+}
+
+#[test]
+fn every_key_of_goals_and_controllers_is_examined() {
+    let examined: BTreeSet<(&str, &str)> = EFFECTIVE
+        .iter()
+        .chain(&REFUSED)
+        .map(|(table, key, _)| (*table, *key))
+        .collect();
+    let schema = serde_json::to_value(schemars::schema_for!(sim::scenario::ScenarioSpec)).unwrap();
+    for (name, tables) in [
+        (
+            "ControllerSpec",
+            vec!["controllers.base", "controllers.mast"],
+        ),
+        ("GoalSpec", vec!["goals.spot", "goals.here"]),
+    ] {
+        let keys = schema["$defs"][name]["properties"].as_object().unwrap();
+        for key in keys.keys().filter(|key| *key != "radio") {
+            let is_known = tables
+                .iter()
+                .any(|table| examined.contains(&(*table, key.as_str())));
+            assert!(is_known, "{name}: {key}");
+        }
+    }
+}
+
+#[test]
+fn places_of_more_goals_and_controllers_can_be_added() {
+    let more = with(
+        "goals.here",
+        "placement",
+        "{ kind = \"fixed\", at_m = [[20, 10], [40, 10], [9, 9]] }",
+    );
+    assert_eq!(refused(&more), [""; 0]);
+}
