@@ -69,19 +69,22 @@ radio = { range_m = 60, messages_per_step = 20 }
 [study]"""
 """Nine areas that cover the field of the search, and a controller that owns them."""
 
-AREA_SEARCH = ae.Scenario.loads(SEARCH.replace("[study]", AREAS), "search-beliefs.toml")
-BAYESIAN, HOME, _ = AREA_SEARCH.to_dict()["robots"]["rover"]["brain"]["behaviours"]
-AWARDED = {BEHAVIOURS: [{"kind": "serve"}, HOME, AVOID]}
+SEARCH_IN_AREAS = SEARCH.replace("[study]", AREAS).replace(
+    '{ kind = "bayesian_search" },', '{ kind = "bayesian_search" }, { kind = "serve" },'
+)
+AREA_SEARCH = ae.Scenario.loads(SEARCH_IN_AREAS, "search-beliefs.toml")
+BAYESIAN, _, HOME, _ = AREA_SEARCH.to_dict()["robots"]["rover"]["brain"]["behaviours"]
+AWARDED = {BEHAVIOURS: [SERVE, HOME, AVOID]}
 
 SEARCHES: dict[str, Changes] = {
     "random": {CONTROLLERS: 0, BEHAVIOURS: [{"kind": "random_bounce"}, HOME, AVOID]},
-    "messages": {CONTROLLERS: 0},
+    "messages": {CONTROLLERS: 0, BEHAVIOURS: [BAYESIAN, HOME, AVOID]},
     "nearest": {RULE: "nearest", **AWARDED},
     "auction": {RULE: "auction", **AWARDED},
     "optimal": {RULE: "optimal", **AWARDED},
-    "auction and messages": {BEHAVIOURS: [BAYESIAN, {"kind": "serve"}, HOME, AVOID]},
+    "auction and messages": {RULE: "auction"},
 }
-"""The same for the search: robots that search at random, those that share what they find, and awards."""
+"""The same for the search: robots that search at random, or share what they find; and awards."""
 
 RULES: dict[str, Changes] = {
     "messages": {CONTROLLERS: 0},

@@ -109,10 +109,18 @@ def test_check_reports_valid_scenarios(classic_toml: Path, tmp_path: Path) -> No
     given = run("check", classic_toml, "classic", cwd=tmp_path)
     assert (given.returncode, given.stderr) == (0, "")
     right = "valid: engine classic, factorial: 8 configurations"
-    assert given.stdout.splitlines() == [f"{classic_toml}: {right}", f"classic: {right}"]
+    lines = given.stdout.splitlines()
+    valid = [line for line in lines if not line.startswith("  ")]
+    assert valid == [f"{classic_toml}: {right}", f"classic: {right}"]
+    assert "  contact: touch" in lines
     listed = run("check", classic_toml, "--json")
     assert (listed.returncode, json.loads(listed.stdout)) == (0, [])
     assert list(tmp_path.iterdir()) == []
+
+
+def test_check_prints_how_soon_goals_of_a_lost_controller_are_offered_again() -> None:
+    lines = succeed("check", "waypoints").stdout.splitlines()
+    assert any(line.startswith("  recovery base: goals of a lost controller") for line in lines)
 
 
 def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Path) -> None:
@@ -125,7 +133,7 @@ def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Pat
     files = [bad, tmp_path / "none.toml", classic_toml, wide]
     given = run("check", *files, "--set", "study.delta=0.5")
     assert given.returncode == 2
-    assert len(given.stdout.splitlines()) == 1
+    assert given.stdout.count("valid: ") == 1
     lines = given.stderr.splitlines()
     assert lines[0].startswith(f"{bad}:18: robots.wanderer.cuont is not a known key: expected")
     missing = f"{bad}:17: robots.wanderer.count is missing: expected a whole number"

@@ -253,3 +253,10 @@ def test_an_external_body_does_not_fail_on_command(scenario: ae.Scenario) -> Non
     simulation = ae.Simulation(scenario, seed=1, external=["rover/0"])
     with pytest.raises(ae.InputError, match='name = "rover/0": must be a robot whose body'):
         simulation.fail("rover/0")
+
+
+def test_a_longer_owner_lease_makes_recovery_slower() -> None:
+    facts = dict(ae.Scenario.load("waypoints").facts)
+    assert "within 67.6 s" in facts["recovery base"]
+    longer = ae.Scenario.load("waypoints").replace("controllers.base.owner_lease_s", 100)
+    assert "within 137.6 s" in dict(longer.facts)["recovery base"]

@@ -70,7 +70,7 @@ def job(tmp_path: Path) -> Path:
 def test_check_warns_of_a_cropped_map_and_the_scenario_is_valid(job: Path) -> None:
     given = run("check", job)
     assert given.returncode == 0
-    assert given.stdout == f"{job}: valid: engine metric, factorial: 2 configurations\n"
+    assert given.stdout.startswith(f"{job}: valid: engine metric, factorial: 2 configurations\n")
     assert given.stderr == f"warning: {job}:6: {CROPPED}\n"
     job.write_text(JOB.replace('"room.yaml"', '"room.yaml", at_m = [0, 0]'))
     assert run("check", job).stderr == ""

@@ -12,6 +12,7 @@
 extern crate alloc;
 
 mod allocation;
+mod bounds;
 mod controller;
 mod settings;
 

@@ -99,7 +99,7 @@ def checked_fleet(
 def checked_scenario(
     file: Path, changes: tuple[Override, ...]
 ) -> tuple[str, Iterable[ScenarioWarning]]:
-    """Return the line for a valid scenario, and the warnings about its run and its study.
+    """Return the lines for a valid scenario, and the warnings about its run and its study.
 
     Raises:
         InputError: If it is not valid.
@@ -108,7 +108,8 @@ def checked_scenario(
     plan = study.make_plan(scenario)
     compared = design.describe(scenario.design, len(plan.configurations))
     line = f"{file}: valid: engine {scenario.engine}, {compared}"
-    return line, scenario.warnings + plan.warnings
+    facts = [f"  {name}: {text}" for name, text in scenario.facts]
+    return "\n".join([line, *facts]), scenario.warnings + plan.warnings
 
 
 def errors_of(file: Path, error: InputError) -> list[Error]:

@@ -139,7 +139,7 @@ impl Behaviour for Ready {
     }
 
     fn judged(&self, assignee: &mut Box<Assignee>, verdict: Verdict) {
-        assignee.judged(verdict);
+        assignee.judged(&self.ability, verdict);
     }
 
     fn held(&self) -> Motion {

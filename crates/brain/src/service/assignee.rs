@@ -88,10 +88,13 @@ impl Assignee {
     }
 
     /// Takes the verdict on the goal that it proposed last.
-    pub(crate) fn judged(&mut self, verdict: Verdict) {
+    pub(crate) fn judged(&mut self, ability: &Ability, verdict: Verdict) {
         let Some(job) = self.proposed.and_then(|goal| self.jobs.get_mut(goal)) else {
             return;
         };
+        if verdict == Verdict::Impossible && job.skip_corner(ability) {
+            return;
+        }
         let was = core::mem::replace(&mut job.verdict, verdict);
         if verdict == Verdict::Impossible && was != Verdict::Impossible {
             job.rests_until_s = self.now_s + REST_S;
@@ -321,6 +324,7 @@ impl Assignee {
         };
         if !job.is_swept(ability) {
             job.corners += 1;
+            job.visited += 1;
         } else if job.left_s() <= 0.0 {
             self.finish(goal);
         } else if job.served_s > 0.0 || left_s > job.left_s() + moment.body.period_s {

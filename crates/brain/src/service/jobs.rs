@@ -21,8 +21,9 @@ pub(crate) struct Job {
     pub(crate) due_at_s: f64,
     /// Time of service so far.
     pub(crate) served_s: f64,
-    /// Number of corners of a search that have been visited.
+    /// Number of the next corner of a search, and how many have been visited.
     pub(crate) corners: u32,
+    pub(crate) visited: u32,
     pub(crate) verdict: Verdict,
     /// Until when others are served first, because it was impossible.
     pub(crate) rests_until_s: f64,
@@ -34,6 +35,7 @@ base::hashed!(Job {
     due_at_s,
     served_s,
     corners,
+    visited,
     verdict,
     rests_until_s
 });
@@ -46,6 +48,7 @@ impl Job {
             due_at_s,
             served_s: 0.0,
             corners: 0,
+            visited: 0,
             verdict: Verdict::Approaching,
             rests_until_s: f64::NEG_INFINITY,
         }
@@ -67,6 +70,20 @@ impl Job {
         self.task.work == Work::Visit
             || ability.is_stationary()
             || ability.lanes.corner(&self.task, self.corners).is_none()
+    }
+
+    /// Skips a corner of a search that cannot be reached: an obstacle may be there. Returns whether
+    /// the search continues; one without any corner in reach does not.
+    pub(crate) fn skip_corner(&mut self, ability: &Ability) -> bool {
+        if self.is_swept(ability) {
+            return false;
+        }
+        self.corners += 1;
+        if self.is_swept(ability) && self.visited == 0 {
+            self.corners = 0;
+            return false;
+        }
+        true
     }
 
     /// Remaining time of service; none when it is within the rounding of a sum of steps.
@@ -125,5 +142,50 @@ impl Jobs {
         let order = self.tour(at).order;
         self.list = order.into_iter().map(|index| self.list[index]).collect();
         self.version = self.version.wrapping_add(1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::service::lanes::Lanes;
+
+    fn search() -> (Job, Ability) {
+        let task = Task {
+            id: GoalId::default(),
+            at_m: [20.0, 20.0],
+            radius_m: 6.0,
+            value: 1.0,
+            service_s: 0.0,
+            due_s: f32::MAX,
+            work: Work::Search,
+            capability: 0,
+        };
+        let ability = Ability {
+            speed_m_s: 1.0,
+            max_goals: 1,
+            lanes: Lanes {
+                apart_m: 4.0,
+                within: None,
+            },
+            all_round_m: 0.0,
+            capabilities: Vec::new(),
+            robot_kinds: 1,
+        };
+        (Job::new(task, RobotId::default(), f64::INFINITY), ability)
+    }
+
+    #[test]
+    fn a_search_skips_corners_out_of_reach_and_fails_if_there_is_no_other() {
+        let (mut job, ability) = search();
+        let first = job.target(&ability).0;
+        assert!(job.skip_corner(&ability));
+        assert_ne!(job.target(&ability).0, first);
+        let skipped = (0..5).take_while(|_| job.skip_corner(&ability)).count();
+        assert_eq!(skipped, 4);
+        assert_eq!(job.target(&ability).0, first, "it begins again");
+        job.visited = 1;
+        assert!((0..6).all(|_| job.skip_corner(&ability)));
+        assert!(job.is_swept(&ability) && !job.skip_corner(&ability));
     }
 }

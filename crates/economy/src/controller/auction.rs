@@ -9,8 +9,8 @@ use alloc::vec::Vec;
 use brain::{Award, Claim, Dispatch, GoalId, RobotId, Task};
 
 /// Maximum number of calls per step, and time after which a call is repeated, in seconds.
-const CALLS_PER_STEP: usize = 2;
-const REPEAT_S: f64 = 10.0;
+pub(crate) const CALLS_PER_STEP: usize = 2;
+pub(crate) const REPEAT_S: f64 = 10.0;
 
 /// Number of rounds in the time of an auction.
 const ROUNDS: f64 = 5.0;

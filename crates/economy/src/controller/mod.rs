@@ -26,6 +26,8 @@ mod trust;
 mod unserved;
 mod wards;
 
+pub(crate) use auction::{CALLS_PER_STEP, REPEAT_S};
+
 use crate::settings::Settings;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -217,6 +219,16 @@ impl Controller {
         let owned = goals.find(|owned| owned.task.id == goal && !owned.is_done);
         owned
             .is_some_and(|owned| owned.heir.bound().is_none() || self.tenures.is_held(goal, time_s))
+    }
+
+    /// Whether it owns a goal, is the heir to which its owner is bound, or has lost it.
+    #[must_use]
+    pub fn knows(&self, goal: GoalId) -> bool {
+        let owned = self.goals.iter().map(|owned| owned.task.id);
+        let wards = self.wards.iter().filter(|ward| ward.is_bound);
+        let wards = wards.map(|ward| ward.task.id);
+        let orphans = self.orphans.iter().map(|orphan| orphan.owned.task.id);
+        owned.chain(wards).chain(orphans).any(|id| id == goal)
     }
 
     /// Number of goals that it refused because it owned the maximum number.

@@ -56,6 +56,8 @@ pub(crate) struct Team {
     pub(crate) messages: usize,
     /// Messages of controllers to the operator.
     pub(crate) to_operator: Vec<Message>,
+    /// The calls for bids to all, and their times.
+    pub(crate) calls: Vec<(f64, GoalId)>,
     issued: Vec<(usize, Task)>,
     /// The goals that any controller has known to be done.
     done: BTreeSet<GoalId>,
@@ -159,6 +161,7 @@ impl Team {
             served: BTreeSet::new(),
             messages: 0,
             to_operator: Vec::new(),
+            calls: Vec::new(),
             issued: Vec::new(),
             done: BTreeSet::new(),
             brain,
@@ -333,6 +336,9 @@ impl Team {
         for message in &command.outbox {
             if let About::Dispatch(Dispatch::Done(claim)) = message.about {
                 self.served.insert((claim.goal, from));
+            }
+            if let About::Dispatch(Dispatch::Call { task, .. }) = message.about {
+                self.calls.push((self.now_s, task.id));
             }
             if message.to == RobotId::OPERATOR {
                 self.to_operator.push(*message);
