@@ -26,6 +26,16 @@ test("goals and controllers are drawn and sent while their layer is on", async (
   await expect.poll(() => inkAt(page, view, [150, 150])).toBe(true);
 });
 
+test("a click on a controller shows its goals", async ({ page, server }) => {
+  await openRun(page, server, run, "8 robots");
+  await expect.poll(() => inkAt(page, view, [150, 150])).toBe(true);
+  const box = await page.getByRole("application", { name: "World view" }).boundingBox();
+  if (!box) throw new Error("there is no view");
+  // The controller is at the centre of the view.
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await expect(page.getByRole("heading", { name: "Goals of base/0" })).toBeVisible();
+});
+
 test("a run without goals has neither the layer nor the panel", async ({ page, server }) => {
   await openRun(page, server, "scenario=open-field&seed=7&run=0");
   await openTab(page, "Layers");

@@ -1,4 +1,5 @@
 import type { Point } from "../api/protocol";
+import { controllerAt } from "../shared/economy";
 import { robotAt } from "../shared/robots";
 import { type World, worldOf } from "../shared/world";
 import { type Camera, fitTo, pan, resize, toWorld, zoomAt } from "./camera";
@@ -93,14 +94,17 @@ export class Stage {
     return { at: toWorld(this.camera, ...at), tolerance: tapTolerance_px / this.camera.scale };
   }
 
-  /** Selects the robot at a pixel, or none. */
+  /** Selects the robot at a pixel, or the controller if it is drawn, or none. */
   private tap(at: Point): void {
-    const { session } = this.host;
+    const { session, layers } = this.host;
     const { shown } = session.frames;
     if (!session.setting || !shown) return;
     const { at: place, tolerance } = this.place(at);
-    const robot = robotAt(shown, session.setting, ...place, tolerance);
-    session.select(session.setting.robots[robot] ?? null);
+    const robot = session.setting.robots[robotAt(shown, session.setting, ...place, tolerance)] ?? null;
+    const controllers = layers.economy === true ? (session.economy?.controllers ?? []) : [];
+    const controller = controllerAt(controllers, place, tolerance);
+    if (robot === null && controller !== null) this.host.chooseController(controller);
+    else session.select(robot);
   }
 
   private listen(): void {

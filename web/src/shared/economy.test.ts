@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { ControllerView, GoalStatus, GoalView, Setting } from "../api/protocol";
-import { colourOf, countsOf, goalsOf, hasEconomy, ownerColours, reasonLabel } from "./economy";
+import { colourOf, controllerAt, countsOf, goalsOf, hasEconomy, ownerColours, reasonLabel } from "./economy";
 
 const goal = (status: GoalStatus, owner: string | null = null): GoalView => ({
   name: "spot/0",
@@ -43,4 +43,13 @@ test("the goals of a controller are those that it owns", () => {
 test("a reason without a label is displayed as it is", () => {
   expect(reasonLabel("no_robot")).toBe("no robot is in range");
   expect(reasonLabel("other")).toBe("other");
+});
+
+test("the nearest controller in reach is at a place, unless a robot carries it", () => {
+  const at = (name: string, x: number, aboard: string | null = null) =>
+    ({ name, at: [x, 0], aboard }) as ControllerView;
+  const some = [at("base/0", 0), at("base/1", 5), at("car/0", 9, "rover/2")];
+  expect(controllerAt(some, [3, 0], 4)).toBe("base/1");
+  expect(controllerAt(some, [3, 0], 1)).toBeNull();
+  expect(controllerAt(some, [9, 0], 1)).toBeNull();
 });

@@ -1,5 +1,5 @@
 /** Goals and controllers: whether a run has any, their words, and the colour of each owner. */
-import type { ControllerView, GoalStatus, GoalView, Setting } from "../api/protocol";
+import type { ControllerView, GoalStatus, GoalView, Point, Setting } from "../api/protocol";
 import { tableOf } from "./world";
 
 /** The number of colours; controllers beyond it share them in turn. */
@@ -51,4 +51,13 @@ export function countsOf(goals: GoalView[]): string {
 /** The goals of a controller; all if it is null. */
 export function goalsOf(goals: GoalView[], owner: string | null): GoalView[] {
   return owner === null ? goals : goals.filter((goal) => goal.owner === owner);
+}
+
+/** The controller nearest to a place within a distance; null if there is none. Those aboard are selected by their robot. */
+export function controllerAt(controllers: ControllerView[], [x, y]: Point, within: number): string | null {
+  const fixed = controllers.filter(({ aboard }) => aboard === null);
+  const distances = fixed.map(({ name, at }) => ({ name, distance: Math.hypot(at[0] - x, at[1] - y) }));
+  const near = distances.filter(({ distance }) => distance <= within);
+  near.sort((a, b) => a.distance - b.distance);
+  return near[0]?.name ?? null;
 }

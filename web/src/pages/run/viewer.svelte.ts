@@ -59,6 +59,11 @@ export class Viewer implements Host {
     return `Run ${run} of ${name}, ${this.label || `configuration ${study.configuration}`}`;
   }
 
+  chooseController(name: string): void {
+    this.controller = name;
+    this.panel = "Goals";
+  }
+
   toggle(): void {
     const { session } = this;
     if (session.isAdvancing) session.pause();

@@ -29,3 +29,9 @@ test("columns of numbers are recognised", () => {
   expect(areNumbers(["1,234", "out after 27 runs"])).toBe(false);
   expect(areNumbers([])).toBe(false);
 });
+
+test("runs of scenarios without items have no columns of items", () => {
+  const run = { run: "3", merit: -1, time_s: 3, found: 0, missed: 0, false_alarms: 0, served: 60 };
+  expect(columnsOf([run])).toEqual(["merit", "time_s", "served"]);
+  expect(columnsOf([{ ...run, found_mine: 0, missed_mine: 2 }])).toContain("found");
+});

@@ -4,9 +4,14 @@ import { withoutFindTimes } from "../../shared/outcome";
 const first = ["merit", "time_s", "failed"];
 const apart = ["run", "quantile"];
 
-/** The columns of runs, those of the merit first, without the times of finds. */
+const ofItems = ["found", "missed", "false_alarms"];
+
+/** The columns of runs, those of the merit first, without the times of finds, and without those of items if there are none. */
 export function columnsOf(runs: StudyRun[]): string[] {
-  const names = withoutFindTimes(Object.keys(runs[0] ?? {})).filter((name) => !apart.includes(name));
+  const all = Object.keys(runs[0] ?? {});
+  const lacksItems = all.includes("missed") && !all.some((name) => name.startsWith("missed_"));
+  const left = lacksItems ? [...apart, ...ofItems] : apart;
+  const names = withoutFindTimes(all).filter((name) => !left.includes(name));
   const rest = names.filter((name) => !first.includes(name));
   return [...first.filter((name) => names.includes(name)), ...rest];
 }
