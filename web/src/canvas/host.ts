@@ -16,7 +16,7 @@ export interface Host {
   readonly itemKind: string;
   /** The controller that is chosen in the panel; null for none. */
   readonly controller: string | null;
-  /** Chooses a controller, and shows its goals. */
+  /** Chooses a controller, which shows its goals. */
   chooseController(name: string): void;
   /** Whether the selected robot stays in the centre. */
   follows: boolean;

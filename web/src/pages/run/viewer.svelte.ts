@@ -61,7 +61,6 @@ export class Viewer implements Host {
 
   chooseController(name: string): void {
     this.controller = name;
-    this.panel = "Goals";
   }
 
   toggle(): void {
