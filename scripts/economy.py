@@ -74,7 +74,8 @@ SEARCH_IN_AREAS = SEARCH.replace("[study]", AREAS).replace(
 )
 AREA_SEARCH = ae.Scenario.loads(SEARCH_IN_AREAS, "search-beliefs.toml")
 BAYESIAN, _, HOME, _ = AREA_SEARCH.to_dict()["robots"]["rover"]["brain"]["behaviours"]
-AWARDED = {BEHAVIOURS: [SERVE, HOME, AVOID]}
+ONE_AREA = SERVE | {"max_goals": 1}
+AWARDED = {BEHAVIOURS: [ONE_AREA, HOME, AVOID]}
 
 SEARCHES: dict[str, Changes] = {
     "random": {CONTROLLERS: 0, BEHAVIOURS: [{"kind": "random_bounce"}, HOME, AVOID]},
@@ -82,7 +83,7 @@ SEARCHES: dict[str, Changes] = {
     "nearest": {RULE: "nearest", **AWARDED},
     "auction": {RULE: "auction", **AWARDED},
     "optimal": {RULE: "optimal", **AWARDED},
-    "auction and messages": {RULE: "auction"},
+    "auction and messages": {BEHAVIOURS: [BAYESIAN, ONE_AREA, HOME, AVOID]},
 }
 """The same for the search: robots that search at random, or share what they find; and awards."""
 
