@@ -22,7 +22,7 @@ impl EventReader {
     }
 
     /// Removes and returns the events since the last call, in their order. Each has the number of steps before its own,
-    /// its kind, the name of an item, goal or robot as it was then, and a value: of "found" the time, of "served" the name
+    /// its kind, the name of an item, goal or robot as it was then, and a value: of "detected" the time, of "served" the name
     /// of the robot, of "collided" the robot's collisions so far, and of "status" the number of its status.
     fn drain<'py>(&self, py: Python<'py>) -> PyResult<Vec<EventTuple<'py>>> {
         let episodes = self.0.drain();
@@ -38,11 +38,11 @@ impl EventReader {
 fn tuple<'py>(py: Python<'py>, scenario: &Scenario, event: &Event) -> PyResult<EventTuple<'py>> {
     let tick = event.tick;
     Ok(match event.kind {
-        EventKind::Found { item, .. } => {
+        EventKind::Detected { item, .. } => {
             let name = named(scenario.item_kinds(), item.0.into(), item.1);
             (
                 tick,
-                "found",
+                "detected",
                 name,
                 event.time_s(scenario).into_bound_py_any(py)?,
             )

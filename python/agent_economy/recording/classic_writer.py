@@ -92,6 +92,9 @@ class ClassicMoments:
     def log_events(self) -> None:
         """Do nothing: the only events of the engine are finds, which `write` logs."""
 
+    def close(self) -> None:
+        """Do nothing: no events are collected."""
+
     def write(self) -> None:
         """Write the current step."""
         simulation = self._simulation

@@ -39,6 +39,9 @@ class Moments(Protocol):
     def write(self) -> None:
         """Write the current step, and the events since the last call."""
 
+    def close(self) -> None:
+        """Collect no more events: nothing will be written."""
+
 
 class Engine(NamedTuple):
     """The functions of an engine, which take its own runs.

@@ -21,7 +21,7 @@ class EventLog:
     def __init__(self, file: File, simulation: Simulation, clock: Clock, items: Items) -> None:
         """Begin with the events of the next step."""
         self._file, self._clock, self._items = file, clock, items
-        self._reader = _core.EventReader(simulation._run)  # noqa: SLF001  (ours)
+        self._reader: _core.EventReader | None = _core.EventReader(simulation._run)  # noqa: SLF001  (ours)
         self._waiting: deque[tuple[int, str, str, Any]] = deque()
 
     def write(self, *, until: int | None = None) -> None:
@@ -30,14 +30,19 @@ class EventLog:
         Args:
             until: Only those of steps before this one; the others wait for the next call.
         """
-        self._waiting += self._reader.drain()
+        if self._reader is not None:
+            self._waiting += self._reader.drain()
         while self._waiting and (until is None or self._waiting[0][0] < until):
             self._write(*self._waiting.popleft())
+
+    def close(self) -> None:
+        """Collect no more events: a run keeps those of its readers until they are read."""
+        self._reader = None
 
     def _write(self, tick: int, kind: str, name: str, value: Any) -> None:
         # A step is recorded when it has been taken.
         time_ns = self._clock.time_ns(tick + 1)
-        if kind == "found":
+        if kind == "detected":
             self._items.log_find(name, value, time_ns)
             return
         level, message = in_words(kind, value)

@@ -121,6 +121,10 @@ class MetricMoments:
         self._items.write_finds(moment["found_s"], time_ns)
         self._events.write()
 
+    def close(self) -> None:
+        """Collect no more events: nothing will be written."""
+        self._events.close()
+
     def _write_numbers(self, moment: Moment, time_ns: int) -> None:
         poses, half_turns = moment["poses"], moment["half_turns"]
         self._file.write("/tf", self._frames.at(time_ns, poses, half_turns), time_ns)

@@ -151,15 +151,11 @@ class Recording:
 
     def close(self) -> None:
         """Record the current step and the outcome, and close the file."""
-        if not self._file.is_open:
-            return
         try:
-            self.note()
-            last, outcome = self._moments, self.simulation.outcome()
-            row = {"status": outcome.status, **outcome.row}
-            self._file.write_json("/outcome", row, self._clock.time_ns(last.tick))
-            write_end(self._file, last.tick, last.hash, last.decision_hash)
+            if self._file.is_open:
+                self._write_end()
         finally:
+            self._moments.close()
             if self._file.is_open:
                 self._file.close()
 
@@ -170,6 +166,13 @@ class Recording:
     def __exit__(self, *_: object) -> None:
         """Close the recording, also after an exception."""
         self.close()
+
+    def _write_end(self) -> None:
+        self.note()
+        last, outcome = self._moments, self.simulation.outcome()
+        row = {"status": outcome.status, **outcome.row}
+        self._file.write_json("/outcome", row, self._clock.time_ns(last.tick))
+        write_end(self._file, last.tick, last.hash, last.decision_hash)
 
     def _step(self, steps: int, inputs: ExternalInputs) -> dict[str, Command]:
         self._check_simulation()
@@ -203,6 +206,7 @@ class Recording:
             raise InputError(message)
         if simulation.changes != seen:
             self._moments.log_events()
+            self._moments.close()
             self._write_scenario()
 
     def _write_scenario(self) -> None:

@@ -31,11 +31,11 @@ impl Event {
 /// What happened.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EventKind {
-    /// An item was found.
-    Found {
+    /// An item was detected for the first time: it is found.
+    Detected {
         /// The number of its kind, and its index.
         item: (u16, u32),
-        /// The robot that detected it first.
+        /// The robot.
         by: RobotId,
     },
     /// A goal was served for the first time, or again by another robot for the first time.
@@ -64,7 +64,7 @@ pub enum EventKind {
 /// Events of a run with the scenario in which they happened, to which their numbers belong.
 pub type Episode = (Arc<Scenario>, Vec<Event>);
 
-/// Reads the events of a run that happen after the reader was created.
+/// Reads the events of a run that happen after the reader was created. The run keeps them until they are read.
 #[derive(Debug)]
 pub struct EventReader(Arc<Mutex<Vec<Episode>>>);
 
@@ -162,4 +162,50 @@ impl EventLog {
 /// Events are complete even if another thread panicked.
 fn locked<T>(events: &Mutex<T>) -> MutexGuard<'_, T> {
     events.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::ScenarioSpec;
+    use base::document::Document;
+
+    const ROVER: &str = "
+clock = { time_limit_s = 1 }
+world = { size_m = [5, 5] }
+[robots.rover]
+count = 1
+radius_m = 0.4
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+";
+
+    fn scenario() -> Arc<Scenario> {
+        let document = Document::parse("t.toml", ROVER).unwrap();
+        Arc::new(ScenarioSpec::read(&document).unwrap().scenario)
+    }
+
+    #[test]
+    fn nothing_is_collected_for_readers_that_no_longer_exist() {
+        let scenario = scenario();
+        let mut log = EventLog::default();
+        let bodies = [BodyState::default()];
+        let (one, other) = (log.reader(&scenario), log.reader(&scenario));
+        log.begin_step(&bodies);
+        assert_eq!((log.readers.len(), log.before.len()), (2, 1));
+        drop(one);
+        log.begin_step(&bodies);
+        assert_eq!(log.readers.len(), 1);
+        drop(other);
+        log.begin_step(&bodies);
+        assert_eq!(log.readers.len(), 0);
+    }
+
+    #[test]
+    fn a_run_that_returns_often_keeps_no_empty_episodes() {
+        let scenario = scenario();
+        let mut log = EventLog::default();
+        let reader = log.reader(&scenario);
+        (0..100).for_each(|tick| log.continue_from(tick, &scenario));
+        assert_eq!(reader.drain().len(), 1);
+    }
 }

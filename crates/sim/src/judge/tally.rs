@@ -64,7 +64,7 @@ impl Tally {
             self.found[usize::from(kind)] += 1;
             is_counted = true;
             let item = (kind, items.thing(sighting.item).index);
-            events.note(tick, EventKind::Found { item, by });
+            events.note(tick, EventKind::Detected { item, by });
         }
         is_counted
     }

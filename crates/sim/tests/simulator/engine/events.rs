@@ -66,7 +66,7 @@ fn events_are_the_finds_collisions_and_stops_of_a_run() {
     let (mut found, mut collisions, mut stopped) = (0, BTreeMap::new(), BTreeMap::new());
     for event in &events {
         match event.kind {
-            EventKind::Found {
+            EventKind::Detected {
                 item: (kind, index),
                 by,
             } => {
@@ -126,7 +126,7 @@ fn of_robots_that_detect_an_item_in_the_same_step_the_first_found_it_wherever_th
         let begun = simulation.begin_step(BTreeMap::new(), BTreeMap::new(), outside);
         simulation.finish_step(begun.unwrap());
         let (item, by) = ((0, 0), id(0, 0));
-        let kind = EventKind::Found { item, by };
+        let kind = EventKind::Detected { item, by };
         assert_eq!(drained(&reader), [Event { tick: 0, kind }], "{outside:?}");
         assert_eq!(items(&simulation)[0].found_by, Some(by));
     }
@@ -163,7 +163,7 @@ fn events_keep_the_numbers_of_the_scenario_in_which_they_happened() {
         let (scenario, events) = &episodes[place];
         let [
             Event {
-                kind: EventKind::Found { by, .. },
+                kind: EventKind::Detected { by, .. },
                 ..
             },
         ] = events[..]
