@@ -17,6 +17,7 @@ __all__ = [
     "Configuration",
     "Controller",
     "Document",
+    "EventReader",
     "InputError",
     "LocalFrame",
     "MetricScenario",
