@@ -100,6 +100,8 @@ def test_times_of_finds_agree_with_the_outcome() -> None:
     assert before.select(["kind", "x_m", "y_m"]).equals(after.select(["kind", "x_m", "y_m"]))
     assert after["kind"].to_pylist() == ["mine"] * 4
     assert max(after["found_s"].to_pylist()) == outcome.time_s
+    assert before["found_by"].to_pylist() == [""] * 4
+    assert set(after["found_by"].to_pylist()) <= set(simulation.robots)
 
 
 def test_time_is_the_number_of_steps_times_their_length() -> None:

@@ -15,6 +15,7 @@ mod document;
 mod economy;
 mod engines;
 mod error;
+mod events;
 mod external;
 mod frame;
 mod geodesy;
@@ -62,6 +63,8 @@ mod _core {
     use crate::economy::{controllers, goals, served_goals};
     #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
+    #[pymodule_export]
+    use crate::events::EventReader;
     #[pymodule_export]
     use crate::frame::frame;
     #[pymodule_export]

@@ -280,7 +280,7 @@ impl Simulation {
     fn restore(&self, py: Python, snapshot: &Bound<Snapshot>) -> PyResult<()> {
         let mut run = self.locked(py)?;
         let (inspected, scenario) = (run.inspected_robot(), Arc::clone(run.scenario()));
-        *run = snapshot.get().0.run.clone();
+        run.return_to(snapshot.get().0.run.clone());
         // In another scenario, robots may have other numbers.
         let is_same = Arc::ptr_eq(&scenario, run.scenario());
         run.inspect(inspected.filter(|_| is_same));
@@ -371,7 +371,7 @@ impl Simulation {
         Ok(left.into_pyarray(py))
     }
 
-    /// `kind`, `x_m`, `y_m` and `found_s` of each item; NaN if it has not been found.
+    /// `kind`, `x_m`, `y_m`, `found_s` and `found_by` of each item; NaN and "" if it has not been found.
     #[getter]
     fn items<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py)?;
@@ -387,6 +387,9 @@ impl Simulation {
         dict.set_item("x_m", numbers(|item| item.at.x))?;
         dict.set_item("y_m", numbers(|item| item.at.y))?;
         dict.set_item("found_s", numbers(|item| item.found_s.unwrap_or(f64::NAN)))?;
+        let robots = items.iter().map(|item| item.found_by);
+        let robots = robots.map(|id| id.map_or_else(String::new, |id| name_of(run.scenario(), id)));
+        dict.set_item("found_by", robots.collect::<Vec<_>>())?;
         Ok(dict)
     }
 }

@@ -10,6 +10,7 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
 from agent_economy import arrow
 from agent_economy.recording import schemas
+from agent_economy.recording.clock import Clock
 from agent_economy.recording.fields import hash_text
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD as FRAME
@@ -58,12 +59,13 @@ class ClassicMoments:
         simulation: ClassicSimulation,
         _: Sequence[str],
         logged: Logged,
-        time_ns: int,
+        clock: Clock,
     ) -> None:
         """Write the static topics and the first step; see `engines.Engine`."""
+        time_ns = clock.time_ns(simulation.tick)
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
-        self._file, self._simulation = file, simulation
+        self._file, self._simulation, self._clock = file, simulation, clock
         self._changes = len(simulation.changes)
         self._names = simulation.robots
         self._frames = Frames(self._names)
@@ -74,9 +76,9 @@ class ClassicMoments:
         file.write_json("/team", {"robots": self._names, **bodies}, time_ns)
         file.write("/scene/world", scene([walls()], time_ns), time_ns)
         self._items.write_all(found_s(simulation), time_ns)
-        self.write(time_ns)
+        self.write()
 
-    def step(self, steps: int, inputs: ExternalInputs, _: int) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs) -> dict[str, Command]:
         """Advance as `ClassicSimulation.step` does.
 
         Raises:
@@ -87,9 +89,16 @@ class ClassicMoments:
         self._simulation.step(steps)
         return {}
 
-    def write(self, time_ns: int) -> None:
+    def log_events(self) -> None:
+        """Do nothing: the only events of the engine are finds, which `write` logs."""
+
+    def close(self) -> None:
+        """Do nothing: no events are collected."""
+
+    def write(self) -> None:
         """Write the current step."""
         simulation = self._simulation
+        time_ns = self._clock.time_ns(simulation.tick)
         robots = simulation._run.robots  # noqa: SLF001  (ours)
         found = found_s(simulation)
         self.tick, self.hash = simulation.tick, simulation.hash

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple, Protocol
 
 from agent_economy.recording import classic_writer, metric_writer
 from agent_economy.recording.classic_writer import ClassicMoments
+from agent_economy.recording.clock import Clock
 from agent_economy.recording.file import File
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.logged import Logged
@@ -29,11 +30,17 @@ class Moments(Protocol):
     def decision_hash(self) -> int | None:
         """Hash of the decisions until then; None if they are not hashed."""
 
-    def step(self, steps: int, inputs: ExternalInputs, time_ns: int, /) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs, /) -> dict[str, Command]:
         """Advance the simulation, and write its external inputs."""
 
-    def write(self, time_ns: int) -> None:
-        """Write the current step."""
+    def log_events(self) -> None:
+        """Write the events since the last call to the log, each at its own time."""
+
+    def write(self) -> None:
+        """Write the current step, and the events since the last call."""
+
+    def close(self) -> None:
+        """Collect no more events: nothing will be written."""
 
 
 class Engine(NamedTuple):
@@ -41,12 +48,12 @@ class Engine(NamedTuple):
 
     Attributes:
         moments: Writes the static topics and the first step. It takes the file, the run, the names
-            of robots whose percepts are recorded, the names of items whose finds are already in the
-            log, and the time.
+            of robots whose percepts are recorded, what is already in the log, and the times of
+            steps.
         errors: Returns the errors of the names of robots whose percepts are to be recorded.
     """
 
-    moments: Callable[[File, Any, Sequence[str], Logged, int], Moments]
+    moments: Callable[[File, Any, Sequence[str], Logged, Clock], Moments]
     errors: Callable[[Any, Sequence[str]], list[str]]
 
 

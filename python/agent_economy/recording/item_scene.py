@@ -86,7 +86,7 @@ class Items:
         self._log(self._order, found_s, time_ns)
 
     def write_finds(self, found_s: Floats, time_ns: int) -> None:
-        """Write the finds since the last call."""
+        """Write the finds since the last call, and log those that are not in the log."""
         found = np.isfinite(found_s)
         if (self._found & ~found).any():
             self.write_all(found_s, time_ns)
@@ -99,6 +99,13 @@ class Items:
                 break
             self._write_level(level, time_ns)
         self._log(new, found_s, time_ns)
+
+    def log_find(self, name: str, found_s: float, time_ns: int) -> None:
+        """Write the find of an item to the log, unless it is already in it."""
+        if name not in self._logged:
+            message = f"found at {found_s:.3f} s"
+            self._file.write("/log", log(time_ns, Log.INFO, name, message), time_ns)
+            self._logged.add(name)
 
     def _not_found(self, time_ns: int) -> Iterator[SceneUpdate]:
         """Yield all items in parts, as if none had been found."""
@@ -120,11 +127,7 @@ class Items:
     def _log(self, items: list[int], found_s: Floats, time_ns: int) -> None:
         """Write the finds to the log, except those already in it."""
         for item in items:
-            name = self.name(item)
-            if name not in self._logged:
-                message = f"found at {found_s[item]:.3f} s"
-                self._file.write("/log", log(time_ns, Log.INFO, name, message), time_ns)
-                self._logged.add(name)
+            self.log_find(self.name(item), found_s[item], time_ns)
 
     def _write_level(self, level: int, time_ns: int) -> None:
         size, finds = BASE**level, len(self._order)

@@ -4,15 +4,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.brain_topics import BrainTopics
+from agent_economy.recording.clock import Clock
 from agent_economy.recording.economy_topic import EconomyTopic
+from agent_economy.recording.event_log import EventLog
 from agent_economy.recording.fields import hash_text
 from agent_economy.recording.file import File
-from agent_economy.recording.foxglove import log, scene
+from agent_economy.recording.foxglove import scene
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Items
 from agent_economy.recording.logged import Logged
@@ -34,8 +35,6 @@ TOPICS = {
 
 PAINTS = {"active": BLUE, "empty": YELLOW, "broken": RED}
 """Colours of robots, by status."""
-
-LEVELS = {"empty": Log.WARNING, "broken": Log.ERROR}
 
 AIR_M = 1.5
 """Drawn height of a flying robot; the simulator has no heights."""
@@ -59,15 +58,16 @@ class MetricMoments:
         simulation: Simulation,
         percepts: Sequence[str],
         logged: Logged,
-        time_ns: int,
+        clock: Clock,
     ) -> None:
         """Write the static topics and the first step; see `engines.Engine`."""
+        time_ns = clock.time_ns(simulation.tick)
         setting = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
         self._brains = BrainTopics(file, simulation, percepts, setting["bodies"])
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
         self._economy = EconomyTopic(file, simulation, logged.warnings)
-        self._file, self._simulation = file, simulation
+        self._file, self._simulation, self._clock = file, simulation, clock
         self._changes = len(simulation.changes)
         self._names = simulation.robots
         self._frames = Frames(self._names)
@@ -76,6 +76,7 @@ class MetricMoments:
         kinds = document.get("items", {})
         target = {name: kind.get("target", True) for name, kind in kinds.items()}
         self._items = Items(file, simulation.items, target, logged.finds)
+        self._events = EventLog(file, simulation, clock, self._items)
         self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document, setting["shapes"]), time_ns), time_ns)
@@ -101,19 +102,28 @@ class MetricMoments:
         decisions: int | None = self._last["decisions"]
         return decisions
 
-    def step(self, steps: int, inputs: ExternalInputs, time_ns: int) -> dict[str, Command]:
+    def step(self, steps: int, inputs: ExternalInputs) -> dict[str, Command]:
         """Advance as `Simulation.step` does, and write the external inputs."""
-        return self._brains.step(steps, inputs, time_ns)
+        return self._brains.step(steps, inputs, self._clock.time_ns(self._simulation.tick))
 
-    def write(self, time_ns: int) -> None:
-        """Write the current step."""
+    def log_events(self) -> None:
+        """Write the events since the last call to the log, each at its own time."""
+        self._events.write()
+
+    def write(self) -> None:
+        """Write the current step, and the events since the last call."""
         before, self._last = self._last, moment_of(self._simulation)
-        moment = self._last
+        moment, time_ns = self._last, self._clock.time_ns(self.tick)
+        self._events.write(until=self.tick - 1)
         self._write_numbers(moment, time_ns)
         if (moment["status"] != before["status"]).any():
             self._write_bodies(moment, time_ns)
         self._items.write_finds(moment["found_s"], time_ns)
-        self._log_events(before, moment, time_ns)
+        self._events.write()
+
+    def close(self) -> None:
+        """Collect no more events: nothing will be written."""
+        self._events.close()
 
     def _write_numbers(self, moment: Moment, time_ns: int) -> None:
         poses, half_turns = moment["poses"], moment["half_turns"]
@@ -137,16 +147,6 @@ class MetricMoments:
             for name, status, radius_m, is_flying in rows
         ]
         self._file.write("/scene/robots", scene(bodies, time_ns), time_ns)
-
-    def _log_events(self, before: Moment, moment: Moment, time_ns: int) -> None:
-        """Write the collisions and changes of status since the previous step to the log."""
-        for index in np.flatnonzero(moment["collisions"] > before["collisions"]).tolist():
-            words = f"collision, {moment['collisions'][index]} in total"
-            self._file.write("/log", log(time_ns, Log.WARNING, self._names[index], words), time_ns)
-        for index in np.flatnonzero(moment["status"] != before["status"]).tolist():
-            status = str(STATUSES[moment["status"][index]])
-            level = LEVELS.get(status, Log.INFO)
-            self._file.write("/log", log(time_ns, level, self._names[index], status), time_ns)
 
 
 def errors(simulation: Simulation, percepts: Sequence[str]) -> list[str]:

@@ -124,7 +124,7 @@ class Recording:
         self._check_simulation()
         time_ns = self._clock.time_ns(self.simulation.tick)
         if self.simulation.tick != self._moments.tick:
-            self._moments.write(time_ns)
+            self._moments.write()
         if time_ns - self._flushed_ns >= self._flush_ns:
             self._file.flush()
             self._flushed_ns = time_ns
@@ -151,15 +151,11 @@ class Recording:
 
     def close(self) -> None:
         """Record the current step and the outcome, and close the file."""
-        if not self._file.is_open:
-            return
         try:
-            self.note()
-            last, outcome = self._moments, self.simulation.outcome()
-            row = {"status": outcome.status, **outcome.row}
-            self._file.write_json("/outcome", row, self._clock.time_ns(last.tick))
-            write_end(self._file, last.tick, last.hash, last.decision_hash)
+            if self._file.is_open:
+                self._write_end()
         finally:
+            self._moments.close()
             if self._file.is_open:
                 self._file.close()
 
@@ -171,14 +167,28 @@ class Recording:
         """Close the recording, also after an exception."""
         self.close()
 
+    def _write_end(self) -> None:
+        self.note()
+        last, outcome = self._moments, self.simulation.outcome()
+        row = {"status": outcome.status, **outcome.row}
+        self._file.write_json("/outcome", row, self._clock.time_ns(last.tick))
+        write_end(self._file, last.tick, last.hash, last.decision_hash)
+
     def _step(self, steps: int, inputs: ExternalInputs) -> dict[str, Command]:
         self._check_simulation()
         tick = self.simulation.tick
         try:
-            return self._moments.step(steps, inputs, self._clock.time_ns(tick))
+            return self._moments.step(steps, inputs)
         finally:
-            if self.simulation.tick > tick and self.simulation.tick % self._every == 0:
-                self.note()
+            if self.simulation.tick > tick:
+                self._note_step()
+
+    def _note_step(self) -> None:
+        """Record the current step if it is due, but the events of every step."""
+        if self.simulation.tick % self._every == 0:
+            self.note()
+        else:
+            self._moments.log_events()
 
     def _check_simulation(self) -> None:
         """Check that the simulation continues from the recorded step, and write its changes."""
@@ -195,6 +205,8 @@ class Recording:
             )
             raise InputError(message)
         if simulation.changes != seen:
+            self._moments.log_events()
+            self._moments.close()
             self._write_scenario()
 
     def _write_scenario(self) -> None:
@@ -211,7 +223,7 @@ class Recording:
             self._file.write("/log", log(time_ns, Log.INFO, "scenario", message), time_ns)
         self._changes = simulation.changes
         self._moments = self._engine.moments(
-            self._file, simulation, self._selected, self._logged, time_ns
+            self._file, simulation, self._selected, self._logged, self._clock
         )
 
 

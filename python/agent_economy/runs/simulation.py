@@ -469,7 +469,11 @@ class Simulation(Stepped):
 
     @property
     def items(self) -> pa.Table:
-        """One row per item: `kind`, `x_m`, `y_m`, and `found_s`, null if not found."""
+        """One row per item: `kind`, `x_m`, `y_m`, `found_s`, null if not found, and `found_by`.
+
+        `found_by` is the name of the robot that detected it first, empty if none did or if the
+        robot was removed.
+        """
         items: dict[str, Any] = self._run.items
         return arrow.table(
             {
@@ -477,6 +481,7 @@ class Simulation(Stepped):
                 "x_m": items["x_m"],
                 "y_m": items["y_m"],
                 "found_s": arrow.column(items["found_s"], np.isnan(items["found_s"])),
+                "found_by": items["found_by"],
             }
         )
 

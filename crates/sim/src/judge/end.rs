@@ -52,10 +52,10 @@ impl Moment<'_> {
 
     /// The step in which the last of the targets was found that were found.
     fn last_find(&self) -> Option<u64> {
-        let found = self.items.kinds().zip(self.tally.found_at());
+        let found = self.items.kinds().zip(self.tally.records());
         let kinds = &self.scenario.items;
         let targets = found.filter(|(kind, _)| kinds[usize::from(*kind)].is_target);
-        targets.filter_map(|(_, found_at)| found_at).max()
+        targets.filter_map(|(_, record)| record.found_at()).max()
     }
 
     /// The step in which the last of the goals was served that were served.

@@ -1,5 +1,6 @@
 //! What the judge of goals sees of a step.
 
+use super::events::EventKind;
 use crate::bodies::body_state::BodyState;
 use crate::goals::placed::{Goal, Goals};
 use crate::scenario::Scenario;
@@ -26,6 +27,13 @@ impl GoalMoment<'_> {
         let reach_m = within_m + drive.max_speed_m_s * self.scenario.step_s;
         let there = self.scenario.image(centre, goal.at);
         centre.to(there).length_squared() <= reach_m * reach_m
+    }
+
+    /// The event that a robot served a goal, by their numbers.
+    pub(super) fn service(&self, robot: usize, goal: usize) -> EventKind {
+        let (by, goal) = (self.ids[robot], &self.goals.all[goal]);
+        let goal = (goal.kind, goal.index);
+        EventKind::Served { goal, by }
     }
 
     /// Whether a stay at a goal was long enough on a clock that may be fast.

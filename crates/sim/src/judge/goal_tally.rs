@@ -1,11 +1,13 @@
 //! What is counted of goals: when each was issued and served, and the robot that served it.
 
+use super::events::EventLog;
 use super::goal_moment::GoalMoment;
 use super::journey::{Journey, Service};
 use super::stays::Stays;
 use crate::bodies::body_state::Status;
 use crate::radio::channel::Outgoing;
 use brain::{About, CommitmentStatus, Dispatch, GoalId, Reason, RobotId};
+use std::mem::replace;
 
 /// Counts of the goals of a run, and of its messages.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -72,6 +74,7 @@ impl GoalTally {
         &mut self,
         moment: &GoalMoment,
         sent: impl Iterator<Item = &'m Outgoing> + Clone,
+        events: &EventLog,
     ) -> bool {
         self.follow(moment);
         let records = &self.records;
@@ -82,7 +85,11 @@ impl GoalTally {
             self.messages_sent += 1;
             self.note_unserved(moment, outgoing);
             if let Some(goal) = done(outgoing).and_then(|id| moment.goals.number(id)) {
-                is_counted |= self.note_done(moment, outgoing.from as usize, goal);
+                let robot = outgoing.from as usize;
+                if self.note_done(moment, robot, goal) {
+                    is_counted = true;
+                    events.note(moment.tick, moment.service(robot, goal));
+                }
             }
         }
         // A robot that reports a goal as done may report in the same step that it drives to the next.
@@ -162,15 +169,18 @@ impl GoalTally {
         if !moment.is_long_enough(goal, now - since) || moment.is_late(goal, issued_at) {
             return false;
         }
-        match &record.served {
+        let is_new = match &record.served {
             Some(served) if served.by == Some(id) => return false,
-            Some(_) => record.is_served_twice = true,
-            None => record.served = Some(journey.service(id, issued_at, now)),
-        }
+            Some(_) => !replace(&mut record.is_served_twice, true),
+            None => {
+                record.served = Some(journey.service(id, issued_at, now));
+                true
+            }
+        };
         if self.journeys[robot].goal == Some(number) {
             self.journeys[robot] = Journey::default();
         }
-        true
+        is_new
     }
 
     /// Number of goals that were served.

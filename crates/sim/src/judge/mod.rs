@@ -1,19 +1,21 @@
 //! Judging a run: what is counted, when the run is over, and its outcome. Robots perceive none of it.
 //!
-//! A step reports events to the [`tally`]: what robots detected, and how often they collided. From the tally
+//! A step reports to the [`tally`] what robots detected, and how often they collided. From the tally
 //! and the bodies of a [`moment`] follow the rules of the [`end`] and the [`outcome`], whose numbers are
-//! the [`columns`] of results.
+//! the [`columns`] of results. What counts is also an event for the readers of [`events`], if there are any.
 
 mod bounds;
 pub(crate) mod columns;
 pub(crate) mod cost;
 pub(crate) mod detections;
 mod end;
+pub mod events;
 mod find_times;
 mod goal_columns;
 pub(crate) mod goal_moment;
 mod goal_outcome;
 pub(crate) mod goal_tally;
+pub(crate) mod items;
 mod journey;
 pub(crate) mod moment;
 mod outcome;

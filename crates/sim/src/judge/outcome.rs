@@ -78,8 +78,8 @@ impl Outcome {
 /// The time of each find, by kind, in ascending order.
 fn find_times(moment: &Moment) -> Vec<Vec<f64>> {
     let mut found_s = vec![Vec::new(); moment.scenario.items.len()];
-    for (kind, found_at) in moment.items.kinds().zip(moment.tally.found_at()) {
-        if let Some(tick) = found_at {
+    for (kind, record) in moment.items.kinds().zip(moment.tally.records()) {
+        if let Some(tick) = record.found_at() {
             found_s[usize::from(kind)].push(seconds(tick, moment.scenario.step_s));
         }
     }

@@ -2,22 +2,28 @@
 
 use super::cost::Cost;
 use super::detections::Detections;
+use super::events::{EventKind, EventLog};
 use super::goal_tally::GoalTally;
+use super::items::{Detection, ItemRecord};
 use crate::bodies::body_state::BodyState;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::hash::Hash;
 use base::hashed::Hashed;
+use brain::RobotId;
+use std::collections::BTreeMap;
 
 /// Counts of a run, besides those of each robot.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Tally {
-    /// The step in which each item was found, by its number.
-    found_at: Vec<Option<u64>>,
+    /// By the number of the item.
+    records: Vec<ItemRecord>,
     /// Items found, by kind.
     pub(super) found: Vec<u32>,
     /// The step in which the run was complete.
     pub(crate) complete_at: Option<u64>,
+    /// Steps in which anything was counted.
+    pub(crate) counted_steps: u64,
     pub(super) false_alarms: u64,
     pub(super) collisions: u64,
     /// The cost of robots that were removed.
@@ -30,25 +36,35 @@ impl Tally {
     /// The tally of a run that begins.
     pub(crate) fn new(scenario: &Scenario, items: &Items) -> Self {
         Self {
-            found_at: vec![None; items.len()],
+            records: vec![ItemRecord::default(); items.len()],
             found: vec![0; scenario.items.len()],
             goals: scenario.goals().map(Box::new),
             ..Self::default()
         }
     }
 
-    /// Notes what robots detected in step `tick`; returns whether any of it counts. An item is found when it is
+    /// Notes what robots detected in a step; returns whether any of it counts. An item is found when it is
     /// first detected.
-    pub(crate) fn detected(&mut self, detections: &Detections, tick: u64, items: &Items) -> bool {
+    pub(crate) fn detected(
+        &mut self,
+        detections: &Detections,
+        (tick, items, ids): (u64, &Items, &[RobotId]),
+        events: &EventLog,
+    ) -> bool {
         self.false_alarms += detections.false_alarms;
         let mut is_counted = detections.false_alarms > 0;
-        for item in &detections.sightings {
-            let found_at = &mut self.found_at[*item as usize];
-            if found_at.is_none() {
-                *found_at = Some(tick);
-                self.found[usize::from(items.kind(*item))] += 1;
-                is_counted = true;
+        for sighting in &detections.sightings {
+            let record = &mut self.records[sighting.item as usize];
+            if record.detected.is_some() {
+                continue;
             }
+            let (by, kind) = (ids[sighting.robot as usize], items.kind(sighting.item));
+            let at = tick;
+            record.detected = Some(Detection { at, by: Some(by) });
+            self.found[usize::from(kind)] += 1;
+            is_counted = true;
+            let item = (kind, items.thing(sighting.item).index);
+            events.note(tick, EventKind::Detected { item, by });
         }
         is_counted
     }
@@ -59,51 +75,45 @@ impl Tally {
         collisions > 0
     }
 
-    /// Items found, and everything else that is counted besides the robots that stopped.
+    /// Items found, and a number that is higher when anything else was counted since, besides the robots that stopped.
     pub(crate) fn counts(&self) -> (u64, u64) {
         let found = self.found.iter().copied().map(u64::from).sum();
-        let others = self.false_alarms + self.collisions + u64::from(self.removed.stopped);
-        let goals = self.goals.as_deref();
-        let served = goals.map_or(0, |goals| {
-            u64::from(goals.served()) + goals.served_twice() as u64
-        });
-        (
-            found,
-            others + served + u64::from(self.complete_at.is_some()),
-        )
+        (found, self.counted_steps + u64::from(self.removed.stopped))
     }
 
-    /// The step in which each item was found, by its number.
-    pub(crate) fn found_at(&self) -> impl Iterator<Item = Option<u64>> {
-        self.found_at.iter().copied()
+    /// What happened to each item, by its number.
+    pub(crate) fn records(&self) -> impl Iterator<Item = &ItemRecord> {
+        self.records.iter()
     }
 
     /// The tally of the run as it continues with the items of another scenario and without the robots that are
-    /// `removed`. Of each item that stays, `kept` has its number there and here. Whether the run is complete is not noted.
+    /// `removed`. Of each item that stays, `kept` has its number there and here, and of each robot, `ids` has its id here
+    /// and there. Whether the run is complete is not noted.
     pub(crate) fn continued(
         &self,
         (scenario, items): (&Scenario, &Items),
         kept: &[(usize, usize)],
-        removed: &[BodyState],
+        (removed, ids): (&[BodyState], &BTreeMap<RobotId, RobotId>),
     ) -> Self {
         let mut next = Self {
             removed: self.removed.and(removed.iter()),
             ..Self::new(scenario, items)
         };
+        next.counted_steps = self.counted_steps;
         (next.false_alarms, next.collisions) = (self.false_alarms, self.collisions);
         for (now, was) in kept {
-            next.found_at[*now] = self.found_at[*was];
+            next.records[*now] = self.records[*was].renumbered(|id| ids.get(&id).copied());
         }
-        for (kind, found_at) in items.kinds().zip(&next.found_at) {
-            next.found[usize::from(kind)] += u32::from(found_at.is_some());
+        for (kind, record) in items.kinds().zip(&next.records) {
+            next.found[usize::from(kind)] += u32::from(record.detected.is_some());
         }
         next
     }
 
     /// Adds everything observable to the hash of a run.
     pub(crate) fn add_to(&self, hash: &mut Hash, items: &Items) {
-        for (kind, found_at) in items.kinds().zip(&self.found_at) {
-            hash.add(u64::from(kind) << 48 | found_at.map_or(0, |tick| tick + 1));
+        for (kind, record) in items.kinds().zip(&self.records) {
+            record.add_to(kind, hash);
         }
         hash.add(self.false_alarms);
         hash.add(self.collisions);

@@ -56,7 +56,9 @@ impl State {
         next.make_room(to, &starts)?;
         let kept = next.keep_items(self, from, to)?;
         let removed = removed(self, &old);
-        next.tally = self.tally.continued((to, &next.items), &kept, &removed);
+        next.tally = self
+            .tally
+            .continued((to, &next.items), &kept, (&removed, &ids));
         next.keep_goals((self, from), to, &old, &ids);
         next.tally.complete_at = next.moment(to).completed_at(self.tally.complete_at);
         if is_same_team(self.robots(), &old)

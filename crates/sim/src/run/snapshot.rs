@@ -50,6 +50,8 @@ pub struct Item {
     pub at: Point,
     /// When it was found, if it was.
     pub found_s: Option<f64>,
+    /// The robot that detected it first; `None` if none did, or if the robot was removed.
+    pub found_by: Option<RobotId>,
 }
 
 impl State {
@@ -120,11 +122,12 @@ impl State {
     /// All items, in the order of their kinds and indices.
     pub fn each_item(&self, scenario: &Scenario) -> impl Iterator<Item = Item> {
         let items = self.items.kinds().zip(self.items.places());
-        let items = items.zip(self.tally.found_at());
-        items.map(|((kind, at), found_at)| Item {
+        let items = items.zip(self.tally.records());
+        items.map(|((kind, at), record)| Item {
             kind,
             at,
-            found_s: found_at.map(|tick| seconds(tick, scenario.step_s)),
+            found_s: record.found_at().map(|tick| seconds(tick, scenario.step_s)),
+            found_by: record.detected.and_then(|detection| detection.by),
         })
     }
 }

@@ -134,8 +134,9 @@ impl State {
         (found, others + stopped as u64)
     }
 
-    /// Notes if the run is complete with this step, in which the judge counted something, or nothing.
+    /// Notes whether the judge counted something in this step, and if the run is complete with it.
     pub(crate) fn note_completion(&mut self, scenario: &Scenario, is_counted: bool) {
+        self.tally.counted_steps += u64::from(is_counted);
         let can_complete = self.tally.complete_at.is_none() && scenario.can_complete(is_counted);
         if can_complete && self.moment(scenario).meets_end() {
             self.tally.complete_at = Some(self.tick);

@@ -16,6 +16,7 @@ use crate::bodies::path::Orientation;
 use crate::bodies::source::BodySource;
 use crate::clock::seconds;
 use crate::judge::Outcome;
+use crate::judge::events::{EventLog, EventReader};
 use crate::run::agent::Agent;
 use crate::run::placing::NoRoom;
 use crate::run::state::State;
@@ -30,6 +31,7 @@ use base::geometry::Point;
 use brain::{Command, Percept, RobotId};
 use probe::Probe;
 use std::collections::BTreeMap;
+use std::mem;
 use std::sync::Arc;
 
 /// A run, and what it needs to continue.
@@ -208,7 +210,23 @@ impl Simulation {
     pub fn restore(&mut self, state: State) {
         self.state = state;
         self.scratch.invalidate();
+        self.scratch
+            .events
+            .continue_from(self.state.tick, &self.scenario);
         self.probe.forget();
+    }
+
+    /// Returns to a copy of this run, which may have another scenario. Readers of its events stay.
+    pub fn return_to(&mut self, copy: Self) {
+        let events = mem::take(&mut self.scratch.events);
+        *self = copy;
+        self.keep_readers(events);
+    }
+
+    /// A reader of what happens in this run from now on. If the run returns to an earlier step, the events after
+    /// it are removed, unless they were read before. Copies of the run have no readers.
+    pub fn event_reader(&mut self) -> EventReader {
+        self.scratch.events.reader(&self.scenario)
     }
 
     /// Continues with another scenario: see [`State::changed`].
@@ -224,9 +242,16 @@ impl Simulation {
     /// Continues with another scenario, from the state that [`State::changed`] returned for it.
     pub fn continue_with(&mut self, scenario: Arc<Scenario>, state: State) {
         self.state = state;
+        let events = mem::take(&mut self.scratch.events);
         self.scratch = StepScratch::new(&scenario, true);
         self.scenario = scenario;
+        self.keep_readers(events);
         self.probe = Probe::default();
+    }
+
+    fn keep_readers(&mut self, mut events: EventLog) {
+        events.continue_from(self.state.tick, &self.scenario);
+        self.scratch.events = events;
     }
 
     /// The external inputs of a step; moves external bodies to the poses of their percepts.

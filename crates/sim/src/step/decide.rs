@@ -142,7 +142,8 @@ impl WorkerScratch {
             let distances = same.map(|(at, item)| (place.to(*at).length(), *item));
             let nearest = distances.min_by(|one, other| one.0.total_cmp(&other.0));
             let nearest = nearest.filter(|(distance_m, _)| *distance_m <= RECOGNISED_WITHIN_M);
-            self.sensing.detections.note(nearest.map(|(_, item)| item));
+            let item = nearest.map(|(_, item)| item);
+            self.sensing.detections.note(robot, item);
         }
     }
 

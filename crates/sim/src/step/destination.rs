@@ -11,6 +11,8 @@ pub(super) enum Destination<'a> {
     Percept {
         percept: &'a mut Percept,
         detections: &'a mut Detections,
+        /// The number of the robot.
+        robot: usize,
     },
     /// Into the backlog, from which the brain gets them in its first step from step `due` on.
     Backlog {
@@ -42,9 +44,10 @@ impl Destination<'_> {
             Self::Percept {
                 percept,
                 detections,
+                robot,
             } => {
                 percept.contacts.push(contact);
-                detections.note(item);
+                detections.note(*robot, item);
             }
             Self::Backlog {
                 backlog,

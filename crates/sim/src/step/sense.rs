@@ -35,6 +35,7 @@ pub(crate) fn sense(
             _ => Destination::Percept {
                 percept,
                 detections: &mut scratch.detections,
+                robot,
             },
         };
         measurement.take(&mut scratch.buffers, destination);
@@ -113,5 +114,7 @@ fn deliver(
             write(percept, &sensor.measure, ring, age_s, values);
         }
     }
-    backlog.deliver(now, step_s, percept, |item| scratch.detections.note(item));
+    backlog.deliver(now, step_s, percept, |item| {
+        scratch.detections.note(robot, item);
+    });
 }

@@ -12,6 +12,8 @@ use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
 use super::plan::{Plan, planned};
+use crate::judge::detections::Detections;
+use crate::judge::events::EventLog;
 use crate::judge::goal_moment::GoalMoment;
 use crate::run::agent::Agent;
 use crate::run::state::State;
@@ -31,6 +33,8 @@ pub(crate) struct StepScratch {
     /// The decisions of the last step that were made outside its brains.
     pub(crate) decisions: PendingDecisions,
     moves: Moves,
+    /// Readers of what happens in the run.
+    pub(crate) events: EventLog,
     /// Whether threads may share the work of one step.
     may_share: bool,
     has_beliefs: bool,
@@ -48,6 +52,7 @@ impl StepScratch {
             controllers: ControllerScratch::default(),
             decisions: PendingDecisions::default(),
             moves: Moves::default(),
+            events: EventLog::default(),
             may_share,
             has_beliefs: scenario.kinds.iter().any(|kind| kind.brain.has_beliefs()),
         }
@@ -75,6 +80,7 @@ impl StepScratch {
         state: &mut State,
         external: &ExternalInputs,
     ) {
+        self.events.begin_step(&state.body_states);
         let is_counted = if scenario.is_of_flocks_of_points() && external.is_empty() {
             self.flock_step(scenario, state);
             add_setpoints(scenario, state);
@@ -94,6 +100,8 @@ impl StepScratch {
         if scenario.has_failures {
             state.fail(scenario);
         }
+        self.events
+            .end_step(state.tick, &state.ids, &state.body_states);
         state.note_completion(scenario, is_counted);
         state.tick += 1;
         communicate::deliver(state);
@@ -234,19 +242,29 @@ impl StepScratch {
             body_states: &state.body_states,
         };
         let sent = self.workers.iter().flat_map(|worker| &worker.outbox);
-        tally.observe(&moment, sent)
+        tally.observe(&moment, sent, &self.events)
     }
 
     /// Reports to the judge what robots detected in this step, and their collisions; returns whether anything was
     /// counted.
     fn judge(&self, state: &mut State, external: &ExternalInputs, collisions: u64) -> bool {
         let State {
-            tick, items, tally, ..
+            tick,
+            items,
+            tally,
+            ids,
+            ..
         } = state;
+        let step = (*tick, &*items, &ids[..]);
         let mut is_counted = tally.collided(collisions);
         let here = self.workers.iter().map(|worker| &worker.sensing.detections);
-        for detections in iter::once(&external.decisions.detections).chain(here) {
-            is_counted |= tally.detected(detections, *tick, items);
+        if external.decisions.robots.is_empty() {
+            for detections in here {
+                is_counted |= tally.detected(detections, step, &self.events);
+            }
+        } else {
+            let all = iter::once(&external.decisions.detections).chain(here);
+            is_counted |= tally.detected(&Detections::merged(all), step, &self.events);
         }
         is_counted
     }

@@ -4,6 +4,7 @@ use crate::common::{go, id, replaced, send, start, step_with};
 use base::geometry::Point;
 use brain::{About, Command, CommitmentStatus, GoalId, Message, RobotId, issuer_of};
 use sim::judge::GoalOutcome;
+use sim::judge::events::EventKind;
 use sim::run::Goal;
 use sim::simulation::Simulation;
 
@@ -142,9 +143,14 @@ fn a_robot_that_reports_a_service_again_serves_once_and_another_one_serves_twice
     assert_eq!(outcome(&simulation).served_twice, 0);
     let near = replaced(TWO, &[("[12, 12]", "[10.4, 10]")]);
     let mut simulation = start(&near);
+    let reader = simulation.event_reader();
     for robot in [ROVER, OTHER, OTHER] {
         step_with(&mut simulation, [(robot, send(&[done(0)]))]);
     }
+    let episodes = reader.drain();
+    let events = episodes[0].1.iter().map(|event| (event.tick, event.kind));
+    let by = |by| EventKind::Served { goal: (0, 0), by };
+    assert_eq!(events.collect::<Vec<_>>(), [(0, by(ROVER)), (1, by(OTHER))]);
     let GoalOutcome {
         served,
         served_twice,

@@ -14,6 +14,7 @@ mod dead_end;
 mod decision_hashes;
 mod determinism;
 mod end;
+mod events;
 mod external;
 mod external_decisions;
 mod find_times;
