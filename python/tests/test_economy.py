@@ -260,3 +260,38 @@ def test_a_longer_owner_lease_makes_recovery_slower() -> None:
     assert "within 67.6 s" in facts["recovery base"]
     longer = ae.Scenario.load("waypoints").replace("controllers.base.owner_lease_s", 100)
     assert "within 137.6 s" in dict(longer.facts)["recovery base"]
+
+
+def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
+    brain = ae.Brain.of("waypoints", "rover")
+    assert brain.served_goals() == []
+    position = {"value": [0.0, 0.0], "age_s": 0.0}
+    heading = {"value": 0.0, "age_s": 0.0}
+    goal = {"issuer": {"kind": 255, "index": 0}, "number": 3}
+    task = {
+        "id": goal,
+        "at_m": [10.0, 0.0],
+        "radius_m": 1.0,
+        "value": 1.0,
+        "service_s": 0.0,
+        "due_s": 1e6,
+        "work": "visit",
+        "capability": 0,
+    }
+
+    def step(time_s: float, dispatch: dict[str, Any]) -> list[Any]:
+        message = {"about": {"dispatch": dispatch}, "confidence": 1.0}
+        message["to"] = {"kind": 0, "index": 0}
+        inbox = [{"from": {"kind": 1, "index": 0}, "age_s": 0.0, "message": message}]
+        percept = {"time_s": time_s, "position": position, "heading_rad": heading, "inbox": inbox}
+        outbox = brain.step(percept)["outbox"]  # type: ignore[arg-type]
+        return [each["about"]["dispatch"] for each in outbox if "dispatch" in each["about"]]
+
+    (bid,) = [
+        each["bid"] for each in step(1.0, {"call": {"number": 0, "task": task}}) if "bid" in each
+    ]
+    step(2.0, {"award": {"goal": goal, "number": bid["number"], "lease_s": 20.0}})
+    (served,) = brain.served_goals()
+    assert served["task"]["id"] == goal
+    assert served["owner"] == {"kind": 1, "index": 0}
+    assert served["lease_s"] == pytest.approx(19.0)

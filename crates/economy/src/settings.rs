@@ -30,6 +30,9 @@ pub struct Settings {
     /// the number of the controller's own kind: there is no other kind of controllers before it.
     #[serde(skip)]
     pub robot_kinds: u8,
+    /// Number of kinds of controllers; 0 if it is unknown.
+    #[serde(skip)]
+    pub controller_kinds: u8,
 }
 
 impl Settings {
@@ -41,8 +44,10 @@ impl Settings {
 
     /// Whether an id is that of another controller.
     pub(crate) fn is_other_controller(&self, id: RobotId, own: RobotId) -> bool {
-        let is_person = id.kind == RobotId::OPERATOR.kind;
-        id != own && !is_person && !self.is_robot(id, own)
+        let is_known = self.robot_kinds > 0 && self.controller_kinds > 0;
+        let end = self.robot_kinds.saturating_add(self.controller_kinds);
+        let is_kind = id.kind != RobotId::OPERATOR.kind && (!is_known || id.kind < end);
+        id != own && is_kind && !self.is_robot(id, own)
     }
 
     /// The shortest lease that an heir can grant: a shorter one could end before it is renewed, and
@@ -62,6 +67,7 @@ impl Default for Settings {
             max_goals: 1000,
             max_drift: 1e-4,
             robot_kinds: 0,
+            controller_kinds: 0,
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::page::PageMessage;
 use crate::server::ServerMessage;
 use crate::study_answer::{Study, StudyList};
 use crate::study_form::{Factors, StudyRequest};
-use brain::{AssignedGoal, BeliefState, Body, Command, Percept};
+use brain::{AssignedGoal, BeliefState, Body, Command, Percept, ServedGoal};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value as Json, json};
 
@@ -21,6 +21,7 @@ pub fn brain_schema() -> Json {
         .into_generator();
     outputs.subschema_for::<BeliefState>();
     outputs.subschema_for::<AssignedGoal>();
+    outputs.subschema_for::<ServedGoal>();
     definitions("Percepts, commands, bodies and beliefs", [outputs, inputs])
 }
 

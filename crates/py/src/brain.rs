@@ -10,7 +10,7 @@ use crate::serde_error::as_in_python;
 use base::document::Document;
 use base::document::schema::Schema;
 use base::error::{InputError, InputErrors};
-use brain::{AssignedGoal, BeliefState, Body, BrainSpec, Command, Percept};
+use brain::{AssignedGoal, BeliefState, Body, BrainSpec, Command, Percept, ServedGoal};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use schemars::{JsonSchema, schema_for};
@@ -75,6 +75,11 @@ impl Brain {
         convert::write(py, &self.with(|brain| brain.assigned_goals()))
     }
 
+    /// The goals of controllers that it serves, in the order in which it serves them.
+    fn served_goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        convert::write(py, &self.with(|brain| brain.served_goals()))
+    }
+
     /// An independent copy in the same state.
     fn copy(&self) -> Self {
         Self(Mutex::new(self.with(|brain| brain.clone())))
@@ -91,6 +96,7 @@ impl Brain {
             ("Command", schema_for!(Command)),
             ("BeliefState", schema_for!(BeliefState)),
             ("AssignedGoal", schema_for!(AssignedGoal)),
+            ("ServedGoal", schema_for!(ServedGoal)),
         ];
         convert::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
     }

@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 
 from agent_economy import _core
 from agent_economy.scenario import Scenario, as_scenario, validation
-from agent_economy.types.brain import AssignedGoal, BeliefState, Body, Command, Percept, Point
+from agent_economy.types.brain import (
+    AssignedGoal,
+    BeliefState,
+    Body,
+    Command,
+    Percept,
+    Point,
+    ServedGoal,
+)
 
 __all__ = [
     "AssignedGoal",
@@ -26,6 +34,7 @@ __all__ = [
     "Command",
     "Inspection",
     "Percept",
+    "ServedGoal",
     "schemas",
 ]
 
@@ -137,6 +146,17 @@ class Brain:
             An empty list if there are none, or no behaviour of the brain takes orders.
         """
         return cast("list[AssignedGoal]", self._brain.assigned_goals())
+
+    def served_goals(self) -> list[ServedGoal]:
+        """Return the goals of controllers that the robot has leases of, as of the last step.
+
+        They are in the order in which it serves them, each with its owner, the remaining time of
+        the lease on the robot's clock, and its verdict.
+
+        Returns:
+            An empty list if there are none, or the brain has no behaviour `serve`.
+        """
+        return cast("list[ServedGoal]", self._brain.served_goals())
 
     def copy(self) -> "Brain":
         """Return an independent copy in the same state."""

@@ -852,3 +852,19 @@ class Percept(TypedDict):
     contacts: NotRequired[Sequence[Contact]]
     neighbours: NotRequired[Sequence[Neighbour]]
     inbox: NotRequired[Sequence[ReceivedMessage]]
+
+
+class ServedGoal(TypedDict):
+    """A goal of a controller that a robot serves.
+
+    Attributes:
+        task: The goal.
+        owner: The controller that awarded it.
+        lease_s: Remaining time of its lease, on the robot's clock.
+        verdict: Its state.
+    """
+
+    task: Task
+    owner: RobotId
+    lease_s: float
+    verdict: Verdict

@@ -18,9 +18,6 @@ use crate::io::verdict::Verdict;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// Time for which an impossible goal is served after all others, in seconds.
-const REST_S: f64 = 10.0;
-
 /// A robot as the assignee of goals.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Assignee {
@@ -71,8 +68,12 @@ impl Assignee {
 
     /// The goal to serve now, and whether the robot is there.
     pub(crate) fn current(&mut self, ability: &Ability, at: Point) -> Option<(Job, bool)> {
-        let job = *self.jobs.current(self.now_s)?;
-        self.proposed = Some(job.task.id);
+        let goal = self.jobs.current(self.now_s)?.task.id;
+        self.proposed = Some(goal);
+        let job = self.jobs.get_mut(goal)?;
+        // Until it is judged otherwise in this step.
+        job.verdict = Verdict::Approaching;
+        let job = *job;
         Some((job, is_there(&job, ability, at) && job.is_swept(ability)))
     }
 
@@ -95,11 +96,10 @@ impl Assignee {
         if verdict == Verdict::Impossible && job.skip_corner(ability) {
             return;
         }
-        let was = core::mem::replace(&mut job.verdict, verdict);
-        if verdict == Verdict::Impossible && was != Verdict::Impossible {
-            job.rests_until_s = self.now_s + REST_S;
+        job.verdict = verdict;
+        if verdict == Verdict::Impossible {
             let goal = job.task.id;
-            self.failures.add(goal, self.now_s);
+            job.rests_until_s = self.failures.add(goal, self.now_s);
             self.report_failure(goal, Reason::Unreachable);
         }
     }
@@ -265,13 +265,19 @@ impl Assignee {
         Ok(())
     }
 
-    /// Out of service, the robot returns its goals.
+    /// Out of service, the robot returns its goals; in service again, it reports to all controllers.
     fn set_service(&mut self, is_in: bool) {
         self.is_out_of_service = !is_in;
-        let goals = self.jobs.list.iter().map(|job| job.task.id);
-        let goals: Vec<GoalId> = goals.filter(|_| !is_in).collect();
+        if is_in {
+            self.schedule.report_to_all(self.now_s);
+            return;
+        }
+        let goals: Vec<GoalId> = self.jobs.list.iter().map(|job| job.task.id).collect();
         for goal in goals {
-            self.release(goal);
+            if let Some(lease) = self.holder.lease(goal).copied() {
+                self.refuse(lease.grantor, goal, lease.number, Reason::OutOfService);
+            }
+            self.drop_job(goal);
         }
     }
 

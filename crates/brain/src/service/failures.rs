@@ -32,18 +32,21 @@ base::hashed!(Failure {
 });
 
 impl Failures {
-    pub(crate) fn add(&mut self, goal: GoalId, now_s: f64) {
+    /// Notes a failure; returns until when the goal rests.
+    pub(crate) fn add(&mut self, goal: GoalId, now_s: f64) -> f64 {
         let index = self.list.iter().position(|failure| failure.goal == goal);
         let count = index.map_or(0, |index| self.list.remove(index).count);
         if self.list.len() == MAX_GOALS {
             self.list.remove(0);
         }
         let rest_s = MIN_REST_S * libm::exp2(f64::from(count.min(8)));
+        let rests_until_s = now_s + rest_s.min(MAX_REST_S);
         self.list.push(Failure {
             goal,
             count: count.saturating_add(1),
-            rests_until_s: now_s + rest_s.min(MAX_REST_S),
+            rests_until_s,
         });
+        rests_until_s
     }
 
     /// Whether the robot does not try a goal at this time.

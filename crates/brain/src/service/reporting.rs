@@ -15,7 +15,7 @@ impl Assignee {
         for (owner, claim) in done {
             self.send(owner, Dispatch::Done(claim));
         }
-        let Some(at) = moment.at else {
+        let Some(at) = moment.at.filter(|_| !self.is_out_of_service) else {
             return;
         };
         let receivers: Vec<RobotId> = self.schedule.due(self.now_s).collect();

@@ -142,6 +142,13 @@ impl Schedule {
         })
     }
 
+    /// All known controllers get a report.
+    pub(crate) fn report_to_all(&mut self, now_s: f64) {
+        for contact in &mut self.contacts {
+            contact.next_report_s = now_s;
+        }
+    }
+
     /// A controller requests a report.
     pub(crate) fn report_now(&mut self, id: RobotId, now_s: f64) {
         self.note(id, now_s).next_report_s = now_s;

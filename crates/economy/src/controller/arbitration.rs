@@ -3,7 +3,8 @@
 //! ```text
 //! A robot keeps its goal while it approaches it. A goal is contested when its robot reports that it
 //! is stuck, or is overdue: other robots can bid for it, and the first valid bid moves it. If there is
-//! none, the robot keeps it and tries again; if it approaches again, the contest ends.
+//! none, the robot keeps it and tries again; if it approaches again, the contest ends. A robot that
+//! stays stuck for half a minute without another bid loses it: it is reported, and offered again later.
 //! A robot that refuses, releases or is silent until its lease ends has lost the goal at once.
 //! A goal that waits because all robots are full displaces a goal of at most half its value whose
 //! service has not begun.
@@ -14,8 +15,9 @@
 //! would be nearer. New goals that lie better change the order in which robots serve theirs.
 
 use super::Controller;
+use super::owned::Assigned;
 use alloc::vec::Vec;
-use brain::{Claim, Dispatch, GoalId, Refusal, RobotId};
+use brain::{Claim, Dispatch, GoalId, Reason, Refusal, RobotId};
 
 /// A withdrawal without an answer is repeated after this time, in seconds.
 const RETRY_S: f64 = 1.0;
@@ -25,13 +27,21 @@ const RETRY_S: f64 = 1.0;
 const OVERDUE_FACTOR: f64 = 4.0;
 const OVERDUE_S: f64 = 60.0;
 
+/// A robot that is stuck keeps its goal for this time without a bid of another, in seconds.
+const HOPELESS_S: f64 = 30.0;
+
 impl Controller {
     /// A robot does not reach its goal: others can have it.
     pub(super) fn take_stuck(&mut self, from: RobotId, refusal: Refusal) {
+        let now_s = self.now_s;
         let is_holder = |holder: RobotId| holder == from;
         let grant = self.services.grant_of(refusal.goal);
         if grant.is_some_and(|grant| is_holder(grant.holder)) {
             self.contest(refusal.goal);
+            let owned = self.goal_mut(refusal.goal);
+            if let Some(assigned) = owned.and_then(|owned| owned.assigned.as_mut()) {
+                assigned.stuck_s = assigned.stuck_s.min(now_s);
+            }
         }
         if let Some(owned) = self.goal_mut(refusal.goal) {
             owned.reason = refusal.reason;
@@ -52,6 +62,7 @@ impl Controller {
             return;
         };
         let is_late = now_s >= assigned.overdue_s;
+        assigned.stuck_s = f64::INFINITY;
         if assigned.is_contested && !is_late {
             assigned.is_contested = false;
             assigned.overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * remaining_s.clamp(0.0, 1e4);
@@ -75,6 +86,8 @@ impl Controller {
                 if self.has_other_bid(goal, assigned.robot) {
                     self.picture.learn(assigned.robot, false, now_s);
                     self.withdraw(goal);
+                } else {
+                    self.withdraw_if_hopeless(goal, assigned);
                 }
             } else if now_s >= assigned.overdue_s {
                 self.contest(goal);
@@ -95,6 +108,19 @@ impl Controller {
             assigned.is_contested = true;
             owned.offer_again(now_s);
             self.bids.remove_for(goal);
+        }
+    }
+
+    /// A robot is stuck, and no other has bid for its goal for a time.
+    fn withdraw_if_hopeless(&mut self, goal: GoalId, assigned: Assigned) {
+        let now_s = self.now_s;
+        let Some(owned) = self.goal_mut(goal) else {
+            return;
+        };
+        let since_s = owned.without_bid_s.max(assigned.stuck_s);
+        if now_s >= since_s + HOPELESS_S {
+            owned.decline(assigned.robot, now_s + HOPELESS_S, Reason::Unreachable);
+            self.withdraw(goal);
         }
     }
 

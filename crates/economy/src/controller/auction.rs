@@ -160,9 +160,11 @@ impl Controller {
             number: bid.number,
             is_committed: false,
             awarded_s: now_s,
+            lease_s: self.settings.service_lease_s,
             next_s: now_s,
             overdue_s,
             is_contested: false,
+            stuck_s: f64::INFINITY,
             is_withdrawn: false,
             there_s: f64::INFINITY,
         };
@@ -192,7 +194,7 @@ impl Controller {
 
     /// Sends the awards that have not been answered.
     fn repeat_awards(&mut self) {
-        let (now_s, lease_s) = (self.now_s, self.settings.service_lease_s);
+        let now_s = self.now_s;
         for index in 0..self.goals.len() {
             let owned = &mut self.goals[index];
             let goal = owned.task.id;
@@ -208,7 +210,7 @@ impl Controller {
             let award = Award {
                 goal,
                 number: assigned.number,
-                lease_s: lease_s as f32,
+                lease_s: assigned.lease_s as f32,
             };
             let robot = assigned.robot;
             self.send(robot, Dispatch::Award(award));

@@ -10,6 +10,7 @@ use brain::{Assignment, Award, Claim, Dispatch, GoalId, Percept, Renewal, RobotI
 impl Controller {
     /// Takes the description of a goal of which it is to be the heir.
     pub(super) fn take_entrusted(&mut self, from: RobotId, task: Task, percept: &Percept) {
+        self.hand_over(from, task.id);
         let is_own = self
             .goals
             .iter()
@@ -30,6 +31,17 @@ impl Controller {
             }
         };
         self.confirm(from, task.id, number);
+    }
+
+    /// A goal that it has inherited belongs to its previous owner again, to which a person has issued it
+    /// meanwhile: two controllers own it. It gives it up if no robot serves it for it.
+    fn hand_over(&mut self, origin: RobotId, goal: GoalId) {
+        if self.services.grant_of(goal).is_none() {
+            self.goals.retain(|owned| {
+                let is_free = owned.heir == Heir::None && !owned.is_done;
+                !(owned.task.id == goal && owned.origin == Some(origin) && is_free)
+            });
+        }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "messages are short")]

@@ -259,7 +259,8 @@ impl Controller {
             .orphans
             .iter()
             .any(|orphan| orphan.owned.task.id == task.id);
-        let open = self.goals.iter().filter(|owned| !owned.is_done).count();
+        let open = self.goals.iter().filter(|owned| owned.is_open(self.now_s));
+        let open = open.count();
         if open >= self.settings.max_goals as usize {
             self.refused += 1;
             return;

@@ -6,8 +6,10 @@ use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::{Reason, RobotId, Task};
 
-/// Maximum number of robots that are remembered for a goal.
+/// Maximum number of robots that are remembered for a goal: those that have been awarded it, and those that
+/// cannot serve it.
 const MAX_ROBOTS: usize = 64;
+const MAX_DECLINED: usize = 1024;
 
 /// Adds a robot to those that have been awarded a goal; the first one is forgotten first.
 pub(super) fn note_assignee(assignees: &mut Vec<RobotId>, robot: RobotId) {
@@ -87,12 +89,16 @@ pub(super) struct Assigned {
     pub(super) number: u32,
     pub(super) is_committed: bool,
     pub(super) awarded_s: f64,
+    /// Duration of the lease.
+    pub(super) lease_s: f64,
     /// When the award, or the withdrawal, is sent again.
     pub(super) next_s: f64,
     /// When the robot should have served it.
     pub(super) overdue_s: f64,
     /// Whether other robots can bid for it.
     pub(super) is_contested: bool,
+    /// Since when the robot has reported that it does not reach it; infinity if it does.
+    pub(super) stuck_s: f64,
     /// Whether the robot is to release it.
     pub(super) is_withdrawn: bool,
     /// When the robot is there, by its last report; infinity before.
@@ -104,9 +110,11 @@ base::hashed!(Assigned {
     number,
     is_committed,
     awarded_s,
+    lease_s,
     next_s,
     overdue_s,
     is_contested,
+    stuck_s,
     is_withdrawn,
     there_s
 });
@@ -220,7 +228,7 @@ impl Owned {
     /// Notes that a robot cannot serve it.
     pub(super) fn decline(&mut self, robot: RobotId, until_s: f64, reason: Reason) {
         self.declined.retain(|(declined, _)| *declined != robot);
-        if self.declined.len() == MAX_ROBOTS {
+        if self.declined.len() == MAX_DECLINED {
             self.declined.remove(0);
         }
         self.declined.push((robot, until_s));
@@ -242,9 +250,19 @@ impl Owned {
         self.offer_again(until_s);
     }
 
+    /// Its deadline has passed: it is offered no more.
+    pub(super) fn end(&mut self) {
+        self.rest.until_s = f64::INFINITY;
+    }
+
+    /// Whether it can still be served: it is neither done nor past its deadline.
+    pub(super) fn is_open(&self, now_s: f64) -> bool {
+        !self.is_done && (self.assigned.is_some() || now_s < self.due_at_s)
+    }
+
     /// What robots can do has changed.
     pub(super) fn try_again(&mut self, now_s: f64) {
-        if now_s < self.rest.until_s {
+        if now_s < self.rest.until_s && now_s < self.due_at_s {
             self.rest.until_s = now_s;
             self.offer_again(now_s);
         }
@@ -257,6 +275,10 @@ impl Owned {
 
     pub(super) fn assign(&mut self, assigned: Assigned) {
         note_assignee(&mut self.assignees, assigned.robot);
+        // Its award ends its reservation.
+        if let Some(reserved) = &mut self.reserved {
+            reserved.until_s = reserved.until_s.min(assigned.awarded_s);
+        }
         self.assigned = Some(assigned);
         (self.rest.total_s, self.called_s) = (0.0, None);
     }

@@ -111,6 +111,11 @@ impl Picture {
         self.robot(id, now_s).payload = 0;
     }
 
+    /// A robot has been taken out of service: its next report is that of a robot that returns.
+    pub(super) fn is_gone(&mut self, id: RobotId, now_s: f64) {
+        self.robot(id, now_s).is_present = false;
+    }
+
     /// An award to a robot has been served, or not.
     pub(super) fn learn(&mut self, id: RobotId, is_served: bool, now_s: f64) {
         self.robot(id, now_s).trust.learn(is_served);

@@ -3,10 +3,12 @@
 use super::Controller;
 use base::geometry::Point;
 use brain::{About, Bid, Claim, Dispatch, Percept, Reason, ReceivedMessage, Refusal, Renewal};
-use brain::{Report, RobotId, Verdict};
+use brain::{GoalId, Report, RobotId, Verdict};
 
-/// A robot that refuses a goal is not called again for it for this time, in seconds.
+/// A robot that refuses a goal is not called again for it for this time, in seconds, and as much for
+/// each robot that is present, which is at least the time between two calls.
 const DECLINED_S: f64 = 30.0;
+const DECLINED_PER_ROBOT_S: f64 = 2.0;
 
 /// Longest plausible time of a bid, in seconds.
 const MAX_TIME_S: f32 = 1e6;
@@ -121,18 +123,44 @@ impl Controller {
             self.picture.is_full(from, now_s);
             self.displace(from, goal);
         }
+        if reason == Reason::OutOfService {
+            self.picture.is_gone(from, now_s);
+        }
         let claim = Claim { goal, number };
-        if self.services.release(from, claim).is_some() {
+        let was_awarded = self.services.release(from, claim).is_some();
+        if was_awarded {
+            if reason != Reason::OutOfService {
+                self.note_failure(from, goal);
+            }
             self.reopen(claim);
         }
-        let is_unable = reason != Reason::Lease && reason != Reason::Full;
+        let is_unable = was_awarded || (reason != Reason::Lease && reason != Reason::Full);
+        let until_s = self.declined_until_s();
         if let Some(owned) = self.goal_mut(goal).filter(|_| is_unable) {
-            owned.decline(from, now_s + DECLINED_S, reason);
+            owned.decline(from, until_s, reason);
         }
+    }
+
+    /// A robot returns what it was awarded: its bids for it do not count for a time.
+    fn note_failure(&mut self, from: RobotId, goal: GoalId) {
+        let now_s = self.now_s;
+        let owned = self.goal_mut(goal);
+        let kept = owned.filter(|owned| !owned.assigned.is_some_and(|it| it.is_withdrawn));
+        if let Some(owned) = kept {
+            owned.lapses.add(from, now_s);
+            self.picture.learn(from, false, now_s);
+        }
+    }
+
+    fn declined_until_s(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "numbers of robots")]
+        let robots = self.picture.present().count() as f64;
+        self.now_s + DECLINED_S + DECLINED_PER_ROBOT_S * robots
     }
 
     fn take_release(&mut self, from: RobotId, claim: Claim) {
         if self.services.release(from, claim).is_some() {
+            self.note_failure(from, claim.goal);
             self.reopen(claim);
             self.call_reserved(from);
         }
@@ -141,14 +169,14 @@ impl Controller {
     /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the previous
     /// owner has reported its awards; a robot of which no such message arrived has served it in vain.
     fn take_done(&mut self, from: RobotId, claim: Claim) {
-        let now_s = self.now_s;
+        let (now_s, until_s) = (self.now_s, self.declined_until_s());
         self.restore_orphan(from, claim.goal);
         let Some(owned) = self.goal_mut(claim.goal) else {
             return;
         };
         if !owned.is_done && !owned.assignees.contains(&from) {
             // It does not bid for what it has served.
-            owned.decline(from, now_s + DECLINED_S, Reason::Lease);
+            owned.decline(from, until_s, Reason::Lease);
             return;
         }
         if !owned.is_done {

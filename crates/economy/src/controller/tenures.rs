@@ -2,7 +2,7 @@
 
 use super::Controller;
 use super::owned::{Heir, Owned};
-use super::wards::Orphan;
+use super::wards::{Orphan, Request};
 use alloc::vec::Vec;
 use brain::{Claim, Dispatch, GoalId, Lease, Percept, RobotId, Task};
 
@@ -91,34 +91,58 @@ impl Controller {
         }
     }
 
-    /// An heir returns a goal: the answer is the request of the lease.
+    /// An heir returns a goal: the answer is the request of the lease. A repeated offer has the same answer
+    /// for a time, because the messages of both may take longer than the heir waits.
     pub(super) fn take_return(&mut self, from: RobotId, task: Task, percept: &Percept) {
+        self.rejoin(from, task.id);
         let is_own = self.goals.iter().any(|owned| owned.task.id == task.id);
         let is_full = self.orphans.len() >= self.settings.max_goals as usize;
         if is_own || is_full || !task.is_valid() || !self.may_grant() {
             return;
         }
-        let goal = task.id;
-        let number = self.numbers.next(percept);
+        let (goal, now_s) = (task.id, self.now_s);
+        let mut orphans = self.orphans.iter();
+        let orphan = orphans.find(|orphan| orphan.owned.task.id == goal);
+        let sent = orphan.and_then(|orphan| orphan.request).filter(|sent| {
+            sent.heir == from && now_s < sent.sent_s + self.settings.owner_lease_s / 2.0
+        });
+        let request = sent.unwrap_or_else(|| {
+            let number = self.numbers.next(percept);
+            self.tenures.request(number, from, Some(goal), now_s);
+            Request {
+                number,
+                heir: from,
+                sent_s: now_s,
+            }
+        });
         let mut orphans = self.orphans.iter_mut();
         match orphans.find(|orphan| orphan.owned.task.id == goal) {
-            Some(orphan) => orphan.request = Some(number),
+            Some(orphan) => orphan.request = Some(request),
             None => self.orphans.push(Orphan {
-                owned: Owned::new(task, self.now_s, 0.0),
-                request: Some(number),
+                owned: Owned::new(task, now_s, 0.0),
+                request: Some(request),
             }),
         }
-        self.tenures.request(number, from, Some(goal), self.now_s);
-        self.send_binding(goal, from, number, self.settings.service_lease_s);
+        self.send_binding(goal, from, request.number, self.settings.service_lease_s);
+    }
+
+    /// An heir returns a goal that a person has issued here again meanwhile: it is to be the heir of that.
+    fn rejoin(&mut self, heir: RobotId, goal: GoalId) {
+        let next_s = self.now_s;
+        let owned = self.goal_mut(goal).filter(|owned| !owned.is_done);
+        if let Some(owned) = owned.filter(|owned| owned.heir == Heir::None) {
+            owned.heir = Heir::Offered { heir, next_s };
+        }
     }
 
     /// An heir has granted the ownership of a goal that it returns.
     pub(super) fn take_back(&mut self, heir: RobotId, claim: Claim, lease_s: f64) {
         let Claim { goal, number } = claim;
         let mut orphans = self.orphans.iter();
-        let request = Some(number);
-        let orphan =
-            orphans.position(|orphan| orphan.owned.task.id == goal && orphan.request == request);
+        let orphan = orphans.position(|orphan| {
+            let is_answer = |it: Request| it.number == number && it.heir == heir;
+            orphan.owned.task.id == goal && orphan.request.is_some_and(is_answer)
+        });
         let Some(index) = orphan else {
             return;
         };

@@ -15,6 +15,7 @@ impl Controller {
         if self.settings.allocation == Allocation::None || !self.may_grant() {
             return;
         }
+        self.end_expired();
         let now_s = self.now_s;
         let waiting = self.goals.iter().filter(|owned| {
             let is_free = owned.assigned.is_none() && owned.is_on_offer(now_s);
@@ -29,16 +30,29 @@ impl Controller {
         }
     }
 
+    /// Reports the goals whose deadline has passed without an award, and offers them no more.
+    fn end_expired(&mut self) {
+        let now_s = self.now_s;
+        let expired = self.goals.iter().filter(|owned| {
+            let is_ended = owned.rest.until_s == f64::INFINITY;
+            !owned.is_done && owned.assigned.is_none() && now_s >= owned.due_at_s && !is_ended
+        });
+        let expired: Vec<GoalId> = expired.map(|owned| owned.task.id).collect();
+        for goal in expired {
+            self.give_up(goal, Reason::Deadline);
+            if let Some(owned) = self.goal_mut(goal) {
+                owned.end();
+            }
+            self.close_offer(goal);
+        }
+    }
+
     fn probe_one(&mut self, goal: GoalId) {
         let now_s = self.now_s;
         let Some(owned) = self.goals.iter().find(|owned| owned.task.id == goal) else {
             return;
         };
         let task = owned.task;
-        if now_s >= owned.due_at_s {
-            self.give_up(goal, Reason::Deadline);
-            return;
-        }
         let robots = self.picture.present().copied();
         let robots = robots.filter(|robot| !owned.is_declined_by(robot.id, now_s));
         let willing: Vec<Robot> = robots.collect();

@@ -49,7 +49,22 @@ base::hashed!(Ward {
 pub(super) struct Orphan {
     pub(super) owned: Owned,
     /// The request by which it would be owned again.
-    pub(super) request: Option<u32>,
+    pub(super) request: Option<Request>,
 }
 
 base::hashed!(Orphan { owned, request });
+
+/// A request of an owner lease by which an heir can return a goal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Request {
+    pub(super) number: u32,
+    pub(super) heir: RobotId,
+    /// The lease counts from then.
+    pub(super) sent_s: f64,
+}
+
+base::hashed!(Request {
+    number,
+    heir,
+    sent_s
+});

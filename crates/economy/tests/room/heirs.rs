@@ -231,3 +231,40 @@ fn a_controller_that_restarts_takes_no_goal_back_for_the_longest_lease() {
         is_bind
     ));
 }
+
+#[test]
+fn an_owner_answers_repeated_offers_of_its_goal_with_one_request() {
+    let mut owner = controller(OWNER);
+    let request = |sent: &[(RobotId, Dispatch)]| {
+        sent.iter().find_map(|(_, sent)| match sent {
+            Dispatch::Bind(award) => Some(award.number),
+            _ => None,
+        })
+    };
+    let first = request(&owner.take(HEIR, Dispatch::Restore(TASK)));
+    owner.wait(2.0);
+    let second = request(&owner.take(HEIR, Dispatch::Restore(TASK)));
+    assert_eq!((first.is_some(), first), (true, second));
+    // The grant of the heir arrives late.
+    owner.wait(2.4);
+    owner.take(HEIR, entrusted(first.unwrap()));
+    assert_eq!(owner.agent.goals().count(), 1);
+}
+
+#[test]
+fn a_goal_that_was_issued_again_and_inherited_has_one_owner_when_they_meet() {
+    let mut owner = controller(OWNER);
+    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    let mut heir = inheritor(&[]);
+    let mut to_heir = vec![(OWNER, HEIR, Dispatch::Serial(8))];
+    for _ in 0..200 {
+        let sent = heir.step(&to_heir);
+        let mut to_owner = vec![(HEIR, OWNER, Dispatch::Serial(9))];
+        to_owner.extend(sent.iter().map(|(_, sent)| (HEIR, OWNER, *sent)));
+        let sent = owner.step(&to_owner);
+        to_heir = vec![(OWNER, HEIR, Dispatch::Serial(8))];
+        to_heir.extend(sent.iter().map(|(_, sent)| (OWNER, HEIR, *sent)));
+    }
+    let owners = [&owner, &heir].map(|it| it.agent.goals().count());
+    assert_eq!(owners, [1, 0]);
+}

@@ -4,6 +4,7 @@
 
 mod controllers;
 mod displacement;
+mod failing;
 mod hand;
 mod heirs;
 mod liveness;

@@ -148,13 +148,18 @@ fn a_robot_out_of_service_returns_its_goals_and_bids_again_when_it_is_back() {
     robot.take(OTHER, Dispatch::Service(false));
     assert_eq!(robot.agent.served_goals().len(), 1);
     let sent = robot.take(RobotId::OPERATOR, Dispatch::Service(false));
-    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(number)))));
+    let returned = Dispatch::Refuse(refusal(number, Reason::OutOfService));
+    assert!(sent.contains(&(OWNER, returned)), "{sent:?}");
     assert_eq!(robot.agent.served_goals().len(), 0);
     let sent = robot.take(OWNER, CALL);
     let refused = Dispatch::Refuse(refusal(4, Reason::OutOfService));
     assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
-    assert_eq!(bid(&robot.wait(6.0)), None);
-    robot.take(RobotId::OPERATOR, Dispatch::Service(true));
+    let sent = robot.wait(6.0);
+    assert_eq!(bid(&sent), None);
+    let is_report = |sent: &Dispatch| matches!(sent, Dispatch::Report(_));
+    assert!(!sent_any(&sent, is_report));
+    let sent = robot.take(RobotId::OPERATOR, Dispatch::Service(true));
+    assert!(sent_any(&sent, is_report), "it is present again");
     assert!(bid(&robot.wait(6.0)).is_some());
 }
 

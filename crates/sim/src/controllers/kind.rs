@@ -33,13 +33,13 @@ pub(crate) enum ControllerBase {
 }
 
 impl ControllerKind {
-    /// The kind that `spec` describes, where robots have these kinds.
+    /// The kind that `spec` describes, where robots have these kinds, and controllers this number of kinds.
     pub(crate) fn new<'r>(
         (name, spec): (&String, &ControllerSpec),
-        mut robots: impl ExactSizeIterator<Item = &'r String>,
+        (mut robots, controllers): (impl ExactSizeIterator<Item = &'r String>, usize),
         (step_s, max_drift): (f64, f64),
     ) -> Self {
-        let robot_kinds = u8::try_from(robots.len()).unwrap_or(u8::MAX);
+        let kinds = [robots.len(), controllers].map(|kinds| u8::try_from(kinds).unwrap_or(u8::MAX));
         let carrier = spec.aboard.as_ref();
         let carrier = carrier.and_then(|kind| robots.position(|known| known == kind));
         let carrier = carrier.and_then(|number| u8::try_from(number).ok());
@@ -56,7 +56,7 @@ impl ControllerKind {
             price: spec.price,
             mean_time_between_failures_s: spec.mean_time_between_failures_s,
             failed: spec.failed.clone(),
-            settings: Arc::new(spec.settings(max_drift, robot_kinds)),
+            settings: Arc::new(spec.settings(max_drift, kinds)),
         }
     }
 

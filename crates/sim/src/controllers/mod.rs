@@ -60,8 +60,12 @@ pub struct ControllerSpec {
 }
 
 impl ControllerSpec {
-    /// Its settings, where clocks drift by at most `max_drift`.
-    pub(crate) fn settings(&self, max_drift: f64, robot_kinds: u8) -> Settings {
+    /// Its settings, where clocks drift by at most `max_drift`, with the numbers of kinds of robots and controllers.
+    pub(crate) fn settings(
+        &self,
+        max_drift: f64,
+        [robot_kinds, controller_kinds]: [u8; 2],
+    ) -> Settings {
         Settings {
             allocation: self.allocation,
             service_lease_s: self.service_lease_s,
@@ -70,6 +74,7 @@ impl ControllerSpec {
             max_goals: self.max_goals,
             max_drift,
             robot_kinds,
+            controller_kinds,
         }
     }
 }

@@ -338,8 +338,9 @@ fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
 fn controllers(spec: &ScenarioSpec) -> Vec<ControllerKind> {
     let clock = (spec.clock.step_s, spec.clock.max_drift);
     let kinds = spec.controllers.iter();
+    let counted = || (spec.robots.keys(), spec.controllers.len());
     kinds
-        .map(|kind| ControllerKind::new(kind, spec.robots.keys(), clock))
+        .map(|kind| ControllerKind::new(kind, counted(), clock))
         .collect()
 }
 
