@@ -21,6 +21,7 @@ mod flocks;
 mod footprints;
 mod goals;
 mod golden;
+mod identification;
 mod inspect;
 mod judge;
 mod layers;
