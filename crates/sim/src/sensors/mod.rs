@@ -8,6 +8,7 @@ pub(crate) mod confusion;
 pub mod heading;
 pub mod items;
 pub(crate) mod memory;
+pub(crate) mod pass;
 pub(crate) mod pending;
 pub(crate) mod poisson;
 pub mod position;
