@@ -35,7 +35,8 @@ use crate::io::message::{About, Message, Provenance};
 use crate::perception::beliefs::items::track::{
     MAX_LOG_ODDS, MAX_PRIOR, SOURCES, Source, Track, log_odds, probability,
 };
-use crate::perception::beliefs::items::tracks::{Items, bits, density};
+use crate::perception::beliefs::items::track_set::TrackSet;
+use crate::perception::beliefs::items::tracks::{Items, density};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::LN_10;
@@ -107,7 +108,7 @@ impl Items {
         }
         let per_m2 = density(per_m2, report.kind);
         let known = self.tracks.iter().position(|track| track.continues(report));
-        let near = || self.nearest(report.kind, report.at, variance_m2, 0);
+        let near = || self.nearest(report.kind, report.at, variance_m2, &TrackSet::default());
         let new = || Track::new(report.kind, report.at, variance_m2, per_m2);
         let Some(index) = known
             .or_else(near)
@@ -122,13 +123,13 @@ impl Items {
             if !track.is_observed_by(reception.own) {
                 track.correct_by_report(report.at, variance_m2, is_new);
             }
-            self.mark_changed(1 << index);
+            self.mark_changed(&TrackSet::of(index));
         }
     }
 
     /// Updates the trust in the senders of reports that own observations confirm or refute.
     pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust) {
-        for number in bits(mem::take(&mut self.unjudged)) {
+        for number in mem::take(&mut self.unjudged).iter() {
             let Some(track) = self.tracks.get_mut(number) else {
                 break;
             };
@@ -153,7 +154,7 @@ impl Items {
     /// robots.
     pub(crate) fn report(&mut self, reception: &Reception, outbox: &mut Vec<Message>, max: usize) {
         let mut left = max;
-        for number in bits(self.unsent) {
+        for number in self.unsent.iter() {
             let Some(track) = self.tracks.get_mut(number).filter(|_| left > 0) else {
                 break;
             };
@@ -177,7 +178,7 @@ impl Items {
                 });
             }
             if left > 0 {
-                self.unsent &= !(1 << number);
+                self.unsent.remove(number);
             }
         }
     }

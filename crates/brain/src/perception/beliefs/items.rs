@@ -19,6 +19,7 @@
 
 mod observations;
 pub(crate) mod track;
+pub(crate) mod track_set;
 pub(crate) mod tracks;
 
 pub(crate) use observations::OwnObservation;

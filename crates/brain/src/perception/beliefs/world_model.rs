@@ -63,7 +63,7 @@ impl Beliefs {
             id: RobotId::default(),
             localisation: Localisation::default(),
             others: Others::default(),
-            items: Items::default(),
+            items: Items::new(spec.max_tracks),
             battery: Battery::default(),
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,

@@ -1,6 +1,7 @@
 //! Own observations of items, and their likelihoods.
 
 use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track};
+use super::track_set::TrackSet;
 use super::tracks::{Items, density};
 use crate::io::body::{Detector, RobotId};
 use crate::io::message::Provenance;
@@ -38,15 +39,16 @@ impl Items {
         contacts: impl Iterator<Item = &'c Contact>,
         map: Option<&Map>,
     ) {
-        // One bit per detected item.
-        let mut detected = 0_u64;
+        let mut detected = TrackSet::default();
         for contact in contacts {
-            detected |= self.associate(observation, contact, detected, map);
+            if let Some(track) = self.associate(observation, contact, &detected, map) {
+                detected.insert(track);
+            }
         }
         let view = View::new(observation.detector, observation.pose.heading_rad);
         let mut changed = detected;
         for (number, track) in self.tracks.iter_mut().enumerate() {
-            if detected & (1 << number) == 0 {
+            if !detected.contains(number) {
                 let in_view = track.probability_in_view(&view, observation, map);
                 if in_view > 0.0 {
                     let log_ratio = track.miss_log_ratio(observation, in_view);
@@ -55,24 +57,24 @@ impl Items {
                         &mut self.last_track_id,
                         log_ratio,
                     );
-                    changed |= 1 << number;
+                    changed.insert(number);
                 }
             }
         }
-        self.mark_changed(changed);
+        self.mark_changed(&changed);
     }
 
     /// Associates a contact with a track that is not in `taken`, or with a new one; returns its
-    /// bit.
+    /// index.
     fn associate(
         &mut self,
         observation: &OwnObservation,
         contact: &Contact,
-        taken: u64,
+        taken: &TrackSet,
         map: Option<&Map>,
-    ) -> u64 {
+    ) -> Option<usize> {
         if !(0.0..=1e6).contains(&contact.range_m) || contact.bearing_rad.abs() > 10.0 {
-            return 0;
+            return None;
         }
         let relative = direction(contact.bearing_rad).times(contact.range_m);
         let at = observation.pose.in_world(relative);
@@ -92,7 +94,7 @@ impl Items {
             log_ratio,
         );
         track.correct_position(at, variance_m2);
-        1 << index
+        Some(index)
     }
 }
 
