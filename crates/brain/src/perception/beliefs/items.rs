@@ -17,6 +17,7 @@
 //! The prior follows from the density of items, and from the observations that did not detect
 //! anything at that position.
 
+pub(crate) mod kinds;
 mod observations;
 pub(crate) mod track;
 pub(crate) mod track_set;

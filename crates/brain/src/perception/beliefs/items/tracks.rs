@@ -1,8 +1,10 @@
 //! All tracks: association, replacement and bookkeeping.
 
+use super::kinds::KindModel;
 use super::track::Track;
 use super::track_set::{MAX_TRACKS, TrackSet};
 use crate::io::body::RobotId;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -14,6 +16,8 @@ const GATE: f64 = 3.0;
 pub(crate) struct Items {
     /// Maximum number of tracks; the least likely one is replaced first.
     max_tracks: usize,
+    /// Without it, contacts have the kind of the item.
+    pub(crate) kinds: Option<Arc<KindModel>>,
     pub(crate) tracks: Vec<Track>,
     pub(crate) last_track_id: u32,
     /// Index of the track that was repeated last.
@@ -29,15 +33,16 @@ base::hashed!(Items {
     repeated,
     unsent,
     unjudged
-} without { max_tracks });
+} without { max_tracks, kinds });
 
 impl Items {
-    /// No tracks, and a maximum number of them.
-    pub(crate) fn new(max_tracks: u32) -> Self {
+    /// No tracks, a maximum number of them, and what is known of uncertain kinds.
+    pub(crate) fn new(max_tracks: u32, kinds: Option<KindModel>) -> Self {
         Self {
             max_tracks: usize::try_from(max_tracks)
                 .unwrap_or(MAX_TRACKS)
                 .min(MAX_TRACKS),
+            kinds: kinds.map(Arc::new),
             tracks: Vec::new(),
             last_track_id: 0,
             repeated: 0,
@@ -52,7 +57,7 @@ impl Items {
         self.unjudged.extend(tracks);
     }
 
-    /// The nearest track of a kind within the gate that is not in `taken`.
+    /// The nearest track of a kind within the gate that is not in `taken`; of any kind if kinds are uncertain.
     pub(crate) fn nearest(
         &self,
         kind: u16,
@@ -60,8 +65,9 @@ impl Items {
         variance_m2: f64,
         taken: &TrackSet,
     ) -> Option<usize> {
+        let is_same = |track: &Track| self.kinds.is_some() || track.kind == kind;
         let tracks = self.tracks.iter().enumerate();
-        let same = tracks.filter(|(number, track)| track.kind == kind && !taken.contains(*number));
+        let same = tracks.filter(|(number, track)| is_same(track) && !taken.contains(*number));
         let near = same.filter_map(|(number, track)| {
             let square = track.at.to(at).length_squared();
             let all_m2 = variance_m2 + track.variance_m2;

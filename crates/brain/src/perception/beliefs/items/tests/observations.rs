@@ -2,7 +2,7 @@ use super::*;
 
 #[test]
 fn a_contact_is_weighted_by_bayes_rule() {
-    let mut items = Items::new(64);
+    let mut items = Items::new(64, None);
     hit(&mut items, ME);
     // Of all contacts at a position, 0.7 x 0.01 per square metre are items, and 0.02 are false
     // alarms.
@@ -30,14 +30,14 @@ fn repeated_contacts_without_false_alarms_prove_even_rare_items() {
         pose: pose(Point::default()),
         per_m2: &[1e-7],
     };
-    let mut items = Items::new(64);
+    let mut items = Items::new(64, None);
     (0..5).for_each(|_| items.observe(&look, [contact(Point::default(), POSITION)].iter(), None));
     assert!(confidence(&items) > 0.99, "{}", confidence(&items));
 }
 
 #[test]
 fn a_contact_raises_confidence_and_a_miss_lowers_it() {
-    let mut items = Items::new(64);
+    let mut items = Items::new(64, None);
     let mut before = 0.0;
     for _ in 0..4 {
         hit(&mut items, ME);
@@ -54,7 +54,7 @@ fn a_contact_raises_confidence_and_a_miss_lowers_it() {
 
 #[test]
 fn items_out_of_view_are_not_missed() {
-    let mut items = Items::new(64);
+    let mut items = Items::new(64, None);
     hit(&mut items, ME);
     let before = confidence(&items);
     observe(&mut items, ME, Point { x: -3.0, y: 0.0 }, &[]);
@@ -68,7 +68,7 @@ fn more_than_64_items_are_tracked_if_the_limit_allows_it() {
         y: 0.0,
     };
     for (limit, expected) in [(64, 64), (300, 200)] {
-        let mut items = Items::new(limit);
+        let mut items = Items::new(limit, None);
         for _ in 0..2 {
             for number in 0..200 {
                 let at = each(number);
