@@ -158,6 +158,7 @@ pub struct Detector {
     /// Share of the items of each kind that it never detects, however often it looks; empty if it
     /// is 0 for all kinds.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub blind_share: Vec<f64>,
     /// Probability of each reported kind (column) by the true kind of a detected item (row); empty
     /// if kinds are reported as they are.
