@@ -21,7 +21,7 @@ pub struct BeliefsSpec {
     /// Expected number of items of each kind before any observation; one of each kind by default.
     pub prior_count: BTreeMap<String, f64>,
     /// Maximum number of items that it keeps track of; the least likely one is replaced first. Each
-    /// needs about 500 bytes per robot.
+    /// needs about 600 bytes per robot.
     #[schemars(range(min = 1, max = 1024))]
     pub max_tracks: u32,
     /// Trust in the reports of other robots.

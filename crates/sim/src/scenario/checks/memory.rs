@@ -30,7 +30,7 @@ const BELIEFS_BYTES: f64 = 30_000.0;
 const CELL_BYTES: f64 = 20.0;
 
 /// Approximate bytes of one tracked item; the beliefs above include this number of them.
-const TRACK_BYTES: f64 = 500.0;
+const TRACK_BYTES: f64 = 600.0;
 const TRACKS: f64 = 64.0;
 
 /// One measured number.
