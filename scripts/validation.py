@@ -130,6 +130,7 @@ def overview() -> str:
         ["swarms: order falls with noise (Vicsek 1995)", *deviation("vicsek")],
         ["placement: uniform in the free area", *deviation("placement")],
         ["beliefs: of those with confidence c, the fraction c is true", *deviation("calibration")],
+        ["the same with confused kinds and a blind share", *deviation("uncertain-kinds")],
         [
             "poses: 0.989 and 0.997 within three deviations",
             f"at least {min(row.measured for row in rows('poses')):.3f}, up to 2 s late",

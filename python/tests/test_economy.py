@@ -256,10 +256,12 @@ def test_an_external_body_does_not_fail_on_command(scenario: ae.Scenario) -> Non
 
 
 def test_a_longer_owner_lease_makes_recovery_slower() -> None:
-    facts = dict(ae.Scenario.load("waypoints").facts)
-    assert "within 67.6 s" in facts["recovery base"]
+    derived = dict(ae.Scenario.load("waypoints").derived)
+    assert "within 67.6 s" in derived["controllers.base"]
     longer = ae.Scenario.load("waypoints").replace("controllers.base.owner_lease_s", 100)
-    assert "within 137.6 s" in dict(longer.facts)["recovery base"]
+    assert "within 137.6 s" in dict(longer.derived)["controllers.base"]
+    none = ae.Scenario.load("waypoints").replace("controllers.base.count", 0)
+    assert "controllers.base" not in dict(none.derived)
 
 
 def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:

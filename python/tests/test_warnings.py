@@ -70,7 +70,9 @@ def job(tmp_path: Path) -> Path:
 def test_check_warns_of_a_cropped_map_and_the_scenario_is_valid(job: Path) -> None:
     given = run("check", job)
     assert given.returncode == 0
-    assert given.stdout.startswith(f"{job}: valid: engine metric, factorial: 2 configurations\n")
+    first, derived = given.stdout.splitlines()
+    assert first == f"{job}: valid: engine metric, factorial: 2 configurations"
+    assert derived.startswith("    robots.rover.sensors.detector, mine: a pass at 0.5 m/s, ")
     assert given.stderr == f"warning: {job}:6: {CROPPED}\n"
     job.write_text(JOB.replace('"room.yaml"', '"room.yaml", at_m = [0, 0]'))
     assert run("check", job).stderr == ""

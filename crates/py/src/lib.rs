@@ -82,7 +82,9 @@ mod _core {
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]
-    use crate::scenario::{missing_files, read_document, read_filled, read_scenario};
+    use crate::scenario::{
+        derived_quantities, missing_files, read_document, read_filled, read_scenario,
+    };
     #[pymodule_export]
     use crate::selection::{
         Procedure, equal_allocation, mean_bounds, mean_exceeds, quantile_bounds, requirement,

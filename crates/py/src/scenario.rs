@@ -52,6 +52,16 @@ pub(crate) fn missing_files(source: Source) -> PyResult<Vec<String>> {
     Ok(base::scenario::missing_files(&ENGINES, &source.document()?))
 }
 
+/// Quantities that follow from the values of a source, as (name, description); none if it has errors.
+#[pyfunction]
+pub(crate) fn derived_quantities(
+    py: Python<'_>,
+    source: Source,
+) -> PyResult<Vec<(String, String)>> {
+    let document = source.document()?;
+    Ok(py.detach(|| base::scenario::derived(&ENGINES, &document)))
+}
+
 /// The document of a source, unchecked, as dicts, lists and values.
 #[pyfunction]
 pub(crate) fn read_document<'py>(

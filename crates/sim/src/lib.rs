@@ -13,6 +13,7 @@ pub(crate) mod agent_clock;
 pub mod bodies;
 pub mod clock;
 pub mod controllers;
+pub(crate) mod derived;
 pub mod end;
 pub(crate) mod failures;
 pub mod goals;

@@ -1,5 +1,6 @@
 //! The metric engine as studies see it.
 
+use crate::derived;
 use crate::judge::{Outcome, columns};
 use crate::run::State;
 use crate::scenario::{Scenario, ScenarioSpec};
@@ -47,6 +48,18 @@ impl Engine for Metric {
         configurations: &[Vec<(String, Value)>],
     ) -> Vec<Warning> {
         warnings::warnings(document, configurations)
+    }
+
+    fn derived(&self, document: &Document) -> Vec<(String, String)> {
+        let read = ScenarioSpec::read(document);
+        read.map_or_else(
+            |_| Vec::new(),
+            |checked| {
+                let mut derived = derived::derived(&checked.spec);
+                derived.extend(checked.scenario.recoveries());
+                derived
+            },
+        )
     }
 
     fn files(&self, document: &Document) -> Vec<String> {

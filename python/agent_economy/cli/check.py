@@ -42,6 +42,8 @@ def check(
     A file that names a scenario or the drivers of robots is a fleet file: it is checked together
     with its scenario, to which --set applies. No robot is connected, and no host name is resolved.
 
+    For each item detector, a line states what a straight pass at maximum speed detects.
+
     Warnings are about what is allowed and probably not meant, such as teams without room to start.
 
     Exit codes: 0 all are valid, perhaps with warnings; 2 a file or an argument is invalid.
@@ -101,6 +103,8 @@ def checked_scenario(
 ) -> tuple[str, Iterable[ScenarioWarning]]:
     """Return the lines for a valid scenario, and the warnings about its run and its study.
 
+    Below the first line are its derived quantities.
+
     Raises:
         InputError: If it is not valid.
     """
@@ -108,8 +112,8 @@ def checked_scenario(
     plan = study.make_plan(scenario)
     compared = design.describe(scenario.design, len(plan.configurations))
     line = f"{file}: valid: engine {scenario.engine}, {compared}"
-    facts = [f"  {name}: {text}" for name, text in scenario.facts]
-    return "\n".join([line, *facts]), scenario.warnings + plan.warnings
+    details = (f"    {name}: {text}" for name, text in scenario.derived)
+    return "\n".join([line, *details]), scenario.warnings + plan.warnings
 
 
 def errors_of(file: Path, error: InputError) -> list[Error]:

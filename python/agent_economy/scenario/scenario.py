@@ -191,6 +191,15 @@ class Scenario:
         """Warnings about a single run: maps that are partly cut off, and robots without room."""
         return warnings(self.source, [{}])
 
+    @cached_property
+    def derived(self) -> tuple[tuple[str, str], ...]:
+        """Quantities that follow from its values, as pairs of a name and a string.
+
+        For each item detector and kind of item: the share that a straight pass at maximum speed
+        detects, and the share that no number of passes exceeds.
+        """
+        return tuple(_core.derived_quantities(self.source))
+
     def to_dict(self) -> dict[str, Any]:
         """Return the scenario, including defaults, as nested dicts and lists like its TOML."""
         return _core.read_document(self.source)

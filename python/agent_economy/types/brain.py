@@ -549,6 +549,11 @@ class Detector(TypedDict):
         detection_probability: For each kind of item, pairs of distance in metres and
             probability of detection per measurement, by increasing distance, linear in between;
             none if it never detects that kind.
+        blind_share: Share of the items of each kind that it never detects, however often it
+            looks; empty if it is 0 for all kinds.
+        confusion: Probability of each reported kind (column) by the true kind of a detected
+            item (row); empty if kinds are reported as they are.
+        model: The sensor model: detectors with the same number are blind to the same items.
         false_alarms_per_m2: False alarms of each kind per measurement and square metre in view.
         noise_m: Standard deviation of the measured position of a contact, along each axis.
         needs_line_of_sight: Whether obstacles hide items.
@@ -559,6 +564,9 @@ class Detector(TypedDict):
     width_rad: float
     facing_rad: float
     detection_probability: Sequence[Sequence[Sequence[float]]]
+    blind_share: NotRequired[Sequence[float]]
+    confusion: NotRequired[Sequence[Sequence[float]]]
+    model: NotRequired[int]
     false_alarms_per_m2: Sequence[float]
     noise_m: float
     needs_line_of_sight: bool

@@ -49,6 +49,12 @@ pub trait Engine: Sync {
         Vec::new()
     }
 
+    /// Quantities that follow from the values of a document and help to check it, as (name, description). An
+    /// invalid document has none.
+    fn derived(&self, _document: &Document) -> Vec<(String, String)> {
+        Vec::new()
+    }
+
     /// The files that a document refers to and that have not been read yet: see [`Document::open`].
     /// Once they are read, there may be more. Called on documents with errors, too.
     fn files(&self, _document: &Document) -> Vec<String> {

@@ -166,6 +166,12 @@ pub fn warnings(
     )
 }
 
+/// Quantities that follow from the values of a scenario: see [`Engine::derived`].
+#[must_use]
+pub fn derived(engines: &[&dyn Engine], document: &Document) -> Vec<(String, String)> {
+    engine_of(engines, document).map_or_else(|_| Vec::new(), |engine| engine.derived(document))
+}
+
 /// Origin of a configuration's values in error messages.
 const ORIGIN: &str = "study.vary";
 

@@ -155,6 +155,18 @@ pub struct Detector {
     /// For each kind of item, pairs of distance in metres and probability of detection per
     /// measurement, by increasing distance, linear in between; none if it never detects that kind.
     pub detection_probability: Vec<Vec<[f64; 2]>>,
+    /// Share of the items of each kind that it never detects, however often it looks; empty if it
+    /// is 0 for all kinds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
+    pub blind_share: Vec<f64>,
+    /// Probability of each reported kind (column) by the true kind of a detected item (row); empty
+    /// if kinds are reported as they are.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub confusion: Vec<Vec<f64>>,
+    /// The sensor model: detectors with the same number are blind to the same items.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub model: u32,
     /// False alarms of each kind per measurement and square metre in view.
     pub false_alarms_per_m2: Vec<f64>,
     /// Standard deviation of the measured position of a contact, along each axis.
@@ -180,6 +192,11 @@ pub struct RangeRing {
     /// Delay from a scan until the brain has it.
     #[schemars(range(min = 0.0))]
     pub latency_s: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_zero(number: &u32) -> bool {
+    *number == 0
 }
 
 fn at_once() -> f64 {

@@ -32,10 +32,12 @@
 use super::trust::{MIN_TRUST, Trust};
 use crate::io::body::RobotId;
 use crate::io::message::{About, Message, Provenance};
+use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::{
     MAX_LOG_ODDS, MAX_PRIOR, SOURCES, Source, Track, log_odds, probability,
 };
-use crate::perception::beliefs::items::tracks::{Items, bits, density};
+use crate::perception::beliefs::items::track_set::TrackSet;
+use crate::perception::beliefs::items::tracks::{Items, density};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::LN_10;
@@ -59,6 +61,19 @@ pub(crate) struct Report {
 }
 
 impl Report {
+    /// The same for an item of any kind, and the probability of the named kind given that there is an item.
+    fn of_any_kind(&self, kinds: Option<&KindModel>) -> (f64, Self) {
+        let Some(kinds) = kinds.filter(|_| self.confidence > MAX_PRIOR) else {
+            return (1.0, *self);
+        };
+        let [named, any] = kinds.of_report(self.kind, self.confidence);
+        let report = Self {
+            confidence: any,
+            ..*self
+        };
+        (named / any, report)
+    }
+
     /// Log likelihood ratio of the observations behind it, given the receiver's prior.
     ///
     /// Priors differ: that of a robot with a poor position is higher. What it reports after a miss
@@ -105,10 +120,20 @@ impl Items {
         if report.provenance.observer == reception.own {
             return;
         }
-        let per_m2 = density(per_m2, report.kind);
+        let kinds = self.kinds.clone();
+        let per_m2 = match &kinds {
+            Some(_) => per_m2.iter().sum(),
+            None => density(per_m2, report.kind),
+        };
+        let (kind_share, report) = &report.of_any_kind(kinds.as_deref());
         let known = self.tracks.iter().position(|track| track.continues(report));
-        let near = || self.nearest(report.kind, report.at, variance_m2, 0);
-        let new = || Track::new(report.kind, report.at, variance_m2, per_m2);
+        let near = || self.nearest(report.kind, report.at, variance_m2, &TrackSet::default());
+        let new = || Track {
+            evidence: kinds
+                .as_ref()
+                .map_or_else(Vec::new, |kinds| kinds.no_evidence()),
+            ..Track::new(report.kind, report.at, variance_m2, per_m2)
+        };
         let Some(index) = known
             .or_else(near)
             .or_else(|| self.add_reported_track(new(), reception.own))
@@ -122,13 +147,17 @@ impl Items {
             if !track.is_observed_by(reception.own) {
                 track.correct_by_report(report.at, variance_m2, is_new);
             }
-            self.mark_changed(1 << index);
+            if let Some(kinds) = &kinds {
+                track.set_reported_kind(report, *kind_share);
+                track.update_kind(kinds, reception.own);
+            }
+            self.mark_changed(&TrackSet::of(index));
         }
     }
 
     /// Updates the trust in the senders of reports that own observations confirm or refute.
     pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust) {
-        for number in bits(mem::take(&mut self.unjudged)) {
+        for number in mem::take(&mut self.unjudged).iter() {
             let Some(track) = self.tracks.get_mut(number) else {
                 break;
             };
@@ -153,13 +182,20 @@ impl Items {
     /// robots.
     pub(crate) fn report(&mut self, reception: &Reception, outbox: &mut Vec<Message>, max: usize) {
         let mut left = max;
-        for number in bits(self.unsent) {
+        for number in self.unsent.iter() {
             let Some(track) = self.tracks.get_mut(number).filter(|_| left > 0) else {
                 break;
             };
-            let (kind, at) = (track.kind, track.at);
+            let at = track.at;
+            let own = self.kinds.as_ref().map(|kinds| track.own_kind(kinds));
+            let certain = track.kind;
             for source in &mut track.sources[..track.count] {
-                let confidence = probability(source.log_odds());
+                let (kind, share) = match own {
+                    None => (certain, 1.0),
+                    Some(own) if source.provenance.observer == reception.own => own,
+                    Some(_) => (source.kind, source.kind_share.into()),
+                };
+                let confidence = probability(source.log_odds()) * share;
                 if left == 0 || source.is_sent(confidence) || !source.is_sendable(reception) {
                     continue;
                 }
@@ -177,24 +213,46 @@ impl Items {
                 });
             }
             if left > 0 {
-                self.unsent &= !(1 << number);
+                self.unsent.remove(number);
             }
         }
     }
 }
 
 impl Track {
-    /// Probability that the item exists, 0 to 1.
-    pub(crate) fn confidence(&self, reception: &Reception) -> f64 {
+    /// Probability that an item of its kind exists, 0 to 1.
+    pub(crate) fn confidence(&self, reception: &Reception, kinds: Option<&KindModel>) -> f64 {
         let sources = self.sources[..self.count].iter();
         let own = sources.filter(|source| source.provenance.observer == reception.own);
         let own: f64 = own.map(|source| source.log_ratio).sum();
-        probability(self.reported(reception) + own)
+        let Some(kinds) = kinds else {
+            return probability(self.reported(reception, 0.0) + own);
+        };
+        let ranked = Ranked::new(self, reception);
+        let trust = |source: &Source| {
+            let mut counted = ranked.counted();
+            let report =
+                counted.find(|report| self.sources[report.slot].provenance == source.provenance)?;
+            Some(report.trust)
+        };
+        let (_, share, agreement) = self.kind_and_agreement(kinds, reception.own, &trust);
+        let [all, reports] = agreement.map(|factor| libm::log(factor.max(f64::MIN_POSITIVE)));
+        share * probability(self.reported(reception, reports) + own + all - reports)
     }
 
-    /// Log odds by the reports of others, within the bounds of the [module](self).
-    fn reported(&self, reception: &Reception) -> f64 {
-        let (mut sum, mut distrust) = (self.prior, 1.0);
+    /// Records the kind that a report names, with its probability given that there is an item.
+    #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
+    fn set_reported_kind(&mut self, report: &Report, share: f64) {
+        if let Some(slot) = self.slot_of(report.provenance) {
+            let source = &mut self.sources[slot];
+            (source.kind, source.kind_share) = (report.kind, share as f32);
+        }
+    }
+
+    /// Log odds by the reports of others, within the bounds of the [module](self); `agreement` is the log ratio by
+    /// the kinds that they name.
+    fn reported(&self, reception: &Reception, agreement: f64) -> f64 {
+        let (mut sum, mut distrust) = (self.prior + agreement, 1.0);
         for report in Ranked::new(self, reception).counted() {
             sum += report.log_ratio;
             distrust *= 1.0 - report.trust;

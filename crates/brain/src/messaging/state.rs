@@ -41,11 +41,12 @@ impl Messaging {
     /// The items with their probabilities.
     pub(crate) fn believed_items(&self, beliefs: &Beliefs) -> impl Iterator<Item = BelievedItem> {
         let reception = self.reception(beliefs.id);
+        let kinds = beliefs.items.kinds.as_deref();
         beliefs.items.tracks.iter().map(move |track| BelievedItem {
             kind: track.kind,
             at: track.at,
             deviation_m: libm::sqrt(track.variance_m2),
-            confidence: track.confidence(&reception),
+            confidence: track.confidence(&reception, kinds),
         })
     }
 

@@ -75,17 +75,22 @@ fn known(team: &Team) -> Vec<GoalId> {
 }
 
 /// Goals that a working agent knew, and those of them that recovered in time, with lost messages.
-fn recovered(seed: u64, leases: (f64, f64), (start_s, loss): (f64, Loss), lost: f64) -> [usize; 2] {
+fn recovered(
+    seed: u64,
+    leases: (f64, f64),
+    (start_s, event): (f64, Loss),
+    loss: f64,
+) -> [usize; 2] {
     let settings = settings(leases.0, leases.1);
     let weather = Weather {
         max_delay_s: MAX_DELAY_S,
-        loss: lost,
+        loss,
         ..Weather::default()
     };
     let mut team = Team::new([3, 3], &settings, weather, seed);
     // Too far to be served: all stay open.
     team.issue_random(GOALS, 1e6);
-    let since_s = disturbed(&mut team, start_s, loss);
+    let since_s = disturbed(&mut team, start_s, event);
     let known = known(&team);
     team.run(settings.recovery_s(GOALS, STEP_S, MAX_DELAY_S));
     let recovered = known

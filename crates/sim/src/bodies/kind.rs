@@ -111,7 +111,7 @@ impl Kind {
         let sensors: Vec<Sensor> = spec
             .sensors
             .iter()
-            .map(|(name, spec)| Sensor::new(name, spec, item_kinds, step_s))
+            .map(|(sensor, spec)| Sensor::new((name, sensor), spec, item_kinds, step_s))
             .collect();
         let schedule = Schedule::new(spec.brain.rate_hz, step_s);
         let drive = Drive::new(&spec.drive, step_s);
@@ -127,7 +127,7 @@ impl Kind {
                 .iter()
                 .filter_map(|sensor| ring(sensor, step_s))
                 .collect(),
-            detectors: detectors(spec, context),
+            detectors: detectors(name, spec, context),
             position_noise_m: noise(&sensors, |measure| match measure {
                 Measure::Position { noise_m } => Some(*noise_m),
                 _ => None,
@@ -282,13 +282,13 @@ fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
 }
 
 fn others(layer: Layer, context: &KindContext) -> Vec<Other> {
-    let other = |spec: &RobotSpec| Other {
+    let other = |(name, spec): (&String, &RobotSpec)| Other {
         radius_m: spec.radius_m,
         max_acceleration_m_s2: Drive::new(&spec.drive, context.step_s).max_acceleration_m_s2,
         is_in_the_way: spec.layer == layer,
-        detectors: detectors(spec, context),
+        detectors: detectors(name, spec, context),
     };
-    context.robots.values().map(other).collect()
+    context.robots.iter().map(other).collect()
 }
 
 /// The numbers of its capabilities among all of these.
@@ -302,18 +302,17 @@ fn capabilities(spec: &RobotSpec, all: &[String]) -> Vec<u8> {
     numbers
 }
 
-fn detectors(spec: &RobotSpec, context: &KindContext) -> Vec<Detector> {
-    let detector = |(number, sensor): (u16, &SensorSpec)| match &sensor.measures {
+fn detectors(owner: &str, spec: &RobotSpec, context: &KindContext) -> Vec<Detector> {
+    let detector = |(number, (name, sensor)): (u16, (&String, &SensorSpec))| match &sensor.measures
+    {
         Measures::Items(items) => {
             let period_s = Schedule::new(sensor.rate_hz, context.step_s).period_s(context.step_s);
-            Some(items.detector(number, context.item_kinds, period_s))
+            let model = items.model_key(owner, name);
+            Some(items.detector((number, model), context.item_kinds, period_s))
         }
         _ => None,
     };
-    (0..)
-        .zip(spec.sensors.values())
-        .filter_map(detector)
-        .collect()
+    (0..).zip(&spec.sensors).filter_map(detector).collect()
 }
 
 fn rays_m(sensors: &[Sensor]) -> f64 {

@@ -45,7 +45,7 @@ impl ControllerKind {
         let carrier = carrier.and_then(|number| u8::try_from(number).ok());
         let placed = || ControllerBase::Placed(spec.start.clone().unwrap_or_default());
         let sensors = spec.sensors.iter();
-        let sensors = sensors.map(|(name, spec)| Sensor::new(name, spec, &[], step_s));
+        let sensors = sensors.map(|(sensor, spec)| Sensor::new((name, sensor), spec, &[], step_s));
         Self {
             sensors: sensors.collect(),
             name: name.clone(),

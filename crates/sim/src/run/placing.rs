@@ -116,7 +116,8 @@ pub(super) fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<It
         }
     }
     let world = (scenario.world.size(), scenario.torus);
-    Ok(Items::new(&items, world, scenario.items_reach_m()))
+    let reach_m = scenario.items_reach_m();
+    Ok(Items::new(&items, world, reach_m, [seed, run]))
 }
 
 pub(super) fn place_goals(scenario: &Scenario, seed: u64, run: u64) -> Result<Goals, NoRoom> {

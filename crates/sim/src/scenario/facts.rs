@@ -42,25 +42,26 @@ impl Scenario {
         let controllers = self.controllers.iter();
         let controllers =
             controllers.map(|kind| (format!("controllers {}", kind.name), kind.count.to_string()));
-        let recoveries = self.recoveries();
-        let items = items.chain(goals).chain(controllers).chain(recoveries);
+        let items = items.chain(goals).chain(controllers);
         let end = self.end.iter().filter(|end| !end.is_default());
         let end = end.map(|end| ("complete when".to_owned(), end.comparison.to_string()));
         let facts = [("world".to_owned(), world), ("clock".to_owned(), clock)];
         facts.into_iter().chain(items).chain(end).collect()
     }
 
-    /// How soon goals of a failed controller are offered again, by its heir, for each kind of controllers.
-    fn recoveries(&self) -> impl Iterator<Item = (String, String)> {
-        let goals = self.goals.iter().map(|kind| kind.count).sum();
-        self.controllers.iter().map(move |kind| {
+    /// How soon goals of a lost controller are offered again, for each kind of controllers.
+    pub(crate) fn recoveries(&self) -> Vec<(String, String)> {
+        let goals = self.number_of_goals();
+        let kinds = self.controllers.iter().filter(|kind| kind.count > 0);
+        let recoveries = kinds.map(|kind| {
             let delay_s = seconds(kind.radio.delay_steps, self.step_s);
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
             let text = format!(
                 "goals of a lost controller have an owner or are reported, and are offered again, within {within_s:.1} s \
                  if no message is lost"
             );
-            (format!("recovery {}", kind.name), text)
-        })
+            (format!("controllers.{}", kind.name), text)
+        });
+        recoveries.collect()
     }
 }

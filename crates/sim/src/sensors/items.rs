@@ -1,5 +1,7 @@
 //! Item detector.
 
+use super::blindness::Blindness;
+use super::confusion::{Confusion, matrix};
 use super::poisson::Poisson;
 use super::sector::{Sector, SectorSpec};
 use super::sensor_frame::{NoisePurpose, SensorFrame, blurred};
@@ -17,9 +19,22 @@ pub struct ItemsSpec {
     /// The field of view.
     #[serde(flatten)]
     pub sector: SectorSpec,
-    /// Probability of detection per measurement, for each kind of item that the sensor can detect.
-    /// Without it, the sensor always detects all kinds.
+    /// Probability of detection per look (one measurement), for each kind of item that the sensor
+    /// can detect. Without it, the sensor always detects all kinds. `agent-economy check` prints
+    /// the probability of detection in a whole pass.
     pub detection_probability: Option<BTreeMap<String, Detection>>,
+    /// Share of the items of each kind that sensors of this model never detect, however often they
+    /// look, 0 to 1. Drawn once per item. By default 0.
+    #[serde(default)]
+    pub blind_share: BTreeMap<String, f64>,
+    /// Name of the sensor model: sensors of one model are blind to the same items, on whichever
+    /// robot they are. By default, each sensor of each robot kind is a model of its own.
+    pub model: Option<String>,
+    /// Probability of each reported kind (inner keys) by the true kind of a detected item (outer
+    /// keys), drawn per look. The probabilities of a true kind must sum to 1; a kind that is not
+    /// given is reported as it is.
+    #[serde(default)]
+    pub confusion: BTreeMap<String, BTreeMap<String, f64>>,
     /// False alarms per second and square metre in view, by the kind of item that they are taken
     /// for.
     #[serde(default)]
@@ -98,10 +113,33 @@ pub(super) fn yes() -> bool {
 }
 
 impl ItemsSpec {
-    /// What brains know of it: the sensor with this number, which measures every `period_s`.
+    /// The key of its model in random streams, if it is the sensor `name` of a kind `owner`.
+    pub(crate) fn model_key(&self, owner: &str, name: &str) -> u32 {
+        kind_key(&self.model_name(owner, name))
+    }
+
+    /// The name of its model. No name that a scenario may give contains a dot.
+    pub(crate) fn model_name(&self, owner: &str, name: &str) -> String {
+        self.model
+            .clone()
+            .unwrap_or_else(|| format!("{owner}.{name}"))
+    }
+
+    /// The share of the items of each kind that it never detects; empty if it is 0 for all.
+    fn blind_shares(&self, kinds: &[String]) -> Vec<f64> {
+        let share = |kind| self.blind_share.get(kind).copied().unwrap_or(0.0);
+        let shares: Vec<f64> = kinds.iter().map(share).collect();
+        if shares.iter().all(|share| *share == 0.0) {
+            return Vec::new();
+        }
+        shares
+    }
+
+    /// What brains know of it: the sensor with this number and model key, which measures every
+    /// `period_s`.
     pub(crate) fn detector(
         &self,
-        sensor: u16,
+        (sensor, model): (u16, u32),
         item_kinds: &[String],
         period_s: f64,
     ) -> brain::Detector {
@@ -119,8 +157,18 @@ impl ItemsSpec {
         let rates = item_kinds
             .iter()
             .map(|kind| self.false_alarm_rate_per_m2_s.get(kind));
+        let blind_share = self.blind_shares(item_kinds);
+        let confusion = if self.confusion.is_empty() {
+            Vec::new()
+        } else {
+            matrix(&self.confusion, item_kinds)
+        };
         brain::Detector {
             sensor,
+            // Without blind items, it does not matter.
+            model: if blind_share.is_empty() { 0 } else { model },
+            blind_share,
+            confusion,
             range_m: sector.range_m,
             width_rad: sector.fov_deg.to_radians(),
             facing_rad: sector.facing_deg.to_radians(),
@@ -146,6 +194,8 @@ pub(crate) struct ItemDetector {
     pub(crate) sector: Sector,
     /// By the kind of item; `None` is never detected.
     detection_probability: Vec<Option<Detection>>,
+    blindness: Option<Blindness>,
+    confusion: Option<Confusion>,
     /// By the kind that they are taken for; only those with a rate above 0.
     false_alarms: Vec<FalseAlarm>,
     noise_m: f64,
@@ -163,8 +213,8 @@ struct FalseAlarm {
 }
 
 impl ItemDetector {
-    /// For `kinds` of items, in their order, and a measurement every `period_s`.
-    pub(crate) fn new(spec: &ItemsSpec, kinds: &[String], period_s: f64) -> Self {
+    /// For a model key, `kinds` of items, in their order, and a measurement every `period_s`.
+    pub(crate) fn new(spec: &ItemsSpec, model: u32, kinds: &[String], period_s: f64) -> Self {
         let detection = |kind: &String| match &spec.detection_probability {
             None => Some(Detection::Constant(1.0)),
             Some(detection_probability) => detection_probability.get(kind).cloned(),
@@ -180,6 +230,8 @@ impl ItemDetector {
         Self {
             sector: Sector::new(&spec.sector),
             detection_probability: kinds.iter().map(detection).collect(),
+            blindness: Blindness::new(model, spec.blind_shares(kinds)),
+            confusion: (!spec.confusion.is_empty()).then(|| Confusion::new(&spec.confusion, kinds)),
             false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
             noise_m: spec.noise_m,
             needs_line_of_sight: spec.needs_line_of_sight,
@@ -193,6 +245,8 @@ impl ItemDetector {
         items: &Items,
         mut give: impl FnMut(Point, u16, Option<u32>),
     ) {
+        let blindness = self.blindness.as_ref();
+        let blind = blindness.map(|blindness| blindness.in_run(items.run()));
         for (place, number) in items.near(frame.at, self.sector.range_m) {
             let way = frame.own(*place);
             let kind = items.kind(*number);
@@ -202,9 +256,17 @@ impl ItemDetector {
             if !self.sector.holds(way) || self.is_hidden(frame, *place) {
                 continue;
             }
-            let words = frame.words_of(NoisePurpose::Thing, items.thing(*number));
-            if share(words[0]) < detection.probability(way.length()) {
-                give(blurred(way, self.noise_m, words), kind, Some(*number));
+            let thing = items.thing(*number);
+            let words = frame.words_of(NoisePurpose::Thing, thing);
+            let is_detected = share(words[0]) < detection.probability(way.length());
+            if is_detected
+                && !blind
+                    .as_ref()
+                    .is_some_and(|blind| blind.contains(kind, thing))
+            {
+                let confusion = self.confusion.as_ref();
+                let reported = confusion.map_or(kind, |each| each.reported(kind, words[3]));
+                give(blurred(way, self.noise_m, words), reported, Some(*number));
             }
         }
         for false_alarm in &self.false_alarms {

@@ -3,9 +3,12 @@
 //! A robot gets what its sensors can detect, and misses the rest. One file per sensor kind.
 
 pub(crate) mod backlog;
+pub(crate) mod blindness;
+pub(crate) mod confusion;
 pub mod heading;
 pub mod items;
 pub(crate) mod memory;
+pub(crate) mod pass;
 pub(crate) mod pending;
 pub(crate) mod poisson;
 pub mod position;
@@ -110,12 +113,20 @@ impl Sensor {
         matches!(self.measure, Measure::Items(_) | Measure::Robots(_))
     }
 
-    pub(crate) fn new(name: &str, spec: &SensorSpec, items: &[String], step_s: f64) -> Self {
+    /// The sensor `name` of the robot or controller kind `owner`.
+    pub(crate) fn new(
+        (owner, name): (&str, &str),
+        spec: &SensorSpec,
+        items: &[String],
+        step_s: f64,
+    ) -> Self {
         let schedule = Schedule::new(spec.rate_hz, step_s);
         let measure = match &spec.measures {
             Measures::Range(spec) => Measure::Range(Ring::new(spec)),
             Measures::Items(spec) => {
-                Measure::Items(ItemDetector::new(spec, items, schedule.period_s(step_s)))
+                let model = spec.model_key(owner, name);
+                let period_s = schedule.period_s(step_s);
+                Measure::Items(ItemDetector::new(spec, model, items, period_s))
             }
             Measures::Robots(spec) => Measure::Robots(RobotDetector::new(spec)),
             Measures::Position(spec) => Measure::Position {

@@ -34,6 +34,8 @@ pub(crate) enum NoisePurpose {
     Clock = 10,
     /// Whether a robot or controller fails; not a sensor's.
     Failure = 11,
+    /// Whether sensors of a model can detect an item; not a robot's.
+    Blindness = 12,
 }
 
 /// Purposes of one sensor are numbered from here.

@@ -71,6 +71,8 @@ pub(crate) struct Items {
     /// The key of each item in random streams.
     things: Vec<Entity>,
     buckets: Buckets,
+    /// The seed and the number of the run.
+    run: [u64; 2],
 }
 
 impl Items {
@@ -79,6 +81,7 @@ impl Items {
         each: &[(Entity, u16, Point)],
         (size_m, torus): (Point, Option<Torus>),
         reach_m: f64,
+        run: [u64; 2],
     ) -> Self {
         let farthest_m = reach_m.max(RECOGNISED_WITHIN_M);
         let mut buckets = Buckets::new(size_m, reach_m).on(torus, farthest_m);
@@ -88,7 +91,13 @@ impl Items {
             places: each.iter().map(|(.., place)| *place).collect(),
             kinds: each.iter().map(|(_, kind, _)| *kind).collect(),
             buckets,
+            run,
         }
+    }
+
+    /// The seed and the number of the run, for draws that are the same for all robots.
+    pub(crate) fn run(&self) -> [u64; 2] {
+        self.run
     }
 
     /// All items within a distance of a place, with their numbers, and possibly some more; in a

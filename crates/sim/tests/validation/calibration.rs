@@ -9,6 +9,8 @@ use sim::simulation::Simulation;
 
 const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
 
+const UNCERTAIN: &str = include_str!("../../../../docs/validation/uncertain-kinds.toml");
+
 const RUNS: u64 = 64;
 
 /// Times at which beliefs are evaluated, in seconds.
@@ -72,8 +74,8 @@ fn evaluated(simulation: &Simulation) -> Vec<Belief> {
 }
 
 /// The beliefs of each run.
-fn believed(changes: &[(&str, Value)]) -> Vec<Vec<Belief>> {
-    let scenario = scenario(TEXT, changes);
+fn believed(text: &str, changes: &[(&str, Value)]) -> Vec<Vec<Belief>> {
+    let scenario = scenario(text, changes);
     let of_run = |number| {
         let mut simulation = run(&scenario, 1, number);
         let mut all = Vec::new();
@@ -131,7 +133,11 @@ fn share(series: &str, runs: &[Vec<Belief>], bin: u8) -> Option<Row> {
 }
 
 fn rows(series: &str, changes: &[(&str, Value)]) -> Vec<Row> {
-    let runs = believed(changes);
+    rows_of(TEXT, series, changes)
+}
+
+fn rows_of(text: &str, series: &str, changes: &[(&str, Value)]) -> Vec<Row> {
+    let runs = believed(text, changes);
     (0..BINS)
         .filter_map(|bin| share(series, &runs, bin))
         .collect()
@@ -166,4 +172,13 @@ fn a_tenfold_prior_count_is_detected() {
         Value::Float(80.0),
     );
     assert_wrong(&rows("", &[many]));
+}
+
+#[test]
+fn the_share_of_true_beliefs_in_uncertain_kinds_equals_their_confidence() {
+    let alone = rows_of(UNCERTAIN, "alone", &[radio(0.0)]);
+    let together = rows_of(UNCERTAIN, "with radio", &[radio(100.0)]);
+    let all = [alone, together].concat();
+    assert_published("uncertain-kinds.csv", &all);
+    assert_right(&all);
 }

@@ -1,3 +1,4 @@
+mod kinds;
 mod liars;
 
 use super::*;
@@ -5,7 +6,6 @@ use crate::perception::beliefs::TrustSpec;
 use crate::perception::beliefs::items::tests::{
     ME, PER_M2, POSITION, contact, hit, miss, observe, random,
 };
-use crate::perception::beliefs::items::tracks::MAX_TRACKS;
 use base::random::unit;
 use core::f64::consts::TAU;
 use proptest::prelude::*;
@@ -68,12 +68,12 @@ fn report(observer: u32, confidence: f64) -> Report {
 }
 
 fn confidence(items: &Items, own: RobotId) -> f64 {
-    with_initial_trust(own, |reception| items.tracks[0].confidence(reception))
+    with_initial_trust(own, |reception| items.tracks[0].confidence(reception, None))
 }
 
 #[test]
 fn a_report_is_weighted_by_the_trust_in_its_sender() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     receive(&mut items, ME, &report(1, 0.8));
     let before = TAU * 0.01 * PER_M2;
     assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
@@ -81,7 +81,7 @@ fn a_report_is_weighted_by_the_trust_in_its_sender() {
 
 #[test]
 fn a_relayed_report_is_weighted_by_the_trust_in_sender_and_observer() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let relayed = Report {
         from: robot(2),
         ..report(1, 0.8)
@@ -95,7 +95,7 @@ fn a_relayed_report_is_weighted_by_the_trust_in_sender_and_observer() {
 
 #[test]
 fn a_sender_is_believed_no_more_than_it_is_trusted_whichever_observers_it_names() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     for observer in 1..6 {
         let from = robot(7);
         receive(
@@ -112,7 +112,7 @@ fn a_sender_is_believed_no_more_than_it_is_trusted_whichever_observers_it_names(
 
 #[test]
 fn a_report_of_the_observer_itself_precedes_relayed_ones() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let more = |from: u32| Report {
         from: robot(from),
         provenance: Provenance {
@@ -128,7 +128,7 @@ fn a_report_of_the_observer_itself_precedes_relayed_ones() {
     };
     let mut confidence_after = |report: &Report| {
         items.receive(&reception, report, 0.01, &[PER_M2]);
-        items.tracks[0].confidence(&reception)
+        items.tracks[0].confidence(&reception, None)
     };
     let first = confidence_after(&report(1, 0.9));
     assert!(
@@ -147,7 +147,7 @@ fn a_report_of_the_observer_itself_precedes_relayed_ones() {
 
 #[test]
 fn reports_of_distrusted_robots_are_not_relayed() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let trust = distrust_of(robot(7));
     let reception = Reception {
         own: ME,
@@ -176,7 +176,7 @@ fn reports_of_distrusted_robots_are_not_relayed() {
 
 #[test]
 fn contradicting_reports_give_a_confidence_between_both() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     receive(&mut items, ME, &report(1, 0.9));
     let alone = confidence(&items, ME);
     receive(&mut items, ME, &report(2, 1e-4));
@@ -188,7 +188,7 @@ fn contradicting_reports_give_a_confidence_between_both() {
 
 #[test]
 fn relayed_own_observations_change_nothing() {
-    let (mut mine, mut theirs) = (Items::default(), Items::default());
+    let (mut mine, mut theirs) = (Items::new(64, None), Items::new(64, None));
     hit(&mut mine, ME);
     for report in sent(&mut mine) {
         receive(&mut theirs, robot(1), &report);
@@ -202,7 +202,7 @@ fn relayed_own_observations_change_nothing() {
 
 #[test]
 fn the_sources_of_an_item_are_bounded_and_own_observations_are_kept() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     hit(&mut items, ME);
     let reports: Vec<Report> = (1..20)
         .map(|observer| report(observer, 0.3 + 0.03 * f64::from(observer)))
@@ -224,7 +224,7 @@ fn the_sources_of_an_item_are_bounded_and_own_observations_are_kept() {
 
 #[test]
 fn all_items_are_repeated_for_robots_that_come_into_range_later() {
-    let (mut items, mut later) = (Items::default(), Items::default());
+    let (mut items, mut later) = (Items::new(64, None), Items::new(64, None));
     for number in 0..20 {
         let at = Point {
             x: f64::from(number),
@@ -245,7 +245,7 @@ fn all_items_are_repeated_for_robots_that_come_into_range_later() {
 
 #[test]
 fn memory_is_bounded_for_a_thousand_contacts() {
-    let (mut items, mut random) = (Items::default(), random(1));
+    let (mut items, mut random) = (Items::new(64, None), random(1));
     for number in 0..1000 {
         let at = Point {
             x: 200.0 * unit(&mut random),
@@ -266,7 +266,7 @@ fn memory_is_bounded_for_a_thousand_contacts() {
             },
         );
     }
-    assert_eq!(items.tracks.len(), MAX_TRACKS);
+    assert_eq!(items.tracks.len(), 64);
     let mut outbox = Vec::new();
     with_initial_trust(ME, |reception| items.report(reception, &mut outbox, 2));
     assert_eq!(outbox.len(), 2);
@@ -277,7 +277,7 @@ fn memory_is_bounded_for_a_thousand_contacts() {
 /// its own observations.
 fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
     let mut random = random(seed);
-    let mut team = vec![Items::default(); 3];
+    let mut team = vec![Items::new(64, None); 3];
     let mut sent_reports: Vec<Report> = Vec::new();
     for (items, observer) in team.iter_mut().zip(0..) {
         hit(items, robot(observer));
@@ -395,7 +395,7 @@ proptest! {
         liars in 1_usize..4,
         acts in proptest::collection::vec(act(), 1..200),
     ) {
-        let mut team: Vec<Items> = vec![Items::default(); HEARERS];
+        let mut team: Vec<Items> = vec![Items::new(64, None); HEARERS];
         let trust = liar_trust(&trusts);
         let hear = |items: &mut Items, own: usize, report: &Report| {
             let own = robot(u32::try_from(own).unwrap());
@@ -419,7 +419,7 @@ proptest! {
                 let bound = (0..liars).fold(1.0 - probability(track.prior), |left, liar| {
                     left * (1.0 - trust.of(robot(LIARS + u32::try_from(liar).unwrap())))
                 });
-                let belief = track.confidence(&reception);
+                let belief = track.confidence(&reception, None);
                 prop_assert!(belief <= 1.0 - bound + 1e-9, "{} above {}", belief, 1.0 - bound);
             }
         }
@@ -470,12 +470,12 @@ fn three_liars_are_believed_at_most_a_half_three_quarters_and_seven_eighths() {
             own: ME,
             trust: &trust,
         },
-        Items::default(),
+        Items::new(64, None),
     );
     let mut beliefs = Vec::new();
     for liar in 1..4 {
         items.receive(&reception, &report(liar, 1.0), 0.01, &[PER_M2]);
-        beliefs.push(items.tracks[0].confidence(&reception));
+        beliefs.push(items.tracks[0].confidence(&reception, None));
     }
     let prior = probability(items.tracks[0].prior);
     for (belief, left) in beliefs.iter().zip([0.5, 0.25, 0.125]) {
@@ -488,7 +488,7 @@ fn three_liars_are_believed_at_most_a_half_three_quarters_and_seven_eighths() {
 
 #[test]
 fn a_relayed_report_is_not_relayed_again() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let relayed = Report {
         from: robot(2),
         ..report(1, 0.9)
@@ -502,7 +502,7 @@ fn a_relayed_report_is_not_relayed_again() {
 #[test]
 fn of_reports_that_share_a_robot_only_the_strongest_counts() {
     let alone = |reports: &[Report]| {
-        let mut items = Items::default();
+        let mut items = Items::new(64, None);
         for each in reports {
             receive(&mut items, ME, each);
         }

@@ -17,8 +17,10 @@
 //! The prior follows from the density of items, and from the observations that did not detect
 //! anything at that position.
 
+pub(crate) mod kinds;
 mod observations;
 pub(crate) mod track;
+pub(crate) mod track_set;
 pub(crate) mod tracks;
 
 pub(crate) use observations::OwnObservation;

@@ -2,7 +2,7 @@
 //! architecture, which has an identifier, a [goal selector](crate::goals) and an
 //! [adapter](crate::navigation::navigator).
 //!
-//! Memory is bounded: with its goals and paths, a brain needs at most 46 kB, plus 20 bytes for each
+//! Memory is bounded: with its goals and paths, a brain needs at most 51 kB, plus 20 bytes for each
 //! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray, plus 14 kB if
 //! readings are late. A test measures this.
 

@@ -20,6 +20,10 @@ pub struct BeliefsSpec {
     pub cells: u32,
     /// Expected number of items of each kind before any observation; one of each kind by default.
     pub prior_count: BTreeMap<String, f64>,
+    /// Maximum number of items that it keeps track of; the least likely one is replaced first. Each
+    /// needs about 600 bytes per robot.
+    #[schemars(range(min = 1, max = 1024))]
+    pub max_tracks: u32,
     /// Trust in the reports of other robots.
     pub trust: TrustSpec,
 }
@@ -31,6 +35,7 @@ impl Default for BeliefsSpec {
             cell_m: 0.25,
             cells: 4096,
             prior_count: BTreeMap::new(),
+            max_tracks: 64,
             trust: TrustSpec::default(),
         }
     }

@@ -3,6 +3,7 @@
 use super::battery::Battery;
 use super::coverage_map::DetectorScan;
 use super::displacement::Displacement;
+use super::items::kinds::KindModel;
 use super::items::{Items, OwnObservation};
 use super::localisation::Localisation;
 use super::map::Map;
@@ -58,13 +59,14 @@ impl Beliefs {
         let area_m2 = area.map_or(1.0, |area| area.area_m2().max(1.0));
         let kinds = body.item_kinds.iter();
         let expected = kinds.map(|kind| spec.prior_count.get(kind).copied().unwrap_or(1.0));
+        let per_m2: Arc<[f64]> = expected.map(|expected| expected / area_m2).collect();
         Self {
-            per_m2: expected.map(|expected| expected / area_m2).collect(),
             id: RobotId::default(),
             localisation: Localisation::default(),
             others: Others::default(),
-            items: Items::default(),
+            items: Items::new(spec.max_tracks, KindModel::new(body, &per_m2)),
             battery: Battery::default(),
+            per_m2,
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,
             observations: 0,

@@ -29,6 +29,10 @@ const ROBOT_BYTES: f64 = 2_000.0;
 const BELIEFS_BYTES: f64 = 30_000.0;
 const CELL_BYTES: f64 = 20.0;
 
+/// Approximate bytes of one tracked item; the beliefs above include this number of them.
+const TRACK_BYTES: f64 = 600.0;
+const TRACKS: f64 = 64.0;
+
 /// One measured number.
 const VALUE_BYTES: f64 = 8.0;
 
@@ -110,8 +114,9 @@ fn bytes_of_beliefs(robot: &RobotSpec) -> f64 {
     if brain.beliefs.is_none() && !behaviours.any(BehaviourSpec::needs_beliefs) {
         return 0.0;
     }
-    let cells = brain.beliefs.clone().unwrap_or_default().cells;
-    BELIEFS_BYTES + f64::from(cells) * CELL_BYTES
+    let beliefs = brain.beliefs.clone().unwrap_or_default();
+    let more_tracks = (f64::from(beliefs.max_tracks) - TRACKS).max(0.0);
+    BELIEFS_BYTES + f64::from(beliefs.cells) * CELL_BYTES + more_tracks * TRACK_BYTES
 }
 
 /// Bytes of its messages in transit to all receivers, and of those that it has received.

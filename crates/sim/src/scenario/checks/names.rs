@@ -83,7 +83,7 @@ fn errors_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<Input
 }
 
 /// What names may be.
-fn allowed() -> String {
+pub(super) fn allowed() -> String {
     format!("a name of at most {MAX_LENGTH} letters a to z or A to Z, digits, _ and -")
 }
 
@@ -130,7 +130,7 @@ fn time_columns(names: &[&str], at: &Place) -> Vec<InputError> {
     ambiguous.collect()
 }
 
-fn is_fine(name: &str) -> bool {
+pub(super) fn is_fine(name: &str) -> bool {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     (1..=MAX_LENGTH).contains(&name.len()) && name.chars().all(is_bare)
 }

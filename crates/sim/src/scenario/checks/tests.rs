@@ -6,6 +6,7 @@ mod brains;
 mod controllers;
 mod end;
 mod goals;
+mod identification;
 mod obstacles;
 mod periodic;
 mod renamed;

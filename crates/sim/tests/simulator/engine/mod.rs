@@ -22,6 +22,7 @@ mod flocks;
 mod footprints;
 mod goals;
 mod golden;
+mod identification;
 mod inspect;
 mod judge;
 mod layers;

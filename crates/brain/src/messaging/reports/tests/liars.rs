@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_liar_cannot_keep_honest_reports_out_of_a_track() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     for observer in 10..30 {
         receive(
             &mut items,
@@ -22,7 +22,7 @@ fn a_liar_cannot_keep_honest_reports_out_of_a_track() {
 
 #[test]
 fn a_liar_cannot_move_a_reported_item_far() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     receive(&mut items, ME, &report(1, 0.9));
     for number in 0..100 {
         let provenance = Provenance {
@@ -49,7 +49,7 @@ fn a_liar_cannot_move_a_reported_item_far() {
 
 #[test]
 fn a_liar_cannot_gather_the_reports_of_others_by_naming_them_first() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let lie = POSITION.plus(Point { x: -15.0, y: 9.0 });
     let named = |observer| Report {
         from: robot(7),
@@ -77,7 +77,7 @@ fn a_liar_cannot_gather_the_reports_of_others_by_naming_them_first() {
 
 #[test]
 fn an_item_earns_trust_once_however_often_it_is_reported() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let mut trust = Trust::new(&TrustSpec::default());
     (0..10).for_each(|_| hit(&mut items, ME));
     let mut after = [0.0; 2];
@@ -97,11 +97,11 @@ fn an_item_earns_trust_once_however_often_it_is_reported() {
 
 #[test]
 fn a_miss_of_a_robot_with_a_poor_position_is_not_support() {
-    let mut items = Items::default();
+    let mut items = Items::new(64, None);
     let lie = report(7, 1.0);
     receive(&mut items, ME, &lie);
     let alone = confidence(&items, ME);
-    let (observer, mut of_observer) = (robot(1), Items::default());
+    let (observer, mut of_observer) = (robot(1), Items::new(64, None));
     with_initial_trust(observer, |reception| {
         of_observer.receive(reception, &lie, 4.0, &[PER_M2]);
     });

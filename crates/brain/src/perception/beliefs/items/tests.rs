@@ -11,6 +11,7 @@ use core::f64::consts::TAU;
 
 mod calibration;
 mod observations;
+mod uncertain;
 
 pub(crate) const ME: RobotId = RobotId { kind: 0, index: 0 };
 pub(crate) const POSITION: Point = Point { x: 3.0, y: 0.0 };

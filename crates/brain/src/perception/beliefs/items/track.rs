@@ -2,6 +2,7 @@
 
 use crate::io::body::RobotId;
 use crate::io::message::Provenance;
+use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hash::Hash;
 use base::hashed::Hashed;
@@ -34,6 +35,8 @@ pub(crate) struct Track {
     pub(crate) count: usize,
     /// Log likelihood of all misses at the edge of the field of view.
     pub(crate) edge: f64,
+    /// Own measurements by sensor model and kind; empty if kinds are certain.
+    pub(crate) evidence: Vec<f64>,
 }
 
 impl Hashed for Track {
@@ -46,10 +49,17 @@ impl Hashed for Track {
             sources,
             count,
             edge,
+            evidence,
         } = self;
         (*kind, *at).add_to(hash);
         [*variance_m2, *prior, *edge].add_to(hash);
         sources[..*count].add_to(hash);
+        if !evidence.is_empty() {
+            evidence.add_to(hash);
+            for source in &sources[..*count] {
+                (source.kind, f64::from(source.kind_share)).add_to(hash);
+            }
+        }
     }
 }
 
@@ -68,6 +78,9 @@ pub(crate) struct Source {
     pub(crate) sent_confidence: f32,
     /// Whether own observations have confirmed or refuted it; each source is judged once.
     pub(crate) is_judged: bool,
+    /// The kind that a report named, and its probability given that there is an item, if kinds are uncertain.
+    pub(crate) kind: u16,
+    pub(crate) kind_share: f32,
 }
 
 base::hashed!(Source {
@@ -77,7 +90,7 @@ base::hashed!(Source {
     log_ratio,
     sent_confidence,
     is_judged
-});
+} without { kind, kind_share });
 
 impl Track {
     /// A track without sources.
@@ -90,6 +103,7 @@ impl Track {
             sources: [Source::default(); SOURCES],
             count: 0,
             edge: 0.0,
+            evidence: Vec::new(),
         }
     }
 

@@ -1,26 +1,30 @@
 //! All tracks: association, replacement and bookkeeping.
 
+use super::kinds::KindModel;
 use super::track::Track;
+use super::track_set::{MAX_TRACKS, TrackSet};
 use crate::io::body::RobotId;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::Point;
-
-/// Maximum number of tracks; the least likely one is replaced first.
-pub(crate) const MAX_TRACKS: usize = 64;
 
 /// Association gate, in standard deviations.
 const GATE: f64 = 3.0;
 
 /// All item tracks of a robot.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Items {
+    /// Maximum number of tracks; the least likely one is replaced first.
+    max_tracks: usize,
+    /// Without it, contacts have the kind of the item.
+    pub(crate) kinds: Option<Arc<KindModel>>,
     pub(crate) tracks: Vec<Track>,
     pub(crate) last_track_id: u32,
     /// Index of the track that was repeated last.
     repeated: usize,
-    /// One bit per track: those with reports to be sent, and those with reports to be judged.
-    pub(crate) unsent: u64,
-    pub(crate) unjudged: u64,
+    /// Tracks with reports to be sent, and those with reports to be judged.
+    pub(crate) unsent: TrackSet,
+    pub(crate) unjudged: TrackSet,
 }
 
 base::hashed!(Items {
@@ -29,26 +33,41 @@ base::hashed!(Items {
     repeated,
     unsent,
     unjudged
-});
+} without { max_tracks, kinds });
 
 impl Items {
-    /// Marks tracks for sending and judging.
-    pub(crate) fn mark_changed(&mut self, tracks: u64) {
-        self.unsent |= tracks;
-        self.unjudged |= tracks;
+    /// No tracks, a maximum number of them, and what is known of uncertain kinds.
+    pub(crate) fn new(max_tracks: u32, kinds: Option<KindModel>) -> Self {
+        Self {
+            max_tracks: usize::try_from(max_tracks)
+                .unwrap_or(MAX_TRACKS)
+                .min(MAX_TRACKS),
+            kinds: kinds.map(Arc::new),
+            tracks: Vec::new(),
+            last_track_id: 0,
+            repeated: 0,
+            unsent: TrackSet::default(),
+            unjudged: TrackSet::default(),
+        }
     }
 
-    /// The nearest track of a kind within the gate that is not in `taken`.
+    /// Marks tracks for sending and judging.
+    pub(crate) fn mark_changed(&mut self, tracks: &TrackSet) {
+        self.unsent.extend(tracks);
+        self.unjudged.extend(tracks);
+    }
+
+    /// The nearest track of a kind within the gate that is not in `taken`; of any kind if kinds are uncertain.
     pub(crate) fn nearest(
         &self,
         kind: u16,
         at: Point,
         variance_m2: f64,
-        taken: u64,
+        taken: &TrackSet,
     ) -> Option<usize> {
+        let is_same = |track: &Track| self.kinds.is_some() || track.kind == kind;
         let tracks = self.tracks.iter().enumerate();
-        let same =
-            tracks.filter(|(number, track)| track.kind == kind && taken & (1 << number) == 0);
+        let same = tracks.filter(|(number, track)| is_same(track) && !taken.contains(*number));
         let near = same.filter_map(|(number, track)| {
             let square = track.at.to(at).length_squared();
             let all_m2 = variance_m2 + track.variance_m2;
@@ -74,7 +93,7 @@ impl Items {
     /// Index of the least likely track for which a condition holds, or of the next one while there
     /// is space.
     fn replaceable(&self, condition: impl Fn(&Track) -> bool) -> Option<usize> {
-        if self.tracks.len() < MAX_TRACKS {
+        if self.tracks.len() < self.max_tracks {
             return Some(self.tracks.len());
         }
         let numbered = self.tracks.iter().enumerate();
@@ -107,7 +126,7 @@ impl Items {
             track.count = kept;
         }
         self.tracks.retain(|track| track.count > 0);
-        self.mark_changed(u64::MAX);
+        self.mark_changed(&TrackSet::first(self.max_tracks));
     }
 
     /// Marks the next track for repetition, in turn: messages are lost, and robots may have come
@@ -120,14 +139,9 @@ impl Items {
             for source in &mut track.sources {
                 source.sent_confidence = f32::NEG_INFINITY;
             }
-            self.unsent |= 1 << self.repeated;
+            self.unsent.insert(self.repeated);
         }
     }
-}
-
-/// The indices of the set bits, in increasing order.
-pub(crate) fn bits(set: u64) -> impl Iterator<Item = usize> {
-    (0..MAX_TRACKS).filter(move |bit| set >> bit & 1 == 1)
 }
 
 /// The density of items of a kind.

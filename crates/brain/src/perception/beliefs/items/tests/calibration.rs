@@ -71,7 +71,7 @@ fn confidences(worlds: u64) -> Vec<(f64, bool)> {
         };
         let world: Vec<Point> = (0..count).map(|_| anywhere(8.0)).collect();
         let positions: Vec<Point> = (0..=number % 5).map(|_| anywhere(2.0)).collect();
-        let (mut items, mut map) = (Items::default(), field());
+        let (mut items, mut map) = (Items::new(64, None), field());
         for from in positions {
             model_observation((&mut items, &mut map), &world, from, &mut random);
         }

@@ -1,0 +1,145 @@
+//! Quantities that follow from the values of a scenario, for people who check it.
+
+use crate::bodies::RobotSpec;
+use crate::scenario::ScenarioSpec;
+use crate::schedule::Schedule;
+use crate::sensors::items::{Detection, ItemsSpec};
+use crate::sensors::pass::{Pass, Path};
+use crate::sensors::{Measures, SensorSpec};
+
+/// What a pass of each item detector detects, for each kind of item that it detects: (sensor and kind, text).
+pub(crate) fn derived(spec: &ScenarioSpec) -> Vec<(String, String)> {
+    let mut derived = Vec::new();
+    for (owner, robot) in &spec.robots {
+        for (name, sensor) in &robot.sensors {
+            if let Measures::Items(items) = &sensor.measures {
+                let of = |kind: &String| {
+                    let text = for_kind(spec, (robot, sensor), items, kind)?;
+                    Some((format!("robots.{owner}.sensors.{name}, {kind}"), text))
+                };
+                derived.extend(spec.items.keys().filter_map(of));
+            }
+        }
+    }
+    derived
+}
+
+/// `None` if the sensor never detects that kind, or there is nothing to state.
+fn for_kind(
+    spec: &ScenarioSpec,
+    (robot, sensor): (&RobotSpec, &SensorSpec),
+    items: &ItemsSpec,
+    kind: &str,
+) -> Option<String> {
+    let always = Detection::Constant(1.0);
+    let detection = match &items.detection_probability {
+        None => &always,
+        Some(kinds) => kinds.get(kind)?,
+    };
+    let blind = items.blind_share.get(kind).copied().unwrap_or(0.0);
+    let step_s = spec.clock.step_s;
+    let path = Path {
+        speed_m_s: robot.drive.max_speed_m_s,
+        period_s: Schedule::new(sensor.rate_hz, step_s).period_s(step_s),
+        dropout_probability: sensor.dropout_probability,
+    };
+    let is_moving = path.speed_m_s > 0.0 && items.sector.range_m > 0.0;
+    let pass = is_moving.then(|| of_pass(&Pass::new(items, detection, path), path, blind));
+    let ceiling =
+        (blind > 0.0).then(|| format!("at most {} however often it passes", percent(1.0 - blind)));
+    let parts: Vec<String> = pass.into_iter().chain(ceiling).collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
+}
+
+fn of_pass(pass: &Pass, path: Path, blind: f64) -> String {
+    let [on_path, in_swath] =
+        [pass.on_path, pass.in_swath].map(|share| percent((1.0 - blind) * share));
+    format!(
+        "a pass at {} m/s, with a measurement every {} m, detects {on_path} on its path and {in_swath} in its swath of \
+         {:.3} m",
+        path.speed_m_s,
+        rounded(path.speed_m_s * path.period_s),
+        pass.swath_m
+    )
+}
+
+/// A distance with three significant digits at most.
+fn rounded(length_m: f64) -> f64 {
+    let text = format!("{length_m:.2e}");
+    text.parse().unwrap_or(length_m)
+}
+
+/// A probability; only what is certain is 0% or 100%.
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        percent if percent > 0.0 && percent < 0.1 => "less than 0.1%".to_owned(),
+        percent if percent > 99.9 && share < 1.0 => "more than 99.9%".to_owned(),
+        percent => format!("{percent:.1}%"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::document::Document;
+
+    fn lines(drive: &str, eye: &str) -> Vec<(String, String)> {
+        let text = format!(
+            "clock = {{ step_s = 0.1, time_limit_s = 9 }}\nworld = {{ size_m = [40, 40] }}\n\
+             [items.clutter]\ncount = 1\ntarget = false\n[items.mine]\ncount = 1\n\
+             [robots.rover]\ncount = 1\nradius_m = 0.2\n\
+             drive = {{ max_speed_m_s = {drive}, max_turn_rate_deg_s = 90 }}\n\
+             [robots.rover.sensors.eye]\nkind = \"items\"\n{eye}\n"
+        );
+        let document = Document::parse("t", &text).unwrap();
+        let read = ScenarioSpec::read(&document);
+        derived(&read.unwrap_or_else(|errors| panic!("{errors}")).spec)
+    }
+
+    const MINE: &str = "robots.rover.sensors.eye, mine";
+
+    #[test]
+    fn a_pass_is_stated_for_each_kind_that_a_sensor_detects() {
+        // 20 looks, each of which misses 90%; the mean over the swath is lower.
+        let eye = "range_m = 1\ndetection_probability = { mine = 0.1 }";
+        let text = "a pass at 1 m/s, with a measurement every 0.1 m, detects 87.8% on its path and 78.3% in its swath of \
+                    2.000 m";
+        assert_eq!(lines("1", eye), [(MINE.to_owned(), text.to_owned())]);
+        assert_eq!(lines("1", "range_m = 1").len(), 2);
+    }
+
+    #[test]
+    fn a_blind_share_lowers_a_pass_and_limits_all_passes() {
+        let eye =
+            "range_m = 1\ndetection_probability = { mine = 0.1 }\nblind_share = { mine = 0.25 }";
+        let text = "a pass at 1 m/s, with a measurement every 0.1 m, detects 65.9% on its path and 58.7% in its swath of \
+                    2.000 m; at most 75.0% however often it passes";
+        assert_eq!(lines("1", eye)[0].1, text);
+    }
+
+    #[test]
+    fn a_robot_that_does_not_drive_passes_nothing() {
+        let eye = "range_m = 1\ndetection_probability = { mine = 0.1 }";
+        assert!(lines("0", eye).is_empty());
+        let blind = format!("{eye}\nblind_share = {{ mine = 0.05 }}");
+        assert_eq!(
+            lines("0", &blind)[0].1,
+            "at most 95.0% however often it passes"
+        );
+    }
+
+    #[test]
+    fn only_what_is_certain_is_0_or_100_percent() {
+        let shares = [0.0, 1e-9, 0.123, 0.9999, 1.0].map(percent);
+        assert_eq!(
+            shares,
+            [
+                "0.0%",
+                "less than 0.1%",
+                "12.3%",
+                "more than 99.9%",
+                "100.0%"
+            ]
+        );
+    }
+}

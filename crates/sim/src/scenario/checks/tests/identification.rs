@@ -1,0 +1,89 @@
+//! Blind shares, sensor models and confusion matrices.
+
+use super::*;
+
+const EYE: &str = "robots.rover.sensors.eye";
+
+/// The valid scenario with more lines for its item detector, and with clutter.
+fn with(lines: &str) -> String {
+    GOOD.replace("range_m = 3", &format!("range_m = 3\n{lines}"))
+        .replace("[items.mine]", "[items.clutter]\ncount = 1\n[items.mine]")
+        .replace("{ mine = [[0", "{ clutter = 0.5, mine = [[0")
+}
+
+#[test]
+fn blind_shares_models_and_confusion_are_optional() {
+    let lines = "blind_share = { mine = 0.05, clutter = 1 }\nmodel = \"magnetometer\"\n\
+                 confusion = { mine = { mine = 0.9, clutter = 0.1 } }";
+    assert_eq!(errors_in(&with(lines)), [""; 0]);
+    assert_eq!(
+        errors_in(&with("blind_share = {}\nconfusion = {}")),
+        [""; 0]
+    );
+}
+
+#[test]
+fn all_errors_of_blind_shares_and_confusion_are_reported_at_once() {
+    let lines = "blind_share = { mien = 0.1, mine = 1.5, clutter = -0.1 }\nmodel = \"a b\"\n\
+                 [robots.rover.sensors.eye.confusion]\nmine = { mine = 0.9, clutter = 0.2 }\n\
+                 cluter = { mine = 1 }\nclutter = { clutter = 1.2, mien = -0.2 }\n\
+                 [robots.rover.sensors.eye]";
+    let (shares, table) = lines.split_once("\n[").unwrap();
+    let text = with(shares);
+    let table = table.trim_end_matches("[robots.rover.sensors.eye]");
+    let reported = errors_in(&format!("{text}\n[{table}"));
+    let known = "is not a known key: expected one of clutter, mine; did you mean";
+    let expected = [
+        format!("{EYE}.blind_share.clutter = -0.1: must be a number from 0 to 1"),
+        format!("{EYE}.blind_share.mien {known} mine?"),
+        format!("{EYE}.blind_share.mine = 1.5: must be a number from 0 to 1"),
+        format!("{EYE}.confusion.cluter {known} clutter?"),
+        format!("{EYE}.confusion.clutter.clutter = 1.2: must be a number from 0 to 1"),
+        format!("{EYE}.confusion.clutter.mien {known} mine?"),
+        format!("{EYE}.confusion.clutter.mien = -0.2: must be a number from 0 to 1"),
+        format!(
+            "{EYE}.confusion.mine = {{...}}: must be probabilities that sum to 1, one for \
+             each reported kind; they sum to 1.1"
+        ),
+        format!(
+            "{EYE}.model = \"a b\": must be a name of at most 64 letters a to z or A to Z, digits, _ and -"
+        ),
+    ];
+    assert_eq!(reported.len(), expected.len(), "{reported:#?}");
+    for error in &expected {
+        assert!(
+            reported.iter().any(|one| one == error),
+            "{error}\n{reported:#?}"
+        );
+    }
+}
+
+#[test]
+fn a_row_may_be_off_by_rounding_only() {
+    let row = |mine: &str| {
+        with(&format!(
+            "confusion = {{ mine = {{ mine = {mine}, clutter = 0.1 }} }}"
+        ))
+    };
+    assert_eq!(errors_in(&row("0.9000000001")), [""; 0]);
+    assert_eq!(errors_in(&row("0.90000001")).len(), 1);
+    let empty = with("confusion = { mine = {} }");
+    assert!(errors_in(&empty)[0].contains("they sum to 0"));
+}
+
+#[test]
+fn values_for_kinds_that_the_sensor_never_detects_are_refused() {
+    let lines = "blind_share = { clutter = 0.1 }\nconfusion = { clutter = { mine = 1 } }";
+    let text = with(lines).replace("clutter = 0.5, ", "");
+    let text = text.replace(
+        "count = 1\n[items.mine]",
+        "count = 1\ntarget = false\n[items.mine]",
+    );
+    let end =
+        "must be removed, or the kind added to detection_probability: the sensor never detects it";
+    let expected = [
+        format!("{EYE}.blind_share.clutter = 0.1: {end}"),
+        format!("{EYE}.confusion.clutter = {{...}}: {end}"),
+    ];
+    assert_eq!(errors_in(&text), expected);
+}
