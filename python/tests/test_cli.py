@@ -117,7 +117,8 @@ def test_check_reports_valid_scenarios(classic_toml: Path, tmp_path: Path) -> No
 
 def test_check_prints_how_soon_goals_of_a_lost_controller_are_offered_again() -> None:
     lines = succeed("check", "waypoints").stdout.splitlines()
-    assert any(line.startswith("    controllers.base: goals of a lost controller") for line in lines)
+    start = "    controllers.base: goals of a lost controller"
+    assert any(line.startswith(start) for line in lines)
 
 
 def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Path) -> None:
