@@ -468,7 +468,7 @@ class RefusalColumns(TypedDict):
         goal: The goal.
         number: The number of the bid or of the lease; of a refused call, that of the call.
         reason: Why. 0 unreachable, 1 capability, 2 deadline, 3 battery, 4 full, 5 lease, 6
-            out_of_service, 7 no_robot.
+            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller.
     """
 
     goal: GoalIdColumns
@@ -499,7 +499,7 @@ class DispatchColumnsDone(ClaimColumns):
 class DispatchColumnsStuck(RefusalColumns):
     """From a robot to the owner: it does not reach the goal.
 
-    From a controller to the operator: no robot can serve the goal.
+    From a controller to the operator: no robot can serve the goal, or its owner has lost it.
 
     Attributes:
         row: The message that each is in.
@@ -683,6 +683,43 @@ class DispatchColumnsBind(AwardColumns):
     row: Integers
 
 
+class AssignmentColumns(TypedDict):
+    """A robot that has been awarded a goal.
+
+    Attributes:
+        goal: The goal.
+        robot: The robot.
+    """
+
+    goal: GoalIdColumns
+    robot: RobotIdColumns
+
+
+class DispatchColumnsAssigned(AssignmentColumns):
+    """From an owner to its heir: a robot that has been awarded a goal.
+
+    Of an inherited goal, only such a robot can report that it is done.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+
+
+class DispatchColumnsService(TypedDict):
+    """From the operator to a robot: whether it is in service.
+
+    Out of service, it releases its goals, bids for none, and refuses awards.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+    value: Booleans
+
+
 class DispatchColumns(TypedDict):
     """A message about a goal that a controller owns or awards.
 
@@ -701,7 +738,7 @@ class DispatchColumns(TypedDict):
             changes that.
         done: From a robot to all, until its owner withdraws the goal: the goal has been served.
         stuck: From a robot to the owner: it does not reach the goal. From a controller to the
-            operator: no robot can serve the goal.
+            operator: no robot can serve the goal, or its owner has lost it.
         release: From a robot or an owner: its lease has ended.
         withdraw: From the owner to all: the goal is no longer on offer. To its assignee: it is
             to release it.
@@ -720,6 +757,10 @@ class DispatchColumns(TypedDict):
         bind: From an owner to its heir: from now on, it owns the goal only while the heir
             renews its lease. The number is that of the answer to which it refers, the duration
             that of its longest service lease.
+        assigned: From an owner to its heir: a robot that has been awarded a goal. Of an
+            inherited goal, only such a robot can report that it is done.
+        service: From the operator to a robot: whether it is in service. Out of service, it
+            releases its goals, bids for none, and refuses awards.
     """
 
     issue: DispatchColumnsIssue
@@ -748,6 +789,8 @@ class DispatchColumns(TypedDict):
     relieved: DispatchColumnsRelieved
     restore: DispatchColumnsRestore
     bind: DispatchColumnsBind
+    assigned: DispatchColumnsAssigned
+    service: DispatchColumnsService
 
 
 class AboutColumns(TypedDict):
@@ -1195,7 +1238,7 @@ class RefusalArrays(TypedDict):
         goal: The goal.
         number: The number of the bid or of the lease; of a refused call, that of the call.
         reason: Why. 0 unreachable, 1 capability, 2 deadline, 3 battery, 4 full, 5 lease, 6
-            out_of_service, 7 no_robot.
+            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller.
     """
 
     goal: GoalIdArrays
@@ -1226,7 +1269,7 @@ class DispatchArraysDone(ClaimArrays):
 class DispatchArraysStuck(RefusalArrays):
     """From a robot to the owner: it does not reach the goal.
 
-    From a controller to the operator: no robot can serve the goal.
+    From a controller to the operator: no robot can serve the goal, or its owner has lost it.
 
     Attributes:
         row: The message that each is in.
@@ -1410,6 +1453,43 @@ class DispatchArraysBind(AwardArrays):
     row: NotRequired[ArrayLike]
 
 
+class AssignmentArrays(TypedDict):
+    """A robot that has been awarded a goal.
+
+    Attributes:
+        goal: The goal.
+        robot: The robot.
+    """
+
+    goal: GoalIdArrays
+    robot: RobotIdArrays
+
+
+class DispatchArraysAssigned(AssignmentArrays):
+    """From an owner to its heir: a robot that has been awarded a goal.
+
+    Of an inherited goal, only such a robot can report that it is done.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+
+
+class DispatchArraysService(TypedDict):
+    """From the operator to a robot: whether it is in service.
+
+    Out of service, it releases its goals, bids for none, and refuses awards.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+    value: ArrayLike
+
+
 class DispatchArrays(TypedDict):
     """A message about a goal that a controller owns or awards.
 
@@ -1428,7 +1508,7 @@ class DispatchArrays(TypedDict):
             changes that.
         done: From a robot to all, until its owner withdraws the goal: the goal has been served.
         stuck: From a robot to the owner: it does not reach the goal. From a controller to the
-            operator: no robot can serve the goal.
+            operator: no robot can serve the goal, or its owner has lost it.
         release: From a robot or an owner: its lease has ended.
         withdraw: From the owner to all: the goal is no longer on offer. To its assignee: it is
             to release it.
@@ -1447,6 +1527,10 @@ class DispatchArrays(TypedDict):
         bind: From an owner to its heir: from now on, it owns the goal only while the heir
             renews its lease. The number is that of the answer to which it refers, the duration
             that of its longest service lease.
+        assigned: From an owner to its heir: a robot that has been awarded a goal. Of an
+            inherited goal, only such a robot can report that it is done.
+        service: From the operator to a robot: whether it is in service. Out of service, it
+            releases its goals, bids for none, and refuses awards.
     """
 
     issue: NotRequired[DispatchArraysIssue]
@@ -1475,6 +1559,8 @@ class DispatchArrays(TypedDict):
     relieved: NotRequired[DispatchArraysRelieved]
     restore: NotRequired[DispatchArraysRestore]
     bind: NotRequired[DispatchArraysBind]
+    assigned: NotRequired[DispatchArraysAssigned]
+    service: NotRequired[DispatchArraysService]
 
 
 class AboutArrays(TypedDict):
