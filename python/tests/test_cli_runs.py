@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pyarrow as pa
@@ -17,7 +17,9 @@ from pyarrow import csv, parquet
 
 import agent_economy as ae
 from agent_economy import Scenario
+from agent_economy.cli.unserved_goals import REASONS
 from agent_economy.study.answer.any_answer import expect_best
+from agent_economy.types.brain import Reason
 
 CROWDED = """
 engine = "metric"
@@ -140,6 +142,16 @@ def test_goals_that_no_robot_can_serve_are_printed_with_the_reason() -> None:
     assert printed == [{"goal": f"spot/{index}", "reason": "no_robot"} for index in range(2)]
     assert "Goal" not in succeed(*few).stdout
     assert json.loads(succeed(*few, "--json").stdout)["unserved_goals"] == []
+
+
+def test_each_reason_of_an_unserved_goal_has_words() -> None:
+    assert set(REASONS) == set(get_args(Reason))
+
+
+def test_goals_without_a_working_controller_are_printed() -> None:
+    few = ("run", "waypoints", "--set", "goals.spot.count=2", "--set", "clock.time_limit_s=10")
+    failed = (*few, "--set", "controllers.base.failed=[0]")
+    assert "Goal spot/1: no controller works that could own it.\n" in succeed(*failed).stdout
 
 
 def summary(*arguments: str | Path) -> dict[str, dict[str, Any]]:

@@ -4,6 +4,9 @@ from typing import Any
 
 from page_client import Page
 
+import agent_economy as ae
+from agent_economy.server.runs.economy_view import economy
+
 REQUEST = {"links": False, "footprints": False, "economy": True}
 
 
@@ -60,3 +63,12 @@ def test_controllers_that_are_added_during_a_run_are_sent(page: Page) -> None:
     assert [each["name"] for each in message["controllers"]] == ["base/0", "base/1", "base/2"]
     page.change("controllers.base.allocation", "nearest")
     page.step(1, to=101)
+
+
+def test_a_goal_without_an_owner_has_the_reason() -> None:
+    scenario = ae.Scenario.load("waypoints").replace("controllers.base.failed", [0])
+    simulation = ae.Simulation(scenario, seed=1)
+    simulation.step()
+    view = economy(simulation, None)
+    assert view is not None
+    assert {goal["unserved"] for goal in view["goals"]} == {"no_controller"}

@@ -468,7 +468,7 @@ class RefusalColumns(TypedDict):
         goal: The goal.
         number: The number of the bid or of the lease; of a refused call, that of the call.
         reason: Why. 0 unreachable, 1 capability, 2 deadline, 3 battery, 4 full, 5 lease, 6
-            out_of_service, 7 no_robot.
+            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller.
     """
 
     goal: GoalIdColumns
@@ -499,7 +499,7 @@ class DispatchColumnsDone(ClaimColumns):
 class DispatchColumnsStuck(RefusalColumns):
     """From a robot to the owner: it does not reach the goal.
 
-    From a controller to the operator: no robot can serve the goal.
+    From a controller to the operator: no robot can serve the goal, or its owner has lost it.
 
     Attributes:
         row: The message that each is in.
@@ -738,7 +738,7 @@ class DispatchColumns(TypedDict):
             changes that.
         done: From a robot to all, until its owner withdraws the goal: the goal has been served.
         stuck: From a robot to the owner: it does not reach the goal. From a controller to the
-            operator: no robot can serve the goal.
+            operator: no robot can serve the goal, or its owner has lost it.
         release: From a robot or an owner: its lease has ended.
         withdraw: From the owner to all: the goal is no longer on offer. To its assignee: it is
             to release it.
@@ -1238,7 +1238,7 @@ class RefusalArrays(TypedDict):
         goal: The goal.
         number: The number of the bid or of the lease; of a refused call, that of the call.
         reason: Why. 0 unreachable, 1 capability, 2 deadline, 3 battery, 4 full, 5 lease, 6
-            out_of_service, 7 no_robot.
+            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller.
     """
 
     goal: GoalIdArrays
@@ -1269,7 +1269,7 @@ class DispatchArraysDone(ClaimArrays):
 class DispatchArraysStuck(RefusalArrays):
     """From a robot to the owner: it does not reach the goal.
 
-    From a controller to the operator: no robot can serve the goal.
+    From a controller to the operator: no robot can serve the goal, or its owner has lost it.
 
     Attributes:
         row: The message that each is in.
@@ -1508,7 +1508,7 @@ class DispatchArrays(TypedDict):
             changes that.
         done: From a robot to all, until its owner withdraws the goal: the goal has been served.
         stuck: From a robot to the owner: it does not reach the goal. From a controller to the
-            operator: no robot can serve the goal.
+            operator: no robot can serve the goal, or its owner has lost it.
         release: From a robot or an owner: its lease has ended.
         withdraw: From the owner to all: the goal is no longer on offer. To its assignee: it is
             to release it.

@@ -180,6 +180,8 @@ Reason: TypeAlias = Literal[
     "lease",
     "out_of_service",
     "no_robot",
+    "orphaned",
+    "no_controller",
 ]
 """Why a goal is not served."""
 

@@ -42,6 +42,7 @@ test("the goals of a controller are those that it owns", () => {
 
 test("a reason without a label is displayed as it is", () => {
   expect(reasonLabel("no_robot")).toBe("no robot is in range");
+  expect(reasonLabel("no_controller")).toBe("no controller works");
   expect(reasonLabel("other")).toBe("other");
 });
 

@@ -32,6 +32,8 @@ const reasons: Record<string, string> = {
   lease: "the service takes longer than a lease",
   out_of_service: "the robots are out of service",
   no_robot: "no robot is in range",
+  orphaned: "its owner has lost it: the heir did not renew the lease",
+  no_controller: "no controller works",
 };
 
 /** Why no robot can serve a goal. */

@@ -72,7 +72,7 @@ dispatch! {
     /// From a robot to all, until its owner withdraws the goal: the goal has been served.
     10 Done(Claim),
     /// From a robot to the owner: it does not reach the goal. From a controller to the operator: no
-    /// robot can serve the goal.
+    /// robot can serve the goal, or its owner has lost it.
     11 Stuck(Refusal),
     /// From a robot or an owner: its lease has ended.
     12 Release(Claim),
@@ -123,6 +123,24 @@ impl Dispatch {
             | Self::Entrust(task)
             | Self::Restore(task) => Some(task),
             _ => None,
+        }
+    }
+
+    /// Its rank among the messages of a step, which a radio sends until it has sent its maximum: 0 is first.
+    ///
+    /// 0: leases end early without it; 1: another agent waits for it, and it may not be repeated; 2: offers, which are
+    /// repeated; 3: information.
+    #[must_use]
+    pub fn urgency(&self) -> u8 {
+        match self {
+            Self::Renew(_)
+            | Self::Renewed(_)
+            | Self::Differs(_)
+            | Self::RenewOne(_)
+            | Self::RenewedOne(_) => 0,
+            Self::Call { .. } | Self::Bid(_) | Self::Entrust(_) | Self::Serial(_) => 2,
+            Self::Query {} | Self::Report(_) | Self::Fitness(_) | Self::Seen(_) => 3,
+            _ => 1,
         }
     }
 }
@@ -340,6 +358,10 @@ pub enum Reason {
     OutOfService,
     /// No robot is in range.
     NoRobot,
+    /// Its owner has lost it: the heir did not renew the owner lease.
+    Orphaned,
+    /// No controller that could own it works.
+    NoController,
 }
 
 base::hashed!(enum Reason);

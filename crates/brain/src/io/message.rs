@@ -38,6 +38,17 @@ impl Message {
             confidence: 1.0,
         }
     }
+
+    /// Its rank among the messages of a step: [`Dispatch::urgency`]. Of other messages, those about goals are before
+    /// offers, and the others are last.
+    #[must_use]
+    pub fn urgency(&self) -> u8 {
+        match &self.about {
+            About::Dispatch(dispatch) => dispatch.urgency(),
+            About::Goal { .. } | About::Order { .. } => 1,
+            About::Item { .. } | About::Sender { .. } => 3,
+        }
+    }
 }
 
 fn everyone() -> RobotId {

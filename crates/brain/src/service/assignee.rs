@@ -61,9 +61,10 @@ impl Assignee {
         self.report(ability, moment);
     }
 
-    /// The messages of this step.
+    /// Adds the messages of this step to those of the robot, the most urgent ones first.
     pub(crate) fn publish(&mut self, outbox: &mut Vec<Message>) {
         outbox.append(&mut self.outbox);
+        outbox.sort_by_key(Message::urgency);
     }
 
     /// The goal to serve now, and whether the robot is there.

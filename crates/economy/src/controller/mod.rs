@@ -7,7 +7,8 @@
 //!   [`displacement`]: valuable goals before others;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
-//!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`].
+//!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
+//!   [`colleagues`]: the other controllers, by their [`presence`].
 
 mod arbitration;
 mod auction;
@@ -17,6 +18,7 @@ mod displacement;
 mod estates;
 mod heirs;
 mod lapses;
+mod orphans;
 mod owned;
 mod picture;
 mod presence;
@@ -181,6 +183,7 @@ impl Controller {
         self.call_full_robots();
         self.probe();
         self.settle_heirs(percept);
+        self.outbox.sort_by_key(Message::urgency);
         command.outbox.append(&mut self.outbox);
     }
 
@@ -280,7 +283,9 @@ impl Controller {
         for grant in self.services.expire(self.now_s) {
             self.lost_assignee(grant.goal, grant.holder);
         }
+        let known = self.orphans.len();
         self.expire_tenures();
+        self.report_orphans(known);
         self.inherit();
         self.bids.expire(self.now_s);
         self.picture.expire(self.now_s);

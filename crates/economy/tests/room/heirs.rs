@@ -4,7 +4,7 @@ use crate::hand::{
     HEIR, Hand, OTHER, OWNER, ROBOT, TASK, awarder, bid_of, claim, controller, sent_any,
 };
 use crate::team::{goal_id, station_id};
-use brain::{Assignment, Award, Dispatch, RobotId};
+use brain::{Assignment, Award, Dispatch, Reason, RobotId, Task};
 use economy::{Controller, Settings};
 use std::sync::Arc;
 
@@ -267,4 +267,42 @@ fn a_goal_that_was_issued_again_and_inherited_has_one_owner_when_they_meet() {
     }
     let owners = [&owner, &heir].map(|it| it.agent.goals().count());
     assert_eq!(owners, [1, 0]);
+}
+
+#[test]
+fn a_renewal_of_a_lease_is_sent_before_the_offers_of_the_step() {
+    let mut owner = bound();
+    let steps = (1..200).map(|number| {
+        let task = Task {
+            id: goal_id(number),
+            ..TASK
+        };
+        owner.take(RobotId::OPERATOR, Dispatch::Issue(task))
+    });
+    let place = |sent: &[(RobotId, Dispatch)], is_meant: fn(&Dispatch) -> bool| {
+        sent.iter().position(|(_, dispatch)| is_meant(dispatch))
+    };
+    let places = steps.filter_map(|sent| {
+        let renewal = place(&sent, |sent| matches!(sent, Dispatch::Renew(_)))?;
+        Some((
+            renewal,
+            place(&sent, |sent| matches!(sent, Dispatch::Call { .. }))?,
+        ))
+    });
+    let places: Vec<(usize, usize)> = places.collect();
+    assert!(!places.is_empty());
+    for (renewal, call) in places {
+        assert!(renewal < call, "{renewal} {call}");
+    }
+}
+
+#[test]
+fn a_goal_that_is_lost_is_reported_to_the_operator() {
+    let sent = bound().wait(31.0);
+    let reports = sent.iter().filter_map(|(to, sent)| match sent {
+        Dispatch::Stuck(refusal) if refusal.reason == Reason::Orphaned => Some((*to, refusal.goal)),
+        _ => None,
+    });
+    let reports: Vec<_> = reports.collect();
+    assert_eq!(reports, [(RobotId::OPERATOR, goal_id(0))]);
 }

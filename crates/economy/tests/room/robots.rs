@@ -221,3 +221,30 @@ fn a_searched_area_is_driven_lane_by_lane() {
         assert!(nearest_m.fold(f64::INFINITY, f64::min) < 1.3, "{place:?}");
     }
 }
+
+#[test]
+fn a_robot_sends_the_renewal_of_its_lease_before_a_bid() {
+    let (mut robot, _) = assignee();
+    let calls = (1..100).map(|number| Dispatch::Call {
+        number: 4,
+        task: Task {
+            id: goal_id(number),
+            at_m: [500.0, 0.0],
+            ..TASK
+        },
+    });
+    let both = calls.filter_map(|call| {
+        let sent = robot.take(OWNER, call);
+        let place = |is_meant: fn(&Dispatch) -> bool| {
+            let mut sent = sent.iter();
+            sent.position(|(_, dispatch)| is_meant(dispatch))
+        };
+        let renewal = place(|sent| matches!(sent, Dispatch::Renew(_)))?;
+        Some((renewal, place(|sent| matches!(sent, Dispatch::Bid(_)))?))
+    });
+    let both: Vec<(usize, usize)> = both.collect();
+    assert!(!both.is_empty());
+    for (renewal, bid) in both {
+        assert!(renewal < bid, "{renewal} {bid}");
+    }
+}

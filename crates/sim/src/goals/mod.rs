@@ -47,7 +47,8 @@ pub struct GoalSpec {
     #[schemars(range(min = 0.0, max = 1e7))]
     pub every_s: f64,
     /// The kind of controllers that own them: the first goal is issued to its first controller, and so on, starting
-    /// again after the last. May be omitted if there is only one kind.
+    /// again after the last. If it does not work, the next one that works gets the goal, of another kind if none of its
+    /// own works. May be omitted if there is only one kind.
     pub owner: Option<String>,
 }
 

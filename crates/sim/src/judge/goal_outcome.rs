@@ -25,7 +25,7 @@ pub struct GoalOutcome {
     pub service_s: f64,
     /// Messages that robots and controllers sent.
     pub messages_sent: u64,
-    /// Messages that a receiver dropped because it had received its maximum in the step.
+    /// Messages beyond the maximum of a step: not sent by the radio of the sender, or dropped by that of a receiver.
     pub messages_dropped: u64,
     /// Goals that controllers refused because they owned their maximum number.
     pub goals_refused: u32,

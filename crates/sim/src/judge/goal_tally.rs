@@ -18,7 +18,7 @@ pub(crate) struct GoalTally {
     pub(crate) journeys: Vec<Journey>,
     stays: Stays,
     pub(crate) messages_sent: u64,
-    /// Messages that reached a participant whose radio had received its maximum in the step.
+    /// Messages beyond the maximum of a step: of the radio of the sender, which did not send them, or of a receiver.
     pub(crate) messages_dropped: u64,
 }
 

@@ -34,7 +34,29 @@ impl State {
                 errors.extend(self.of_timetable((number, was), now));
             }
         }
+        let kinds = from.goals.iter().enumerate();
+        errors.extend(kinds.filter_map(|kind| self.of_count(kind, to)));
         errors
+    }
+
+    /// A number of goals below that of the goals that were issued: robots would continue to serve those removed.
+    fn of_count(&self, (number, was): (usize, &GoalKind), to: &Scenario) -> Option<InputError> {
+        let mut kinds = to.goals.iter();
+        let now = kinds.find(|now| now.name == was.name);
+        let now = now.map_or(0, |now| now.count);
+        let tally = self.tally.goals.iter();
+        let records = tally.flat_map(|goals| &goals.records);
+        let goals = self.goals.all.iter().zip(records);
+        let issued = goals.filter(|(goal, record)| {
+            usize::from(goal.kind) == number && record.issued_to.is_some()
+        });
+        let issued = issued.map(|(goal, _)| goal.index + 1).max()?;
+        (now < issued).then(|| {
+            let allowed =
+                format!("at least {issued}: controllers know the goals that were issued to them");
+            let path = format!("goals.{}.count", was.name);
+            InputError::new(path, Some(now.to_string()), allowed)
+        })
     }
 
     /// Whether a goal of a kind was issued to a controller.

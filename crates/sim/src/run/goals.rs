@@ -4,7 +4,7 @@ use super::state::State;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
 use crate::scenario::Scenario;
-use brain::{About, Dispatch, Message, ReceivedMessage, RobotId};
+use brain::{About, Dispatch, Message, Reason, ReceivedMessage, RobotId};
 use std::collections::BTreeMap;
 
 impl State {
@@ -16,29 +16,44 @@ impl State {
     }
 
     fn issue(&mut self, scenario: &Scenario, number: usize) {
+        let goal = &self.goals.all[number];
+        let has_owners = scenario.first_owner(goal).is_some();
+        let owner = self.owner_of(scenario, goal);
         let Some(tally) = &mut self.tally.goals else {
             return;
         };
-        let (goal, record) = (&self.goals.all[number], &mut tally.records[number]);
+        let record = &mut tally.records[number];
         record.issued_at.get_or_insert(self.tick);
-        let kind = &scenario.goals[usize::from(goal.kind)];
-        let Some(owner) = scenario.owner_of(goal) else {
+        let Some(owner) = owner else {
+            record.unserved = has_owners.then_some(Reason::NoController);
             return;
         };
-        let place = self
-            .controllers
-            .binary_search_by_key(&owner, |agent| agent.participant.id);
-        if let Ok(place) = place {
-            let task = kind.task(goal.id, goal.at);
-            let order = ReceivedMessage {
-                from: RobotId::OPERATOR,
-                age_s: 0.0,
-                message: Message::to(owner, About::Dispatch(Dispatch::Issue(task))),
-            };
-            record.issued_to = Some(owner);
-            let participant = &mut self.controllers[place].participant;
-            participant.receive_order(order, self.tick);
-        }
+        let participant = &mut self.controllers[owner].participant;
+        let task = scenario.goals[usize::from(goal.kind)].task(goal.id, goal.at);
+        let order = ReceivedMessage {
+            from: RobotId::OPERATOR,
+            age_s: 0.0,
+            message: Message::to(participant.id, About::Dispatch(Dispatch::Issue(task))),
+        };
+        (record.issued_to, record.unserved) = (Some(participant.id), None);
+        participant.receive_order(order, self.tick);
+    }
+
+    /// The number of the controller that a goal is issued to. If the first one does not work, it is the next one of
+    /// its kind that does, and then one of another kind; `None` if none works.
+    fn owner_of(&self, scenario: &Scenario, goal: &Goal) -> Option<usize> {
+        let (first, count) = scenario.first_owner(goal)?;
+        let participants = self.controllers.iter().map(|agent| &agent.participant);
+        let start = participants.take_while(|each| each.id.kind < first.kind);
+        let (start, all) = (start.count(), self.controllers.len());
+        let [index, count] = [first.index as usize, count as usize];
+        let own_kind = (0..count).map(|step| start + (index + step) % count);
+        let others = (count..all).map(|step| (start + step) % all);
+        let is_working = |owner: &usize| {
+            let participant = &self.controllers[*owner].participant;
+            participant.is_working(&self.body_states)
+        };
+        own_kind.chain(others).find(is_working)
     }
 
     /// Takes over the goals that stay, and the journeys of robots from their `old` numbers.
@@ -58,7 +73,7 @@ impl State {
         }
         let waits = |(number, goal): &(usize, &Goal)| {
             let record = &tally.records[*number];
-            let is_lost = record.issued_to.is_none() && to.owner_of(goal).is_some();
+            let is_lost = record.issued_to.is_none() && self.owner_of(to, goal).is_some();
             record.issued_at.is_none() || record.served.is_none() && is_lost
         };
         let waiting = self.goals.all.iter().enumerate().filter(waits);
@@ -96,14 +111,14 @@ impl State {
 }
 
 impl Scenario {
-    /// The controller that a goal is issued to; `None` if there are none of the kind that owns it.
-    fn owner_of(&self, goal: &Goal) -> Option<RobotId> {
+    /// The controller that is first in turn to own a goal, and the number of controllers of its kind; `None` if there
+    /// are none of the kind that owns it.
+    fn first_owner(&self, goal: &Goal) -> Option<(RobotId, u32)> {
         let owner = usize::from(self.goals[usize::from(goal.kind)].owner?);
         let count = self.controllers[owner].count;
-        (count > 0).then(|| RobotId {
-            kind: self.controller_number(owner),
-            index: goal.index % count,
-        })
+        let index = goal.index.checked_rem(count)?;
+        let kind = self.controller_number(owner);
+        Some((RobotId { kind, index }, count))
     }
 }
 

@@ -28,6 +28,10 @@ pub(crate) fn send(
     neighbours: &Neighbours,
     workers: &[WorkerScratch],
 ) {
+    if let Some(goals) = &mut state.tally.goals {
+        let unsent = workers.iter().map(|worker| worker.unsent);
+        goals.messages_dropped += unsent.sum::<u64>();
+    }
     if workers.iter().all(|worker| worker.outbox.is_empty()) {
         return;
     }

@@ -7,6 +7,7 @@ use super::sense::{SensingScratch, sense, sense_between_steps};
 use super::view::View;
 use crate::bodies::body_state::Status;
 use crate::bodies::kind::Kind;
+use crate::radio::Radio;
 use crate::radio::channel::Outgoing;
 use crate::run::agent::Agent;
 use crate::sensors::sensor_frame::NoisePurpose;
@@ -35,6 +36,8 @@ pub(crate) struct WorkerScratch {
     pub(crate) sensing: SensingScratch,
     /// Messages that robots send, in their order.
     pub(crate) outbox: Vec<Outgoing>,
+    /// Number of messages beyond the maximum of their radios, which are not sent.
+    pub(crate) unsent: u64,
     /// Commands of brains for external bodies, by the number of the robot.
     pub(crate) external_commands: Vec<(usize, Command)>,
     /// The hash of each decision, in the order of the robots, if decisions are hashed.
@@ -45,6 +48,7 @@ impl WorkerScratch {
     pub(crate) fn clear(&mut self) {
         self.sensing.detections.clear();
         self.outbox.clear();
+        self.unsent = 0;
         self.external_commands.clear();
         self.decisions.clear();
     }
@@ -209,20 +213,33 @@ impl WorkerScratch {
         for request in &self.command.requests {
             agent.switch(*request);
         }
-        let participant = agent.inputs.participant.as_ref();
-        let most = participant.map_or(0, |each| each.radio.messages_per_step);
-        let messages = self.command.outbox.iter().take(most);
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "robots have 32-bit numbers"
-        )]
-        let outgoing = messages.zip(0..).map(|(message, number)| Outgoing {
-            from: robot as u32,
-            number,
-            message: *message,
-        });
-        self.outbox.extend(outgoing);
+        if let Some(participant) = &agent.inputs.participant {
+            let radio = &participant.radio;
+            self.unsent += send(robot, radio, &self.command, &mut self.outbox);
+        }
     }
+}
+
+/// Adds the messages of a participant to those that are sent, up to the maximum of its radio; returns the number of the
+/// others.
+pub(super) fn send(
+    number: usize,
+    radio: &Radio,
+    command: &Command,
+    outbox: &mut Vec<Outgoing>,
+) -> u64 {
+    let messages = command.outbox.iter().take(radio.messages_per_step);
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "participants have 32-bit numbers"
+    )]
+    outbox.extend(messages.zip(0..).map(|(message, place)| Outgoing {
+        from: number as u32,
+        number: place,
+        message: *message,
+    }));
+    let unsent = command.outbox.len().saturating_sub(radio.messages_per_step);
+    unsent as u64
 }
 
 #[expect(

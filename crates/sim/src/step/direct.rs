@@ -1,11 +1,10 @@
 //! Controllers step: each from what it has received, whatever robots decide in the same step.
 
-use super::decide::WorkerScratch;
+use super::decide::{WorkerScratch, send};
 use super::decision_hash::decision_hash;
 use super::external::ExternalInputs;
 use super::surroundings::Surroundings;
 use crate::bodies::body_state::BodyState;
-use crate::radio::channel::Outgoing;
 use crate::run::controller::ControllerAgent;
 use crate::run::participant::Place;
 use crate::run::state::State;
@@ -57,7 +56,8 @@ impl ControllerScratch {
                 let hash = decision_hash(number, Some(&self.percept), &self.command);
                 results.decisions.push(hash);
             }
-            self.send(number, agent, &mut results.outbox);
+            let radio = &agent.participant.radio;
+            results.unsent += send(number, radio, &self.command, &mut results.outbox);
         }
     }
 
@@ -106,19 +106,5 @@ impl ControllerScratch {
             .detect(moment, participant, sensors, &mut percept.neighbours);
         percept.inbox.clear();
         participant.deliver(tick, scenario.step_s, &mut percept.inbox);
-    }
-
-    fn send(&self, number: usize, agent: &ControllerAgent, outbox: &mut Vec<Outgoing>) {
-        let most = agent.participant.radio.messages_per_step;
-        let messages = self.command.outbox.iter().take(most);
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "participants have 32-bit numbers"
-        )]
-        outbox.extend(messages.zip(0..).map(|(message, place)| Outgoing {
-            from: number as u32,
-            number: place,
-            message: *message,
-        }));
     }
 }

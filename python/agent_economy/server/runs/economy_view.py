@@ -52,7 +52,7 @@ def goal_view(goal: Row, owned: Row) -> GoalView:
         "heir": owned.get("heir"),
         "robot": (goal["served_by"] or None) if status == "served" else assignee,
         "lease_s": owned.get("lease_s"),
-        "unserved": owned.get("unserved"),
+        "unserved": owned.get("unserved") if owned else goal["unserved"],
     }
 
 

@@ -302,7 +302,7 @@ export interface Provenance {
 }
 
 /** Why a goal is not served. */
-export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot";
+export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "orphaned" | "no_controller";
 
 /** A received message. */
 export interface ReceivedMessage {

@@ -119,7 +119,7 @@ const EFFECTIVE: [(&str, &str, &str); 18] = [
 ];
 
 /// Keys with a value that is refused, because agents would not notice it.
-const REFUSED: [(&str, &str, &str); 11] = [
+const REFUSED: [(&str, &str, &str); 13] = [
     (
         "controllers.base",
         "start",
@@ -139,6 +139,8 @@ const REFUSED: [(&str, &str, &str); 11] = [
     ("goals.spot", "owner", "\"mast\""),
     ("goals.here", "arrive_s", "5"),
     ("goals.here", "every_s", "5"),
+    ("goals.here", "count", "1"),
+    ("goals.spot", "count", "2"),
 ];
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::common::{go, id, replaced, send, start, step_with};
 use base::geometry::Point;
-use brain::{About, Command, CommitmentStatus, GoalId, Message, RobotId, issuer_of};
+use brain::{About, Command, CommitmentStatus, GoalId, Message, Reason, RobotId, issuer_of};
 use sim::judge::GoalOutcome;
 use sim::judge::events::EventKind;
 use sim::run::Goal;
@@ -87,6 +87,57 @@ fn goals_are_issued_to_the_controllers_in_turn() {
     let owned: Vec<_> = owned.collect();
     assert_eq!(owned, [vec![goal_id(0), goal_id(2)], vec![goal_id(1)]]);
     assert_eq!(controllers[0].id, id(1, 0));
+}
+
+/// The controllers of a run in which some have failed from the start.
+fn with_failed(failed: &str) -> Simulation {
+    let key = format!("count = 2\nfailed = {failed}\nstart = {{ kind = \"fixed\", at_m = [[5");
+    let old = "count = 2\nstart = { kind = \"fixed\", at_m = [[5";
+    let mut simulation = start(&replaced(TWO, &[(old, &key)]));
+    simulation.step();
+    simulation
+}
+
+#[test]
+fn a_goal_is_issued_to_a_controller_that_works() {
+    let simulation = with_failed("[0]");
+    let controllers = simulation.state().each_controller();
+    let owned: Vec<usize> = controllers.map(|each| each.goals.len()).collect();
+    assert_eq!(owned, [0, 3]);
+    assert!(
+        goals(&simulation)
+            .iter()
+            .all(|goal| goal.unserved.is_none())
+    );
+}
+
+#[test]
+fn a_goal_without_a_working_controller_is_reported_as_such() {
+    let simulation = with_failed("[0, 1]");
+    for goal in goals(&simulation) {
+        assert_eq!(goal.unserved, Some(Reason::NoController));
+        assert!(goal.issued_s.is_some());
+    }
+}
+
+#[test]
+fn a_goal_goes_to_another_kind_if_no_controller_of_its_own_works() {
+    let other = "owner = \"base\"\n[controllers.mast]\ncount = 1\nradio = { range_m = 50 }";
+    let text = replaced(
+        TWO,
+        &[
+            ("within_m = 0.5", &format!("within_m = 0.5\n{other}")),
+            (
+                "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
+                "count = 2\nfailed = [0, 1]\nstart = { kind = \"fixed\", at_m = [[5",
+            ),
+        ],
+    );
+    let mut simulation = start(&text);
+    simulation.step();
+    let controllers = simulation.state().each_controller();
+    let owned: Vec<usize> = controllers.map(|each| each.goals.len()).collect();
+    assert_eq!(owned, [0, 0, 3]);
 }
 
 #[test]
@@ -244,4 +295,23 @@ fn messages_that_a_receiver_has_no_room_for_are_counted() {
     let outcome = outcome(&simulation);
     // The other rover receives all, and the slow robot one.
     assert_eq!((outcome.messages_sent, outcome.messages_dropped), (3, 2));
+}
+
+#[test]
+fn messages_that_a_radio_does_not_send_are_counted_as_dropped() {
+    let narrow = TWO.replace(
+        "radio = { range_m = 50 }\nbrain",
+        "radio = { range_m = 50, messages_per_step = 1 }\nbrain",
+    );
+    let without = replaced(
+        &narrow,
+        &[(
+            "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
+            "count = 0\nstart = { kind = \"fixed\", at_m = [[5",
+        )],
+    );
+    let mut simulation = start(&without);
+    drive(&mut simulation, 0.0, &[active(0), active(1), active(2)]);
+    let outcome = outcome(&simulation);
+    assert_eq!((outcome.messages_sent, outcome.messages_dropped), (1, 2));
 }
