@@ -260,3 +260,8 @@ def test_a_longer_owner_lease_makes_recovery_slower() -> None:
     assert "within 67.6 s" in facts["recovery base"]
     longer = ae.Scenario.load("waypoints").replace("controllers.base.owner_lease_s", 100)
     assert "within 137.6 s" in dict(longer.facts)["recovery base"]
+
+
+def test_without_controllers_there_is_no_time_of_recovery() -> None:
+    without = ae.Scenario.load("waypoints").replace("controllers.base.count", 0)
+    assert not [name for name, _ in without.facts if name.startswith("recovery")]

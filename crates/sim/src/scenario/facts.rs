@@ -53,7 +53,8 @@ impl Scenario {
     /// How soon goals of a failed controller are offered again, by its heir, for each kind of controllers.
     fn recoveries(&self) -> impl Iterator<Item = (String, String)> {
         let goals = self.goals.iter().map(|kind| kind.count).sum();
-        self.controllers.iter().map(move |kind| {
+        let kinds = self.controllers.iter().filter(|kind| kind.count > 0);
+        kinds.map(move |kind| {
             let delay_s = seconds(kind.radio.delay_steps, self.step_s);
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
             let text = format!(
