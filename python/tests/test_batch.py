@@ -279,6 +279,22 @@ ERRORS: list[tuple[Any, str]] = [
         {"motion": STAND, "requests": {"row": [2, 0], "sensor": [70000, 0], "on": True}},
         r"requests.sensor\[0\] = 70000: must be",
     ),
+    (
+        {"motion": STAND, "requests": {"sensor": [0], "on": True}},
+        "requests.row = None: must be given",
+    ),
+    (
+        {"motion": STAND, "outbox": {"confidence": 1.0, "about": {"item": ITEM}}},
+        "outbox.row = None: must be given",
+    ),
+    (
+        {"motion": STAND | {"speed_m_s": np.full(4, 1j)}},
+        r"motion.speed_m_s = array\(.*must be one value",
+    ),
+    (
+        {"motion": STAND | {"speed_m_s": [0, None, 0, 0]}},
+        r"motion.speed_m_s\[1\] = None: must be a finite number",
+    ),
     (sent(about={"sender": {"at": [1, 2]}}), "about.sender.heading_rad = None: must be given"),
     (sent(about={"goal": {"at": [1, 2], "status": 1}}), "about.goal.id = None: must be given"),
     (

@@ -126,6 +126,17 @@ def test_all_errors_of_settings_are_reported_with_what_is_allowed() -> None:
     assert "settings.max_goals = 1.5: must be" in words
 
 
+def test_a_lease_shorter_than_the_auction_is_an_error_also_if_it_is_the_default() -> None:
+    for settings, lease in (
+        ({"auction_s": 30.0}, r"20 \(default\)"),
+        ({"auction_s": 5.0, "service_lease_s": 4.0}, "4"),
+    ):
+        expected = f"service_lease_s = {lease}: must be at least .* must outlast an auction of"
+        with pytest.raises(ae.InputError, match=expected):
+            ae.Controller(settings)  # type: ignore[arg-type]
+    assert ae.Controller({"auction_s": 5.0, "service_lease_s": 6.0}).goals == []
+
+
 def test_an_unknown_kind_of_controllers_is_an_error() -> None:
     with pytest.raises(ae.InputError, match='kind = "bas".*did you mean "base"'):
         ae.Controller.of("waypoints", "bas")

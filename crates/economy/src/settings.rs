@@ -50,6 +50,14 @@ impl Settings {
         id != own && is_kind && !self.is_robot(id, own)
     }
 
+    /// The shortest service lease that outlasts an auction and a round trip over the radio of this time in seconds:
+    /// a robot holds it from its bid. The clock of the robot may be fast, and that of the auction slow.
+    #[must_use]
+    pub fn min_service_lease_s(&self, trip_s: f64) -> f64 {
+        let auction_s = self.auction_s / (1.0 - self.max_drift);
+        (1.0 + self.max_drift) * (auction_s + trip_s)
+    }
+
     /// The shortest lease that an heir can grant: a shorter one could end before it is renewed, and
     /// leave the goal without an owner.
     pub(crate) fn min_owner_lease_s(&self) -> f64 {

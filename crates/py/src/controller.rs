@@ -39,10 +39,10 @@ impl Controller {
     #[new]
     fn new(settings: &Bound<PyAny>) -> PyResult<Self> {
         let mut errors = Vec::new();
-        let settings = read::<Settings>("settings", settings, &mut errors)?;
-        let settings =
-            InputErrors::or(errors, settings).map_err(|errors| input_error(&errors, ""))?;
-        Ok(Self::at_start(Arc::new(settings)))
+        let read = read::<Settings>("settings", settings, &mut errors)?;
+        errors.extend(read.as_ref().and_then(|read| short_lease(read, settings)));
+        let read = InputErrors::or(errors, read).map_err(|errors| input_error(&errors, ""))?;
+        Ok(Self::at_start(Arc::new(read)))
     }
 
     /// A controller of a kind in a scenario.
@@ -116,6 +116,21 @@ impl Controller {
     fn with<T>(&self, act: impl FnOnce(&mut economy::Controller) -> T) -> T {
         act(&mut self.agent.lock().unwrap_or_else(PoisonError::into_inner))
     }
+}
+
+/// The error of a service lease that ends before its auction; `given` are the settings as they were given.
+fn short_lease(settings: &Settings, given: &Bound<PyAny>) -> Option<InputError> {
+    let (lease_s, min_s) = (settings.service_lease_s, settings.min_service_lease_s(0.0));
+    let is_given = given.contains("service_lease_s").unwrap_or(false);
+    let default = if is_given { "" } else { " (default)" };
+    let allowed = format!(
+        "at least {min_s:.3}: it must outlast an auction of {} s",
+        settings.auction_s
+    );
+    (lease_s < min_s).then(|| {
+        let value = Some(format!("{lease_s}{default}"));
+        InputError::new("settings.service_lease_s".to_owned(), value, allowed)
+    })
 }
 
 fn as_owned(goal: OwnedGoal) -> Owned {

@@ -181,6 +181,10 @@ impl Place<'_> {
         let dict = self.dict(item.fields(), given, &["row"])?;
         let rows = self.rows(&dict)?;
         let Some(rows) = rows else {
+            if !dict.is_empty() {
+                let allowed = "given: the row of each item".to_owned();
+                return Err(refusal(self.below("row"), Some("None".to_owned()), allowed));
+            }
             return Ok(Given::List(Items {
                 starts: vec![0; self.count + 1],
                 order: Vec::new(),
@@ -217,7 +221,7 @@ impl Place<'_> {
         let rows = place.array(&given, None)?;
         let max = self.count.saturating_sub(1);
         let allowed = format!("a whole number from 0 to {max}");
-        place.all(&rows, |row| is_below(row, self.count), &allowed)?;
+        place.all(&given, &rows, |row| is_below(row, self.count), &allowed)?;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -323,6 +327,7 @@ impl Place<'_> {
         match shape {
             Shape::Number if self.is_optional => {
                 self.all(
+                    given,
                     &numbers,
                     |it| !it.is_infinite(),
                     "a finite number, or NaN for none",
@@ -332,10 +337,10 @@ impl Place<'_> {
             | Shape::Vector {
                 is_whole: false, ..
             } => {
-                self.all(&numbers, f64::is_finite, "a finite number")?;
+                self.all(given, &numbers, f64::is_finite, "a finite number")?;
             }
             Shape::Flag => {
-                self.all(&numbers, |it| is_below(it, 2), "True or False")?;
+                self.all(given, &numbers, |it| is_below(it, 2), "True or False")?;
             }
             Shape::Code(names) => {
                 let is_known = |it: f64| is_below(it, names.len());
@@ -343,15 +348,16 @@ impl Place<'_> {
                 let codes: Vec<String> = codes
                     .map(|(code, name)| format!("{code} ({name})"))
                     .collect();
-                self.all(&numbers, is_known, &codes.join(", "))?;
+                self.all(given, &numbers, is_known, &codes.join(", "))?;
             }
-            _ => self.all(&numbers, |it| it.fract() == 0.0, "a whole number")?,
+            _ => self.all(given, &numbers, |it| it.fract() == 0.0, "a whole number")?,
         }
         Ok(Given::Numbers(shape, numbers))
     }
 
     fn all(
         &self,
+        given: &Bound<PyAny>,
         numbers: &[f64],
         is_allowed: impl Fn(f64) -> bool,
         allowed: &str,
@@ -361,7 +367,7 @@ impl Place<'_> {
             let path = format!("{}[{index}]", self.path);
             Err(refusal(
                 path,
-                Some(numbers[index].to_string()),
+                Some(shown(given, index, numbers[index])),
                 allowed.to_owned(),
             ))
         })
@@ -371,7 +377,11 @@ impl Place<'_> {
     fn array(&self, given: &Bound<PyAny>, shape: Option<&[usize]>) -> PyResult<Vec<f64>> {
         let convert = || -> PyResult<Vec<f64>> {
             let numpy = given.py().import(intern!(given.py(), "numpy"))?;
-            let array = numpy.call_method1(intern!(given.py(), "asarray"), (given, "float64"))?;
+            let array = numpy.call_method1(intern!(given.py(), "asarray"), (given,))?;
+            if array.getattr("dtype")?.getattr("kind")?.eq("c")? {
+                return Err(PyTypeError::new_err("complex numbers"));
+            }
+            let array = numpy.call_method1(intern!(given.py(), "asarray"), (array, "float64"))?;
             let array = match shape {
                 Some(shape) => numpy.call_method1("broadcast_to", (array, shape))?,
                 None => numpy.call_method1("atleast_1d", (array,))?,
@@ -398,6 +408,22 @@ impl Place<'_> {
                 &format!("one value for all, or an array of shape {shape}"),
             )
         })
+    }
+}
+
+/// A number as it was given: `None` in place of a number is read as NaN.
+fn shown(given: &Bound<PyAny>, index: usize, number: f64) -> String {
+    let is_none = || -> PyResult<bool> {
+        let numpy = given.py().import("numpy")?;
+        let items = numpy.call_method1("asarray", (given, "object"))?;
+        let items = items.call_method0("ravel")?;
+        let item = items.get_item(index % items.len()?.max(1))?;
+        Ok(item.is_none())
+    };
+    if number.is_nan() && is_none().unwrap_or(false) {
+        "None".to_owned()
+    } else {
+        number.to_string()
     }
 }
 

@@ -1,5 +1,6 @@
 //! Warnings about goals without controllers, which robots serve only on waypoints of their own.
 
+use super::economy::owner_of;
 use crate::bodies::RobotSpec;
 use crate::goals::GoalSpec;
 use crate::scenario::{Checked, ScenarioSpec};
@@ -27,7 +28,7 @@ pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
 
 /// Whether there are controllers that own such goals.
 fn has_owner(kind: &GoalSpec, spec: &ScenarioSpec) -> bool {
-    let owner = kind.owner.as_ref().or(spec.controllers.keys().next());
+    let owner = owner_of(kind, spec);
     let owner = owner.and_then(|owner| spec.controllers.get(owner));
     owner.is_some_and(|owner| owner.count > 0)
 }

@@ -5,7 +5,9 @@
 
 mod configurations;
 mod cropped_maps;
+mod economy;
 mod goals;
+mod narrow_radios;
 mod room;
 
 use crate::scenario::{Checked, ScenarioSpec};
@@ -18,7 +20,13 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 3] = [cropped_maps::warnings, room::warnings, goals::warnings];
+const EXAMINATIONS: [Examination; 5] = [
+    cropped_maps::warnings,
+    room::warnings,
+    goals::warnings,
+    economy::warnings,
+    narrow_radios::warnings,
+];
 
 /// Warnings about `configurations` of a document, each with values by path. Invalid configurations have
 /// none: their errors are reported when they are read.
@@ -42,5 +50,7 @@ pub(crate) fn warnings(
     warnings
 }
 
+#[cfg(test)]
+mod economy_tests;
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@ use crate::radio::RadioSpec;
 use crate::scenario::spec::ScenarioSpec;
 use crate::sensors::Measures;
 use base::document::Place;
-use base::error::InputError;
+use base::error::{InputError, Problem};
 
 /// Steps in which messages wait for their receivers, on the way to a controller and back.
 const STEPS: f64 = 4.0;
@@ -110,27 +110,54 @@ pub(super) fn unknown<'n>(
 /// Leases that end before they can be renewed. The clock of the holder may be fast, and that of an auction slow.
 fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let drift = spec.clock.max_drift;
-    let trips_s = round_trips_s(kind, spec);
-    let auction_s = kind.auction_s / (1.0 - drift);
+    let [robots_s, controllers_s] = round_trips_s(kind, spec);
+    let min_service_s = kind.settings(drift, 0).min_service_lease_s(robots_s);
     let auction = format!("an auction of {} s and ", kind.auction_s);
     let leases = [
         (
             "service_lease_s",
             kind.service_lease_s,
-            auction_s,
-            auction.as_str(),
+            min_service_s,
+            auction,
+            robots_s,
         ),
-        ("owner_lease_s", kind.owner_lease_s, 0.0, ""),
+        (
+            "owner_lease_s",
+            kind.owner_lease_s,
+            (1.0 + drift) * controllers_s,
+            String::new(),
+            controllers_s,
+        ),
     ];
-    let errors = leases.into_iter().zip(trips_s).filter_map(|((key, lease_s, auction_s, auction), trip_s)| {
-        let min_lease_s = (1.0 + drift) * (auction_s + trip_s);
+    let short = leases
+        .into_iter()
+        .filter(|(_, lease_s, min_s, ..)| lease_s < min_s);
+    let errors = short.map(|(key, lease_s, min_s, auction, trip_s)| {
+        let clocks = on_clocks(drift);
         let allowed = format!(
-            "at least {min_lease_s:.3}: it must outlast {auction}a round trip of {trip_s:.3} s over the \
-             radio, on clocks that drift by at most {drift}"
+            "at least {min_s:.3}: it must outlast {auction}a round trip of {trip_s:.3} s over the radio{clocks}"
         );
-        (lease_s < min_lease_s).then(|| at.key(key).error(allowed))
+        of_lease(lease_s, allowed, &at.key(key))
     });
     errors.collect()
+}
+
+/// Why a lease is longer than by exact clocks, in words; empty if clocks do not drift.
+fn on_clocks(max_drift: f64) -> String {
+    if max_drift > 0.0 {
+        format!(", on clocks that drift by at most {max_drift}")
+    } else {
+        String::new()
+    }
+}
+
+/// The error of a lease, which may be the default.
+fn of_lease(lease_s: f64, allowed: String, at: &Place) -> InputError {
+    let mut error = at.error(allowed);
+    if error.problem == Problem::Missing {
+        error.problem = Problem::NotAllowed(format!("{lease_s} (default)"));
+    }
+    error
 }
 
 /// A lease that ends before a goal is served: a robot begins no service that it may not end.
@@ -154,7 +181,8 @@ fn of_services(name: &str, spec: &ScenarioSpec, at: &Place) -> Option<InputError
          {trip_s:.3} s over the radio",
         goal.service_s
     );
-    (kind.service_lease_s < min_lease_s).then(|| at.key("service_lease_s").error(allowed))
+    (kind.service_lease_s < min_lease_s)
+        .then(|| of_lease(kind.service_lease_s, allowed, &at.key("service_lease_s")))
 }
 
 /// The longest time until a message of a robot is answered, and until one of another controller is.

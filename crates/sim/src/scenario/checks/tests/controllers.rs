@@ -105,6 +105,30 @@ fn a_lease_outlasts_an_auction_and_a_round_trip() {
 }
 
 #[test]
+fn the_error_of_a_default_lease_names_the_default() {
+    let auction = error_of(&format!("{RADIO}auction_s = 30"));
+    let start = "controllers.base.service_lease_s = 20 (default): must be at least 3";
+    assert!(auction.starts_with(start), "{auction}");
+}
+
+#[test]
+fn exact_clocks_are_no_reason_for_a_longer_lease() {
+    let owner = "[controllers.base]\ncount = 1\nradio = { range_m = 9 }\nowner_lease_s = 0.1\n[terrain.mud]";
+    for (max_drift, is_reason) in [("0", false), ("0.01", true)] {
+        let clock = format!("[clock]\nmax_drift = {max_drift}\n");
+        let text = GOOD
+            .replace("[clock]\n", &clock)
+            .replace("[terrain.mud]", owner);
+        let errors = errors_in(&text).concat();
+        assert!(
+            errors.contains("owner_lease_s = 0.1: must be at least"),
+            "{errors}"
+        );
+        assert_eq!(errors.contains("drift"), is_reason, "{errors}");
+    }
+}
+
+#[test]
 fn a_lease_outlasts_the_service_of_the_goals() {
     let of_lease = |lease_s: u32| {
         let errors = errors_of(&format!(

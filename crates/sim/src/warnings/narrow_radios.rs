@@ -1,0 +1,42 @@
+//! Warnings about radios that send too few messages per step for the leases of controllers.
+
+use super::economy::owner_of;
+use crate::controllers::ControllerSpec;
+use crate::scenario::{Checked, ScenarioSpec};
+use base::document::Place;
+use base::warning::Warning;
+
+/// Time after which a renewal without an answer is repeated, in seconds.
+const RETRY_S: f64 = 0.5;
+
+pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
+    let spec = &checked.spec;
+    let controllers: u32 = spec.controllers.values().map(|kind| kind.count).sum();
+    // A single controller has no heir, and renews no leases.
+    let kinds = spec.controllers.iter().filter(|_| controllers > 1);
+    let found = kinds.filter_map(|(name, kind)| {
+        let at = at.key("controllers").key(name);
+        of_controllers((name, kind), spec, &at)
+    });
+    found.collect()
+}
+
+/// A kind whose controllers cannot renew the lease of each goal within the time that it lasts.
+fn of_controllers(
+    (name, kind): (&String, &ControllerSpec),
+    spec: &ScenarioSpec,
+    at: &Place,
+) -> Option<Warning> {
+    let goals = spec.goals.values();
+    let owned = goals.filter(|goal| owner_of(goal, spec) == Some(name));
+    let owned: u32 = owned.map(|goal| goal.count).sum();
+    let each = owned.div_ceil(kind.count.max(1)).min(kind.max_goals);
+    let needed = (f64::from(each) * RETRY_S / kind.owner_lease_s).ceil();
+    (kind.count > 0 && needed > kind.radio.messages_per_step.into()).then(|| {
+        let effect = format!(
+            "fewer than the {needed} that {each} goals of a controller need: owner leases may end before they are \
+             renewed, and their goals are orphaned"
+        );
+        at.key("radio").key("messages_per_step").warning(effect)
+    })
+}
