@@ -37,7 +37,7 @@ impl Ability {
     /// Time that the work at a goal takes.
     pub(crate) fn work_s(&self, task: &Task) -> f64 {
         let search_m = match task.work {
-            Work::Visit => 0.0,
+            Work::Visit | Work::Interrogate | Work::Neutralise => 0.0,
             Work::Search => self.lanes.length_m(task),
         };
         f64::from(task.service_s) + self.travel_s(search_m)
@@ -61,7 +61,7 @@ impl Ability {
     /// in the whole area.
     pub(crate) fn covers(&self, task: &Task, at: Point) -> bool {
         let (away_m, radius_m) = (at.to(task.at()).length(), f64::from(task.radius_m));
-        let is_seen = task.work == Work::Visit || away_m + radius_m <= self.all_round_m;
+        let is_seen = task.work != Work::Search || away_m + radius_m <= self.all_round_m;
         away_m <= radius_m && is_seen
     }
 
