@@ -410,6 +410,7 @@ mod tests {
         };
         let coverage = Coverage {
             first: 0,
+            marks: 0,
             missed: [0; 16],
         };
         let mark = Mark {

@@ -120,12 +120,19 @@ impl Lane {
 pub struct Coverage {
     /// The first of the cells.
     pub first: u32,
+    /// Number of marks of the robot so far. Looks without a mark are evidence of a clear place only
+    /// for a receiver that has all marks.
+    pub marks: u32,
     /// For each cell, the probability that all looks miss an item there that the sensors can detect,
     /// as its negative logarithm in steps of 1/16 nat; 255 stands for 255 or more.
     pub missed: [u8; CELLS_PER_MESSAGE],
 }
 
-base::hashed!(Coverage { first, missed });
+base::hashed!(Coverage {
+    first,
+    marks,
+    missed
+});
 
 impl Coverage {
     /// The nearest step for a negative logarithm in nats.
