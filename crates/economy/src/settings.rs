@@ -1,6 +1,8 @@
 //! What a person sets of a controller.
 
 use crate::allocation::Allocation;
+use crate::clearance::Clearance;
+use alloc::sync::Arc;
 use brain::RobotId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,6 +32,9 @@ pub struct Settings {
     /// the number of the controller's own kind: there is no other kind of controllers before it.
     #[serde(skip)]
     pub robot_kinds: u8,
+    /// The lane that all controllers of the kind are to clear; without it, they plan no goals.
+    #[serde(skip)]
+    pub clearance: Option<Arc<Clearance>>,
 }
 
 impl Settings {
@@ -62,6 +67,7 @@ impl Default for Settings {
             max_goals: 1000,
             max_drift: 1e-4,
             robot_kinds: 0,
+            clearance: None,
         }
     }
 }

@@ -448,10 +448,12 @@ mod tests {
             }),
             Dispatch::Statement(Statement {
                 mark: mark.id,
+                at_m: [0.0; 2],
                 verdict: MarkVerdict::Confirmed,
             }),
             Dispatch::Statement(Statement {
                 mark: mark.id,
+                at_m: [0.0; 2],
                 verdict: MarkVerdict::Rejected,
             }),
         ];

@@ -93,6 +93,13 @@ impl Lane {
         Rectangle::spanned(corner(right, up), corner(right + 1.0, up + 1.0))
     }
 
+    /// The centre of the part of a cell that is in the lane.
+    #[must_use]
+    pub fn centre(&self, cell: usize) -> Point {
+        let area = self.cell_area(cell);
+        area.min().plus(area.size().times(0.5))
+    }
+
     /// The cell that contains a position; `None` outside the lane.
     #[must_use]
     #[expect(
@@ -197,16 +204,22 @@ impl Mark {
 }
 
 /// What a robot states about a mark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Statement {
-    /// The mark, or the goal by which a controller awarded its interrogation.
+    /// The mark, or the goal that the robot served there.
     pub mark: GoalId,
+    /// Its position in the world, in metres: receivers may not know the goal.
+    pub at_m: [f32; 2],
     /// The statement.
     pub verdict: MarkVerdict,
 }
 
-base::hashed!(Statement { mark, verdict });
+base::hashed!(Statement {
+    mark,
+    at_m,
+    verdict
+});
 
 /// A verdict on a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -240,9 +253,7 @@ mod tests {
         let areas_m2 = (0..LANE.cells()).map(|cell| LANE.cell_area(cell).area_m2());
         assert!((areas_m2.sum::<f64>() - 50.0).abs() < 1e-9);
         for cell in 0..LANE.cells() {
-            let area = LANE.cell_area(cell);
-            let centre = area.min().plus(area.size().times(0.5));
-            assert_eq!(LANE.cell_at(centre), Some(cell));
+            assert_eq!(LANE.cell_at(LANE.centre(cell)), Some(cell));
         }
         assert_eq!(LANE.cell_at(Point { x: 9.0, y: 7.0 }), Some(14));
         assert_eq!(LANE.cell_at(Point { x: 9.1, y: 7.0 }), None);

@@ -2,7 +2,8 @@
 
 use super::place::Place;
 use alloc::vec::Vec;
-use brain::{GoalId, Mark, MarkVerdict, RobotId};
+use base::geometry::Point;
+use brain::{Mark, RobotId, Statement};
 
 /// Maximum number of places; marks of further ones are refused, and remain missing.
 const MAX_PLACES: usize = 10_000;
@@ -68,20 +69,20 @@ impl Marks {
         }
     }
 
-    /// Takes a statement about the mark with an id.
-    pub(super) fn state(&mut self, mark: GoalId, verdict: MarkVerdict) {
-        let mut places = self.places.iter_mut();
-        let place = places.find(|place| place.marks.iter().any(|known| known.id == mark));
-        if let Some(place) = place {
-            place.state(verdict);
-        }
-    }
-
-    /// Takes a statement about the place with a number.
-    pub(super) fn state_of_place(&mut self, number: u32, verdict: MarkVerdict) {
-        let mut places = self.places.iter_mut();
-        if let Some(place) = places.find(|place| place.number == number) {
-            place.state(verdict);
+    /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place.
+    pub(super) fn state(&mut self, statement: &Statement) {
+        let at = Point::from(statement.at_m.map(f64::from));
+        let is_named = |place: &Place| place.marks.iter().any(|mark| mark.id == statement.mark);
+        let named = self.places.iter().position(is_named);
+        let index = named.or_else(|| {
+            let places = self.places.iter().enumerate();
+            let away = places.map(|(index, place)| (place.at.to(at).length(), index, place));
+            let near = away.filter(|(away_m, _, place)| *away_m <= place.reach_m());
+            let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
+            nearest.map(|(_, index, _)| index)
+        });
+        if let Some(place) = index.and_then(|index| self.places.get_mut(index)) {
+            place.state(statement.verdict);
         }
     }
 
@@ -110,13 +111,5 @@ impl Marks {
             self.counts.len() - 1
         });
         &mut self.counts[index]
-    }
-}
-
-impl Place {
-    fn state(&mut self, verdict: MarkVerdict) {
-        if self.verdict != Some(MarkVerdict::Neutralised) {
-            self.verdict = Some(verdict);
-        }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! * [`settings`]: what it knows before: the lane, the prior, and the sensors of robots;
 //! * [`coverage`]: what robots have searched; [`marks`]: what they have detected, fused by [`place`];
-//! * [`picture`]: both together; [`risk`]: the probability that at least one mine is left.
+//! * [`picture`]: both together; [`risk`]: the probability that at least one mine is left;
+//! * [`plan`]: the goals that follow; [`declare`]: whether the lane is declared clear or given up.
 //!
 //! ```text
 //! prior      the number of items of each kind in a part of the lane is Poisson distributed
@@ -16,14 +17,18 @@
 //! items of a Poisson prior are independent. Models are blind to items independently of each other.
 
 mod coverage;
+mod declare;
 mod marks;
 mod picture;
 mod place;
+pub(crate) mod plan;
 mod risk;
 mod settings;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use declare::Decision;
+pub use declare::LaneStatement;
 pub use picture::{BelievedMark, LanePicture};
 pub use risk::Risk;
-pub use settings::{Clearance, ItemPrior, RobotModel};
+pub use settings::{Clearance, ItemPrior, RobotModel, Skill};

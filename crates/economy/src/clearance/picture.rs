@@ -87,12 +87,9 @@ impl LanePicture {
 
     /// Takes a statement of a robot about a mark.
     pub fn take_statement(&mut self, statement: &Statement) {
-        self.marks.state(statement.mark, statement.verdict);
-    }
-
-    /// Takes a statement about the place with a number.
-    pub fn take_statement_of_place(&mut self, number: u32, verdict: MarkVerdict) {
-        self.marks.state_of_place(number, verdict);
+        if statement.at_m.into_iter().all(f32::is_finite) {
+            self.marks.state(statement);
+        }
     }
 
     /// Number of marks that robots report and that have not been received.

@@ -9,6 +9,9 @@ use core::f64::consts::TAU;
 /// the same item in ninety would be two places, of which one is never neutralised; with 4, one in 3,000.
 const GATE: f64 = 4.0;
 
+/// Error of the position of a statement, in metres: that of a robot's pose, and its distance.
+const STATEMENT_M: f64 = 1.0;
+
 /// Maximum number of marks of a place.
 const MAX_MARKS: usize = 64;
 
@@ -62,6 +65,18 @@ impl Place {
         }
         place.fuse();
         Some(place)
+    }
+
+    /// Takes a statement; one that it has been neutralised is final.
+    pub(super) fn state(&mut self, verdict: MarkVerdict) {
+        if self.verdict != Some(MarkVerdict::Neutralised) {
+            self.verdict = Some(verdict);
+        }
+    }
+
+    /// Statements within this distance can be about it.
+    pub(super) fn reach_m(&self) -> f64 {
+        GATE * libm::sqrt(self.variance_m2) + STATEMENT_M
     }
 
     pub(super) fn holds(&self, mark: &Mark) -> bool {

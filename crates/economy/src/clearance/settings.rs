@@ -17,6 +17,25 @@ pub struct Clearance {
     pub declare_below: f64,
     /// Marks are interrogated while the probability of a mine there is above this.
     pub interrogate_above: f64,
+    /// Side of the tiles that are searched as one goal, in metres.
+    pub tile_m: f32,
+    /// The ways to search a tile, such as a survey from the air and a search on the ground.
+    pub searches: Vec<Skill>,
+    /// How marks are interrogated; without it, no robot can.
+    pub interrogate: Option<Skill>,
+    /// How marks are neutralised; without it, no robot can.
+    pub neutralise: Option<Skill>,
+}
+
+/// What robots need for goals of a kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Skill {
+    /// Number of the capability; 0 if all robots have it.
+    pub capability: u8,
+    /// Time that it takes at the place.
+    pub service_s: f32,
+    /// Range of the tool, in metres; unused by searches.
+    pub range_m: f32,
 }
 
 /// What is assumed of a kind of items.
@@ -35,6 +54,11 @@ pub struct RobotModel {
     pub model: u32,
     /// Share of the items of each kind that sensors of the model never detect; 0 if missing.
     pub blind_share: Vec<f64>,
+    /// Numbers of the capabilities.
+    pub capabilities: Vec<u8>,
+    /// Probability that one search of a place misses an item that the sensor can detect, as its
+    /// negative logarithm in nats.
+    pub search_nats: f64,
 }
 
 impl Clearance {
@@ -76,6 +100,10 @@ impl Clearance {
 }
 
 impl RobotModel {
+    pub(crate) fn has(&self, skill: &Skill) -> bool {
+        skill.capability == 0 || self.capabilities.contains(&skill.capability)
+    }
+
     pub(crate) fn blind_share_of(&self, kind: usize) -> f64 {
         self.blind_share.get(kind).copied().unwrap_or_default()
     }

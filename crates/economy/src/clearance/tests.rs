@@ -12,4 +12,5 @@
 mod calibration;
 mod closed_forms;
 mod marks;
+mod plan;
 mod simulated;

@@ -7,11 +7,13 @@
 //!   [`displacement`]: valuable goals before others;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
-//!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`].
+//!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`];
+//! * [`clearing`]: the goals of a mined lane.
 
 mod arbitration;
 mod auction;
 mod bids;
+mod clearing;
 mod colleagues;
 mod displacement;
 mod estates;
@@ -28,12 +30,14 @@ mod wards;
 
 pub(crate) use auction::{CALLS_PER_STEP, REPEAT_S};
 
+use crate::clearance::{LanePicture, LaneStatement};
 use crate::settings::Settings;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use bids::Bids;
 use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
 use brain::{Reason, RobotId, Task, wait_s};
+use clearing::Clearing;
 use colleagues::Colleagues;
 use owned::{Heir, Owned};
 use picture::Picture;
@@ -67,6 +71,7 @@ pub struct Controller {
     refused: u32,
     awards: u32,
     lapses: u32,
+    clearing: Clearing,
     outbox: Vec<Message>,
 }
 
@@ -89,7 +94,8 @@ base::hashed!(Controller {
     next_renewal_s,
     refused,
     awards,
-    lapses
+    lapses,
+    clearing
 } without { settings, outbox });
 
 /// A goal that a controller owns.
@@ -112,6 +118,7 @@ impl Controller {
     #[must_use]
     pub fn new(settings: Arc<Settings>) -> Self {
         Self {
+            clearing: Clearing::new(settings.clearance.as_ref()),
             settings,
             own: RobotId::default(),
             now_s: f64::NEG_INFINITY,
@@ -149,8 +156,15 @@ impl Controller {
     /// The controller with the settings of another one, and its own memory.
     #[must_use]
     pub fn with_settings_of(&self, other: &Self) -> Self {
+        let is_same_lane = self.settings.clearance == other.settings.clearance;
+        let clearing = if is_same_lane {
+            self.clearing.clone()
+        } else {
+            Clearing::new(other.settings.clearance.as_ref())
+        };
         Self {
             settings: other.settings.clone(),
+            clearing,
             ..self.clone()
         }
     }
@@ -175,6 +189,7 @@ impl Controller {
         }
         self.sense(percept);
         self.present(percept);
+        self.clear(percept);
         self.call();
         self.award();
         self.arbitrate();
@@ -249,7 +264,19 @@ impl Controller {
         self.lapses
     }
 
-    /// Owns a goal that a person has issued.
+    /// What it believes of the lane that it is to clear, if there is one.
+    #[must_use]
+    pub fn lane(&self) -> Option<&LanePicture> {
+        self.clearing.picture()
+    }
+
+    /// What it has stated about the lane, if it has.
+    #[must_use]
+    pub fn lane_statement(&self) -> Option<LaneStatement> {
+        self.clearing.statement()
+    }
+
+    /// Owns a goal that a person has issued, or that it has planned.
     fn own(&mut self, task: Task) {
         let is_known = self.goals.iter().any(|owned| owned.task.id == task.id);
         if is_known || !task.is_valid() {

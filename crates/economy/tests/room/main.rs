@@ -6,6 +6,7 @@ mod controllers;
 mod displacement;
 mod hand;
 mod heirs;
+mod lane;
 mod liveness;
 mod missions;
 mod network;

@@ -2,7 +2,7 @@
 
 use super::simulated::{Item, Random, Searcher, Sensor, clearance, items, picture};
 use crate::clearance::{Clearance, LanePicture};
-use brain::{MarkVerdict, RobotId};
+use brain::{GoalId, MarkVerdict, RobotId, Statement};
 
 /// Places are neutralised above this probability of a mine: an attempt in vain is rare.
 const NEUTRALISE_ABOVE: f64 = 0.95;
@@ -11,6 +11,12 @@ const NEUTRALISE_ABOVE: f64 = 0.95;
 const BLIND: [f64; 2] = [0.08, 0.05];
 
 const LANES: u64 = 30_000;
+
+/// A goal of a controller.
+const GOAL: GoalId = GoalId {
+    issuer: RobotId::OPERATOR,
+    number: 0,
+};
 
 /// Limits of the stated risk.
 const LIMITS: [f64; 10] = [0.01, 0.02, 0.035, 0.06, 0.1, 0.15, 0.2, 0.28, 0.38, 0.5];
@@ -74,7 +80,11 @@ fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) {
         let nearest = away.min_by(|one, other| one.0.total_cmp(&other.0));
         if let Some((_, index)) = nearest.filter(|(away_m, _)| *away_m < 0.5) {
             items.remove(index);
-            picture.take_statement_of_place(mark.number, MarkVerdict::Neutralised);
+            picture.take_statement(&Statement {
+                mark: GOAL,
+                at_m: [mark.at.x as f32, mark.at.y as f32],
+                verdict: MarkVerdict::Neutralised,
+            });
         }
     }
 }

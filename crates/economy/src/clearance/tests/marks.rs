@@ -115,6 +115,7 @@ fn only_a_place_that_has_been_neutralised_holds_no_mine() {
     let state = |picture: &mut LanePicture, verdict| {
         picture.take_statement(&Statement {
             mark: mark.id,
+            at_m: mark.at_m,
             verdict,
         });
     };
@@ -130,4 +131,29 @@ fn only_a_place_that_has_been_neutralised_holds_no_mine() {
     state(&mut picture, MarkVerdict::Neutralised);
     state(&mut picture, MarkVerdict::Confirmed);
     assert_eq!(mine(&picture), 0.0);
+}
+
+/// Controllers receive statements about goals of other controllers.
+#[test]
+fn a_statement_about_an_unknown_goal_is_about_the_nearest_place() {
+    let mut picture = lane();
+    for (number, x_m) in [(0, 10.0), (1, 12.0)] {
+        let mut mark = mark(OAV, x_m, 0.1, 9.0);
+        mark.id.number = number;
+        picture.take_mark(OAV, &mark);
+    }
+    let mut state = |x_m| {
+        picture.take_statement(&Statement {
+            mark: GoalId {
+                issuer: RobotId::OPERATOR,
+                number: 7,
+            },
+            at_m: [x_m, 1.0],
+            verdict: MarkVerdict::Confirmed,
+        });
+        let verdicts = picture.marks().map(|mark| mark.verdict.is_some());
+        verdicts.collect::<Vec<bool>>()
+    };
+    assert_eq!(state(14.0), [false, false]);
+    assert_eq!(state(11.2), [false, true]);
 }

@@ -66,6 +66,7 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
     let robot = |model: u32, blind_share: f64| RobotModel {
         model,
         blind_share: vec![blind_share; 2],
+        ..RobotModel::default()
     };
     Clearance {
         lane: Lane {
@@ -86,6 +87,10 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
         robots: vec![robot(0, blind[0]), robot(1, blind[1])],
         declare_below: 0.05,
         interrogate_above: 0.05,
+        tile_m: 10.0,
+        searches: Vec::new(),
+        interrogate: None,
+        neutralise: None,
     }
 }
 
