@@ -20,8 +20,6 @@ mod settings;
 
 pub use allocation::optimal::assignment;
 pub use allocation::{Allocation, Market, Offer, Pair};
-pub use clearance::{
-    BelievedMark, Clearance, ItemPrior, LanePicture, LaneStatement, Risk, RobotModel, Skill,
-};
+pub use clearance::{BelievedMark, Clearance, LanePicture, LaneStatement, Risk, RobotModel, Skill};
 pub use controller::{Controller, OwnedGoal};
 pub use settings::Settings;

@@ -407,6 +407,7 @@ mod tests {
             min_m: [0.0; 2],
             max_m: [20.0; 2],
             cell_m: 2.0,
+            hazards: 1,
         };
         let coverage = Coverage {
             first: 0,

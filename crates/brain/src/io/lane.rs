@@ -30,12 +30,15 @@ pub struct Lane {
     pub max_m: [f32; 2],
     /// Side of a cell. The last cells of rows and columns may reach beyond the lane.
     pub cell_m: f32,
+    /// The kinds of items that are to be cleared: one bit for each, from the lowest.
+    pub hazards: u8,
 }
 
 base::hashed!(Lane {
     min_m,
     max_m,
-    cell_m
+    cell_m,
+    hazards
 });
 
 impl Lane {
@@ -47,6 +50,12 @@ impl Lane {
         let is_square = self.cell_m.is_finite() && self.cell_m > 0.0;
         let is_grid = corners.all(f32::is_finite) && is_wide && is_square;
         is_grid && self.extent().into_iter().product::<f64>() <= MAX_CELLS
+    }
+
+    /// Whether items of a kind are to be cleared.
+    #[must_use]
+    pub fn is_hazard(&self, kind: usize) -> bool {
+        kind < MARK_KINDS && self.hazards >> kind & 1 == 1
     }
 
     /// Its area in the world.
@@ -245,6 +254,7 @@ mod tests {
         min_m: [-1.0, 2.0],
         max_m: [9.0, 7.0],
         cell_m: 2.0,
+        hazards: 0b10,
     };
 
     #[test]
@@ -257,6 +267,14 @@ mod tests {
         }
         assert_eq!(LANE.cell_at(Point { x: 9.0, y: 7.0 }), Some(14));
         assert_eq!(LANE.cell_at(Point { x: 9.1, y: 7.0 }), None);
+    }
+
+    #[test]
+    fn a_lane_names_the_kinds_that_are_to_be_cleared() {
+        assert_eq!(
+            [0, 1, 2, 9].map(|kind| LANE.is_hazard(kind)),
+            [false, true, false, false]
+        );
     }
 
     #[test]

@@ -31,7 +31,9 @@ impl Ability {
     /// Why the robot can never serve a goal, if it cannot.
     pub(crate) fn lacks(&self, task: &Task) -> Option<Reason> {
         let has = task.capability == 0 || self.capabilities.contains(&task.capability);
-        (!has).then_some(Reason::Capability)
+        // Brains have no command to neutralise yet.
+        let can = task.work != Work::Neutralise;
+        (!has || !can).then_some(Reason::Capability)
     }
 
     /// Time that the work at a goal takes.

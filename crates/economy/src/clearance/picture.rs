@@ -170,7 +170,7 @@ impl LanePicture {
     /// either all of its looks have missed the item, or the model is blind to it.
     fn log_odds(&self, place: &Place, kind: usize) -> f64 {
         let area_m2 = self.clearance.lane.area().area_m2();
-        let expected = self.clearance.items.get(kind).map(|item| item.expected);
+        let expected = self.clearance.expected.get(kind).copied();
         let Some(expected) = expected.filter(|expected| *expected > 0.0) else {
             return f64::NEG_INFINITY;
         };

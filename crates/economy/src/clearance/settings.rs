@@ -2,15 +2,16 @@
 
 use crate::clearance::risk::chance_of_any;
 use alloc::vec::Vec;
-use brain::{Lane, MARK_KINDS};
+use brain::Lane;
 
 /// A lane that controllers are to clear, and what they assume of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// The lane.
+    /// The lane, and the kinds of items that make it unsafe until they are neutralised.
     pub lane: Lane,
-    /// The kinds of items, at most four: marks distinguish no more.
-    pub items: Vec<ItemPrior>,
+    /// Expected number of items of each kind in the lane, uniformly distributed; the number is Poisson
+    /// distributed. At most four kinds: marks distinguish no more.
+    pub expected: Vec<f64>,
     /// The kinds of robots, as ids count them.
     pub robots: Vec<RobotModel>,
     /// The lane is declared clear when the risk is below this probability.
@@ -36,15 +37,6 @@ pub struct Skill {
     pub service_s: f32,
     /// Range of the tool, in metres; unused by searches.
     pub range_m: f32,
-}
-
-/// What is assumed of a kind of items.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ItemPrior {
-    /// Expected number in the lane, uniformly distributed; the number is Poisson distributed.
-    pub expected: f64,
-    /// Whether it makes the lane unsafe until it is neutralised.
-    pub is_hazard: bool,
 }
 
 /// What is known of the item detector of a kind of robots.
@@ -76,8 +68,8 @@ impl Clearance {
 
     /// The kinds that make the lane unsafe, and their expected numbers.
     pub(crate) fn hazards(&self) -> impl Iterator<Item = (usize, f64)> {
-        let kinds = self.items.iter().take(MARK_KINDS).enumerate();
-        kinds.filter_map(|(kind, item)| item.is_hazard.then_some((kind, item.expected)))
+        let kinds = self.expected.iter().copied().enumerate();
+        kinds.filter(|(kind, _)| self.lane.is_hazard(*kind))
     }
 
     /// One kind of robots of each sensor model.

@@ -4,7 +4,7 @@ use brain::{
     About, Command, Coverage, Dispatch, Lane, Message, Percept, ReceivedMessage, Report, RobotId,
     Task, Work,
 };
-use economy::{Clearance, Controller, ItemPrior, RobotModel, Settings, Skill};
+use economy::{Clearance, Controller, RobotModel, Settings, Skill};
 use std::sync::Arc;
 
 const OAV: RobotId = RobotId { kind: 0, index: 0 };
@@ -15,11 +15,9 @@ fn settings() -> Settings {
             min_m: [0.0; 2],
             max_m: [40.0, 10.0],
             cell_m: 2.0,
+            hazards: 1,
         },
-        items: vec![ItemPrior {
-            expected: 2.0,
-            is_hazard: true,
-        }],
+        expected: vec![2.0],
         robots: vec![RobotModel {
             search_nats: 3.0,
             ..RobotModel::default()

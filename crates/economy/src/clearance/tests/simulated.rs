@@ -1,6 +1,6 @@
 //! Simulated lanes: items, looks of robots and the messages that follow from them.
 
-use crate::clearance::{Clearance, ItemPrior, LanePicture, RobotModel};
+use crate::clearance::{Clearance, LanePicture, RobotModel};
 use base::geometry::Point;
 use brain::{CELLS_PER_MESSAGE, Coverage, GoalId, Lane, Mark, RobotId};
 use core::f64::consts::TAU;
@@ -73,17 +73,9 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
             min_m: [5.0, -5.0],
             max_m: [25.0, 5.0],
             cell_m: 2.0,
+            hazards: 1,
         },
-        items: vec![
-            ItemPrior {
-                expected: expected[0],
-                is_hazard: true,
-            },
-            ItemPrior {
-                expected: expected[1],
-                is_hazard: false,
-            },
-        ],
+        expected: expected.to_vec(),
         robots: vec![robot(0, blind[0]), robot(1, blind[1])],
         declare_below: 0.05,
         interrogate_above: 0.05,
@@ -98,8 +90,8 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
 pub(super) fn items(clearance: &Clearance, random: &mut Random) -> Vec<Item> {
     let area = clearance.lane.area();
     let mut items = Vec::new();
-    for (kind, prior) in clearance.items.iter().enumerate() {
-        for _ in 0..random.poisson(prior.expected) {
+    for (kind, expected) in clearance.expected.iter().enumerate() {
+        for _ in 0..random.poisson(*expected) {
             let (right, up) = (random.unit(), random.unit());
             let at = Point {
                 x: area.min().x + right * area.size().x,
