@@ -75,7 +75,12 @@ fn known(team: &Team) -> Vec<GoalId> {
 }
 
 /// Goals that a working agent knew, and those of them that recovered in time, with lost messages.
-fn recovered(seed: u64, leases: (f64, f64), (start_s, loss): (f64, Loss), dropped: f64) -> [usize; 2] {
+fn recovered(
+    seed: u64,
+    leases: (f64, f64),
+    (start_s, loss): (f64, Loss),
+    dropped: f64,
+) -> [usize; 2] {
     let settings = settings(leases.0, leases.1);
     let weather = Weather {
         max_delay_s: MAX_DELAY_S,

@@ -13,4 +13,5 @@ mod network;
 mod quality;
 mod robots;
 mod safety;
+mod sweep;
 mod team;

@@ -70,6 +70,7 @@ impl ControllerSpec {
             max_goals: self.max_goals,
             max_drift,
             robot_kinds,
+            clearance: None,
         }
     }
 }
