@@ -4,7 +4,7 @@
 
 use super::body::RobotId;
 use super::goal_id::GoalId;
-use super::lane::{Coverage, Lane, Mark, Statement};
+use super::lane::{Coverage, Lane, MAX_COORDINATE_M, Mark, Statement};
 use super::verdict::Verdict;
 
 use base::geometry::Point;
@@ -187,9 +187,6 @@ impl Task {
         is_wide && self.at_m.into_iter().all(is_near) && numbers.into_iter().all(is_plausible)
     }
 }
-
-/// Larger coordinates in metres are invalid.
-pub(crate) const MAX_COORDINATE_M: f32 = 1e7;
 
 /// What a goal consists of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -5,6 +5,9 @@ use base::geometry::{Point, Rectangle};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Larger coordinates in metres are invalid.
+pub(crate) const MAX_COORDINATE_M: f32 = 1e7;
+
 /// Maximum number of cells of a lane.
 const MAX_CELLS: f64 = 65_536.0;
 
@@ -203,7 +206,7 @@ impl Mark {
     /// Whether all of its numbers are finite and plausible.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        let is_near = |along_m: f32| along_m.abs() <= super::dispatch::MAX_COORDINATE_M;
+        let is_near = |along_m: f32| along_m.abs() <= MAX_COORDINATE_M;
         let is_certain = self.deviation_m > 0.0 && self.deviation_m <= 1e3;
         let mut ratios = self.log_ratios.into_iter();
         is_certain

@@ -54,7 +54,7 @@ impl Robot {
         }
     }
 
-    /// A step with a look; `contacts` are kinds and distances ahead.
+    /// A step with a measurement; `contacts` are kinds and distances ahead.
     fn command(&mut self, messages: &[(RobotId, About)], contacts: &[(u16, f64)]) -> Command {
         self.step += 1;
         let inbox = messages.iter().map(|(from, about)| ReceivedMessage {

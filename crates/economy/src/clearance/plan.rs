@@ -1,7 +1,7 @@
 //! The goals that follow from what a controller believes of a lane.
 //!
 //! ```text
-//! search       each tile, once more in each way, while that lowers the expected number of mines
+//! search       each tile, again in each way, while that lowers the expected number of mines
 //! interrogate  each mark without a verdict above a probability of a mine; rejected ones again
 //! neutralise   each mark that has been confirmed, or fenced off
 //! ```
@@ -41,7 +41,7 @@ pub(crate) enum Subject {
 
 /// A goal that is to be served.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Wanted {
+pub(crate) struct Proposal {
     pub(crate) subject: Subject,
     /// The tile in which it lies.
     pub(crate) tile: u32,
@@ -56,7 +56,7 @@ pub(crate) struct Wanted {
 /// All goals that lower the risk.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Plan {
-    pub(crate) wanted: Vec<Wanted>,
+    pub(crate) proposals: Vec<Proposal>,
     /// Whether the goals that robots in range can serve lower the risk.
     pub(crate) is_possible: bool,
 }
@@ -76,21 +76,21 @@ impl Plan {
             cell_m: clearance.tile_m,
             ..clearance.lane
         };
-        let mut wanted = Vec::new();
+        let mut proposals = Vec::new();
         for (search, skill) in (0..).zip(&clearance.searches) {
-            wanted.extend(searches(picture, &tiles, search, *skill));
+            proposals.extend(searches(picture, &tiles, search, *skill));
         }
         for mark in picture.marks() {
             let interrogations = (circumstances.interrogations)(mark.number);
-            wanted.extend(work_at(&mark, clearance, &tiles, interrogations));
+            proposals.extend(work_at(&mark, clearance, &tiles, interrogations));
         }
         let expected = picture.risk().expected();
-        let is_possible = |one: &Wanted| circumstances.has(clearance, &one.skill);
-        let possible = wanted.iter().filter(|one| is_possible(one));
+        let is_possible = |one: &Proposal| circumstances.has(clearance, &one.skill);
+        let possible = proposals.iter().filter(|one| is_possible(one));
         let gain: f64 = possible.map(|one| one.value).sum();
-        wanted.retain(|one| one.value > MIN_SHARE * expected);
+        proposals.retain(|one| one.value > MIN_SHARE * expected);
         Self {
-            wanted,
+            proposals,
             is_possible: gain > MIN_POSSIBLE_SHARE * expected,
         }
     }
@@ -108,7 +108,7 @@ impl Circumstances<'_> {
 }
 
 /// One more search of each tile.
-fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Vec<Wanted> {
+fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Vec<Proposal> {
     let nats = nats_of(picture.clearance(), &skill);
     let lane = picture.clearance().lane;
     let mut gains = vec![0.0; tiles.cells()];
@@ -120,7 +120,7 @@ fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Ve
     }
     let each = (0..).zip(gains).map(|(tile, value)| {
         let area = tiles.cell_area(tile as usize);
-        Wanted {
+        Proposal {
             subject: Subject::Tile { tile, search },
             tile,
             at: tiles.centre(tile as usize),
@@ -152,7 +152,7 @@ fn work_at(
     clearance: &Clearance,
     tiles: &Lane,
     interrogations: u32,
-) -> Option<Wanted> {
+) -> Option<Proposal> {
     let place = mark.number;
     let is_suspect = mark.mine > clearance.interrogate_above;
     let (subject, work, skill) = match mark.verdict {
@@ -167,7 +167,7 @@ fn work_at(
         _ => return None,
     };
     let tile = tiles.cell_at(mark.at)?;
-    Some(Wanted {
+    Some(Proposal {
         subject,
         tile: u32::try_from(tile).ok()?,
         at: mark.at,

@@ -8,7 +8,7 @@
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`colleagues`]: the other controllers, by their [`presence`];
-//! * [`clearing`]: the goals of a mined lane.
+//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state.
 
 mod arbitration;
 mod auction;
@@ -18,6 +18,7 @@ mod colleagues;
 mod displacement;
 mod estates;
 mod heirs;
+mod lane_work;
 mod lapses;
 mod owned;
 mod picture;
@@ -37,8 +38,8 @@ use alloc::vec::Vec;
 use bids::Bids;
 use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
 use brain::{Reason, RobotId, Task, wait_s};
-use clearing::Clearing;
 use colleagues::Colleagues;
+use lane_work::Clearing;
 use owned::{Heir, Owned};
 use picture::Picture;
 use wards::{Orphan, Ward};

@@ -38,7 +38,7 @@ fn planned(picture: &LanePicture, kinds: &[u8], interrogations: u32) -> Plan {
 
 fn subjects(picture: &LanePicture, interrogations: u32) -> Vec<Subject> {
     let plan = planned(picture, &[0, 1], interrogations);
-    plan.wanted.iter().map(|wanted| wanted.subject).collect()
+    plan.proposals.iter().map(|wanted| wanted.subject).collect()
 }
 
 fn searched(picture: &mut LanePicture, robot: RobotId, nats: f64) {
@@ -82,7 +82,7 @@ fn stated(picture: &mut LanePicture, verdict: MarkVerdict) {
 
 #[test]
 fn each_tile_is_searched_in_each_way_first_by_the_better_sensor() {
-    let wanted = planned(&picture(&able()), &[0, 1], 0).wanted;
+    let wanted = planned(&picture(&able()), &[0, 1], 0).proposals;
     assert_eq!(wanted.len(), 4, "two tiles of 10 m, two ways");
     let value = |tile, search| {
         let mut wanted = wanted.iter();
@@ -112,18 +112,18 @@ fn a_mark_is_interrogated_and_neutralised_when_it_is_confirmed() {
     let mut picture = picture(&able());
     marked(&mut picture, 6.0);
     let (suspect, mine) = (Subject::Suspect { place: 0 }, Subject::Mine { place: 0 });
-    let is_wanted = |picture: &LanePicture, subject| subjects(picture, 0).contains(&subject);
-    assert!(is_wanted(&picture, suspect) && !is_wanted(&picture, mine));
+    let is_proposed = |picture: &LanePicture, subject| subjects(picture, 0).contains(&subject);
+    assert!(is_proposed(&picture, suspect) && !is_proposed(&picture, mine));
     stated(&mut picture, MarkVerdict::Rejected);
-    assert!(is_wanted(&picture, suspect), "a mine is still probable");
+    assert!(is_proposed(&picture, suspect), "a mine is still probable");
     assert!(!subjects(&picture, MAX_INTERROGATIONS).contains(&suspect));
     stated(&mut picture, MarkVerdict::Confirmed);
-    assert!(!is_wanted(&picture, suspect) && is_wanted(&picture, mine));
-    let wanted = planned(&picture, &[1], 0).wanted;
+    assert!(!is_proposed(&picture, suspect) && is_proposed(&picture, mine));
+    let wanted = planned(&picture, &[1], 0).proposals;
     let wanted = wanted.iter().find(|wanted| wanted.subject == mine).unwrap();
     assert!((wanted.radius_m - 1.5).abs() < 1e-6, "three deviations");
     stated(&mut picture, MarkVerdict::Neutralised);
-    assert!(!is_wanted(&picture, suspect) && !is_wanted(&picture, mine));
+    assert!(!is_proposed(&picture, suspect) && !is_proposed(&picture, mine));
 }
 
 #[test]
