@@ -5,7 +5,8 @@
 //!
 //! * [`Settings`]: the controller's part of a scenario;
 //! * [`Controller`]: one controller;
-//! * [`Allocation`]: the rules by which a [`Market`] is cleared.
+//! * [`Allocation`]: the rules by which a [`Market`] is cleared;
+//! * [`Clearance`]: a mined lane that controllers are to clear, and [`LanePicture`], what they believe of it.
 
 #![cfg_attr(not(test), no_std)]
 
@@ -13,10 +14,12 @@ extern crate alloc;
 
 mod allocation;
 mod bounds;
+mod clearance;
 mod controller;
 mod settings;
 
 pub use allocation::optimal::assignment;
 pub use allocation::{Allocation, Market, Offer, Pair};
+pub use clearance::{BelievedMark, Clearance, LanePicture, LaneStatement, Risk, RobotModel, Skill};
 pub use controller::{Controller, OwnedGoal};
 pub use settings::Settings;

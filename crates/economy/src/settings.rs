@@ -1,6 +1,8 @@
 //! What a person sets of a controller.
 
 use crate::allocation::Allocation;
+use crate::clearance::Clearance;
+use alloc::sync::Arc;
 use brain::RobotId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +35,9 @@ pub struct Settings {
     /// Number of kinds of controllers; 0 if it is unknown.
     #[serde(skip)]
     pub controller_kinds: u8,
+    /// The lane that all controllers of the kind are to clear; without it, they plan no goals.
+    #[serde(skip)]
+    pub clearance: Option<Arc<Clearance>>,
 }
 
 impl Settings {
@@ -76,6 +81,7 @@ impl Default for Settings {
             max_drift: 1e-4,
             robot_kinds: 0,
             controller_kinds: 0,
+            clearance: None,
         }
     }
 }

@@ -266,11 +266,12 @@ class TaskColumns(TypedDict):
     Attributes:
         id: Its id.
         at_m: Its position in the world, in metres.
-        radius_m: A robot is there within this distance; of a search, the radius of the area.
+        radius_m: A robot is there within this distance; of a search or an interrogation, the
+            radius of the area.
         value: Value of serving it, relative to other goals.
         service_s: Time that a robot spends there.
         due_s: Time from sending until its deadline; without one, `f32.MAX`.
-        work: What is to be done there. 0 visit, 1 search.
+        work: What is to be done there. 0 visit, 1 search, 2 interrogate, 3 neutralise.
         capability: Number of the capability that a robot needs for it, as in
             `Body.capabilities`; 0 if it needs none.
     """
@@ -720,6 +721,117 @@ class DispatchColumnsService(TypedDict):
     value: Booleans
 
 
+class LaneColumns(TypedDict):
+    """A lane to be cleared, as a grid of square cells, row by row from the lower left corner.
+
+    Attributes:
+        min_m: Its lower left corner in the world, in metres.
+        max_m: Its upper right corner.
+        cell_m: Side of a cell. The last cells of rows and columns may reach beyond the lane.
+        hazards: The kinds of items that are to be cleared: one bit for each, from the lowest.
+    """
+
+    min_m: Floats
+    max_m: Floats
+    cell_m: Floats
+    hazards: Integers
+
+
+class DispatchColumnsLane(LaneColumns):
+    """From a controller to robots: a lane of which it needs coverage and marks.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+
+
+class CoverageColumns(TypedDict):
+    """What all looks of a robot so far have missed, for 16 cells of a lane.
+
+    It is cumulative: a later message replaces an earlier one, and a repeated one changes
+    nothing.
+
+    Attributes:
+        first: The first of the cells.
+        marks: Number of marks of the robot so far. Looks without a mark are evidence of a clear
+            place only for a receiver that has all marks.
+        missed: For each cell, the probability that all looks miss an item there that the
+            sensors can detect, as its negative logarithm in steps of 1/16 nat; 255 stands for
+            255 or more.
+    """
+
+    first: Integers
+    marks: Integers
+    missed: Integers
+
+
+class DispatchColumnsCoverage(CoverageColumns):
+    """From a robot to controllers: what it has searched of the lane.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+
+
+class MarkColumns(TypedDict):
+    """A place where a robot has detected something.
+
+    It is cumulative: a later message replaces an earlier one with the same id.
+
+    Attributes:
+        id: Its id: the robot, and the number that the robot gave it.
+        at_m: Its position in the world, in metres.
+        deviation_m: Standard deviation of the position along each axis, the error of the
+            robot's pose included.
+        log_ratios: For each of the first four kinds of items, the log likelihood ratio of all
+            looks of the robot at the place, contacts and misses: an item of that kind that its
+            sensors can detect, against nothing there but false alarms.
+    """
+
+    id: GoalIdColumns
+    at_m: Floats
+    deviation_m: Floats
+    log_ratios: Floats
+
+
+class DispatchColumnsMark(MarkColumns):
+    """From a robot to controllers: a place where it has detected something.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+
+
+class StatementColumns(TypedDict):
+    """What a robot states about a mark.
+
+    Attributes:
+        mark: The mark, or the goal that the robot served there.
+        at_m: Its position in the world, in metres: receivers may not know the goal.
+        verdict: The statement. 0 confirmed, 1 rejected, 2 isolated, 3 neutralised.
+    """
+
+    mark: GoalIdColumns
+    at_m: Floats
+    verdict: Integers
+
+
+class DispatchColumnsStatement(StatementColumns):
+    """From a robot to controllers: what it states about a mark.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+
+
 class DispatchColumns(TypedDict):
     """A message about a goal that a controller owns or awards.
 
@@ -761,6 +873,10 @@ class DispatchColumns(TypedDict):
             inherited goal, only such a robot can report that it is done.
         service: From the operator to a robot: whether it is in service. Out of service, it
             releases its goals, bids for none, and refuses awards.
+        lane: From a controller to robots: a lane of which it needs coverage and marks.
+        coverage: From a robot to controllers: what it has searched of the lane.
+        mark: From a robot to controllers: a place where it has detected something.
+        statement: From a robot to controllers: what it states about a mark.
     """
 
     issue: DispatchColumnsIssue
@@ -791,6 +907,10 @@ class DispatchColumns(TypedDict):
     bind: DispatchColumnsBind
     assigned: DispatchColumnsAssigned
     service: DispatchColumnsService
+    lane: DispatchColumnsLane
+    coverage: DispatchColumnsCoverage
+    mark: DispatchColumnsMark
+    statement: DispatchColumnsStatement
 
 
 class AboutColumns(TypedDict):
@@ -1036,11 +1156,12 @@ class TaskArrays(TypedDict):
     Attributes:
         id: Its id.
         at_m: Its position in the world, in metres.
-        radius_m: A robot is there within this distance; of a search, the radius of the area.
+        radius_m: A robot is there within this distance; of a search or an interrogation, the
+            radius of the area.
         value: Value of serving it, relative to other goals.
         service_s: Time that a robot spends there.
         due_s: Time from sending until its deadline; without one, `f32.MAX`.
-        work: What is to be done there. 0 visit, 1 search.
+        work: What is to be done there. 0 visit, 1 search, 2 interrogate, 3 neutralise.
         capability: Number of the capability that a robot needs for it, as in
             `Body.capabilities`; 0 if it needs none.
     """
@@ -1490,6 +1611,117 @@ class DispatchArraysService(TypedDict):
     value: ArrayLike
 
 
+class LaneArrays(TypedDict):
+    """A lane to be cleared, as a grid of square cells, row by row from the lower left corner.
+
+    Attributes:
+        min_m: Its lower left corner in the world, in metres.
+        max_m: Its upper right corner.
+        cell_m: Side of a cell. The last cells of rows and columns may reach beyond the lane.
+        hazards: The kinds of items that are to be cleared: one bit for each, from the lowest.
+    """
+
+    min_m: ArrayLike
+    max_m: ArrayLike
+    cell_m: ArrayLike
+    hazards: ArrayLike
+
+
+class DispatchArraysLane(LaneArrays):
+    """From a controller to robots: a lane of which it needs coverage and marks.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+
+
+class CoverageArrays(TypedDict):
+    """What all looks of a robot so far have missed, for 16 cells of a lane.
+
+    It is cumulative: a later message replaces an earlier one, and a repeated one changes
+    nothing.
+
+    Attributes:
+        first: The first of the cells.
+        marks: Number of marks of the robot so far. Looks without a mark are evidence of a clear
+            place only for a receiver that has all marks.
+        missed: For each cell, the probability that all looks miss an item there that the
+            sensors can detect, as its negative logarithm in steps of 1/16 nat; 255 stands for
+            255 or more.
+    """
+
+    first: ArrayLike
+    marks: ArrayLike
+    missed: ArrayLike
+
+
+class DispatchArraysCoverage(CoverageArrays):
+    """From a robot to controllers: what it has searched of the lane.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+
+
+class MarkArrays(TypedDict):
+    """A place where a robot has detected something.
+
+    It is cumulative: a later message replaces an earlier one with the same id.
+
+    Attributes:
+        id: Its id: the robot, and the number that the robot gave it.
+        at_m: Its position in the world, in metres.
+        deviation_m: Standard deviation of the position along each axis, the error of the
+            robot's pose included.
+        log_ratios: For each of the first four kinds of items, the log likelihood ratio of all
+            looks of the robot at the place, contacts and misses: an item of that kind that its
+            sensors can detect, against nothing there but false alarms.
+    """
+
+    id: GoalIdArrays
+    at_m: ArrayLike
+    deviation_m: ArrayLike
+    log_ratios: ArrayLike
+
+
+class DispatchArraysMark(MarkArrays):
+    """From a robot to controllers: a place where it has detected something.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+
+
+class StatementArrays(TypedDict):
+    """What a robot states about a mark.
+
+    Attributes:
+        mark: The mark, or the goal that the robot served there.
+        at_m: Its position in the world, in metres: receivers may not know the goal.
+        verdict: The statement. 0 confirmed, 1 rejected, 2 isolated, 3 neutralised.
+    """
+
+    mark: GoalIdArrays
+    at_m: ArrayLike
+    verdict: ArrayLike
+
+
+class DispatchArraysStatement(StatementArrays):
+    """From a robot to controllers: what it states about a mark.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+
+
 class DispatchArrays(TypedDict):
     """A message about a goal that a controller owns or awards.
 
@@ -1531,6 +1763,10 @@ class DispatchArrays(TypedDict):
             inherited goal, only such a robot can report that it is done.
         service: From the operator to a robot: whether it is in service. Out of service, it
             releases its goals, bids for none, and refuses awards.
+        lane: From a controller to robots: a lane of which it needs coverage and marks.
+        coverage: From a robot to controllers: what it has searched of the lane.
+        mark: From a robot to controllers: a place where it has detected something.
+        statement: From a robot to controllers: what it states about a mark.
     """
 
     issue: NotRequired[DispatchArraysIssue]
@@ -1561,6 +1797,10 @@ class DispatchArrays(TypedDict):
     bind: NotRequired[DispatchArraysBind]
     assigned: NotRequired[DispatchArraysAssigned]
     service: NotRequired[DispatchArraysService]
+    lane: NotRequired[DispatchArraysLane]
+    coverage: NotRequired[DispatchArraysCoverage]
+    mark: NotRequired[DispatchArraysMark]
+    statement: NotRequired[DispatchArraysStatement]
 
 
 class AboutArrays(TypedDict):

@@ -60,7 +60,7 @@ OrderAction: TypeAlias = Literal["assign", "withdraw"]
 """What a person orders."""
 
 
-Work: TypeAlias = Literal["visit", "search"]
+Work: TypeAlias = Literal["visit", "search", "interrogate", "neutralise"]
 """What a goal consists of."""
 
 
@@ -70,7 +70,8 @@ class Task(TypedDict):
     Attributes:
         id: Its id.
         at_m: Its position in the world, in metres.
-        radius_m: A robot is there within this distance; of a search, the radius of the area.
+        radius_m: A robot is there within this distance; of a search or an interrogation, the
+            radius of the area.
         value: Value of serving it, relative to other goals.
         service_s: Time that a robot spends there.
         due_s: Time from sending until its deadline; without one, `f32.MAX`.
@@ -238,6 +239,81 @@ class Assignment(TypedDict):
     robot: RobotId
 
 
+class Lane(TypedDict):
+    """A lane to be cleared, as a grid of square cells, row by row from the lower left corner.
+
+    Attributes:
+        min_m: Its lower left corner in the world, in metres.
+        max_m: Its upper right corner.
+        cell_m: Side of a cell. The last cells of rows and columns may reach beyond the lane.
+        hazards: The kinds of items that are to be cleared: one bit for each, from the lowest.
+    """
+
+    min_m: Sequence[float]
+    max_m: Sequence[float]
+    cell_m: float
+    hazards: int
+
+
+class Coverage(TypedDict):
+    """What all looks of a robot so far have missed, for 16 cells of a lane.
+
+    It is cumulative: a later message replaces an earlier one, and a repeated one changes
+    nothing.
+
+    Attributes:
+        first: The first of the cells.
+        marks: Number of marks of the robot so far. Looks without a mark are evidence of a clear
+            place only for a receiver that has all marks.
+        missed: For each cell, the probability that all looks miss an item there that the
+            sensors can detect, as its negative logarithm in steps of 1/16 nat; 255 stands for
+            255 or more.
+    """
+
+    first: int
+    marks: int
+    missed: Sequence[int]
+
+
+class Mark(TypedDict):
+    """A place where a robot has detected something.
+
+    It is cumulative: a later message replaces an earlier one with the same id.
+
+    Attributes:
+        id: Its id: the robot, and the number that the robot gave it.
+        at_m: Its position in the world, in metres.
+        deviation_m: Standard deviation of the position along each axis, the error of the
+            robot's pose included.
+        log_ratios: For each of the first four kinds of items, the log likelihood ratio of all
+            looks of the robot at the place, contacts and misses: an item of that kind that its
+            sensors can detect, against nothing there but false alarms.
+    """
+
+    id: GoalId
+    at_m: Sequence[float]
+    deviation_m: float
+    log_ratios: Sequence[float]
+
+
+MarkVerdict: TypeAlias = Literal["confirmed", "rejected", "isolated", "neutralised"]
+"""A verdict on a mark."""
+
+
+class Statement(TypedDict):
+    """What a robot states about a mark.
+
+    Attributes:
+        mark: The mark, or the goal that the robot served there.
+        at_m: Its position in the world, in metres: receivers may not know the goal.
+        verdict: The statement.
+    """
+
+    mark: GoalId
+    at_m: Sequence[float]
+    verdict: MarkVerdict
+
+
 class DispatchQuery(TypedDict):
     """From a controller to robots: a request of a report."""
 
@@ -291,6 +367,10 @@ class Dispatch(TypedDict, total=False):
     bind: Award
     assigned: Assignment
     service: bool
+    lane: Lane
+    coverage: Coverage
+    mark: Mark
+    statement: Statement
 
 
 class AboutItem(TypedDict):

@@ -6,17 +6,24 @@ use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
+use crate::io::dispatch::Work;
 use crate::io::message::Message;
 use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::pose::Pose;
 use crate::service::ability::{Ability, Moment};
 use crate::service::assignee::Assignee;
+use crate::service::jobs::Job;
 use crate::service::lanes::Lanes;
 use crate::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle};
+use base::trig::wrapped;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// Time in which a robot turns towards a mark, in seconds.
+const TURN_S: f64 = 0.5;
 
 /// Bids for the goals of controllers, and serves those that it is awarded on the shortest path
 /// through them. It needs a position, a heading and a radio. Without an awarded goal, it does nothing.
@@ -72,6 +79,20 @@ impl Ready {
             value: spec.value,
         }
     }
+
+    /// The motion at a goal: robots face the marks at which they look or act.
+    fn standing(&self, job: &Job, pose: &Pose, situation: &Situation) -> Motion {
+        if job.task.work != Work::Interrogate || self.ability.is_stationary() {
+            return Motion::default();
+        }
+        let towards = pose.at.to(job.task.at());
+        let off_rad = wrapped(libm::atan2(towards.y, towards.x) - pose.heading_rad);
+        let max_rad_s = situation.body.max_turn_rate_rad_s;
+        Motion {
+            speed_m_s: 0.0,
+            turn_rate_rad_s: (off_rad / TURN_S).clamp(-max_rad_s, max_rad_s),
+        }
+    }
 }
 
 /// Where the centre of a robot can be in a field.
@@ -108,6 +129,7 @@ impl Behaviour for Ready {
             charge: beliefs.battery_charge(),
         };
         assignee.step(&self.ability, &moment);
+        assignee.report_lane(&self.ability, &moment, beliefs);
     }
 
     fn publish(&self, assignee: &mut Box<Assignee>, outbox: &mut Vec<Message>) {
@@ -126,7 +148,7 @@ impl Behaviour for Ready {
         let pose = situation.beliefs.and_then(Beliefs::pose)?;
         let (job, is_there) = assignee.current(&self.ability, pose.at)?;
         if is_there {
-            return Some(Motion::default().into());
+            return Some(self.standing(&job, &pose, situation).into());
         }
         let (at, near_m) = job.target(&self.ability);
         Some(Proposal::Destination(Destination {

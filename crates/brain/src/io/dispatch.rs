@@ -4,6 +4,7 @@
 
 use super::body::RobotId;
 use super::goal_id::GoalId;
+use super::lane::{Coverage, Lane, MAX_COORDINATE_M, Mark, Statement};
 use super::verdict::Verdict;
 
 use base::geometry::Point;
@@ -111,6 +112,14 @@ dispatch! {
     /// From the operator to a robot: whether it is in service. Out of service, it releases its goals,
     /// bids for none, and refuses awards.
     27 Service(bool),
+    /// From a controller to robots: a lane of which it needs coverage and marks.
+    28 Lane(Lane),
+    /// From a robot to controllers: what it has searched of the lane.
+    29 Coverage(Coverage),
+    /// From a robot to controllers: a place where it has detected something.
+    30 Mark(Mark),
+    /// From a robot to controllers: what it states about a mark.
+    31 Statement(Statement),
 }
 
 impl Dispatch {
@@ -153,7 +162,7 @@ pub struct Task {
     pub id: GoalId,
     /// Its position in the world, in metres.
     pub at_m: [f32; 2],
-    /// A robot is there within this distance; of a search, the radius of the area.
+    /// A robot is there within this distance; of a search or an interrogation, the radius of the area.
     pub radius_m: f32,
     /// Value of serving it, relative to other goals.
     pub value: f32,
@@ -197,9 +206,6 @@ impl Task {
     }
 }
 
-/// Larger coordinates in metres are invalid.
-pub(crate) const MAX_COORDINATE_M: f32 = 1e7;
-
 /// What a goal consists of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -208,6 +214,10 @@ pub enum Work {
     Visit,
     /// To search the area around it.
     Search,
+    /// To look closer at a mark, and to confirm or reject it.
+    Interrogate,
+    /// To neutralise a confirmed mark.
+    Neutralise,
 }
 
 base::hashed!(enum Work);
@@ -399,6 +409,7 @@ base::hashed!(Seen { robot, at_m });
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::lane::MarkVerdict;
 
     #[test]
     fn a_dispatch_takes_at_most_44_bytes() {
@@ -410,6 +421,23 @@ mod tests {
         let claim = Claim {
             goal: GoalId::default(),
             number: 7,
+        };
+        let lane = Lane {
+            min_m: [0.0; 2],
+            max_m: [20.0; 2],
+            cell_m: 2.0,
+            hazards: 1,
+        };
+        let coverage = Coverage {
+            first: 0,
+            marks: 0,
+            missed: [0; 16],
+        };
+        let mark = Mark {
+            id: GoalId::default(),
+            at_m: [0.0; 2],
+            deviation_m: 0.5,
+            log_ratios: [0.0; 4],
         };
         let hash = |dispatch: Dispatch| {
             let mut hash = Hash::default();
@@ -423,6 +451,31 @@ mod tests {
             Dispatch::Commit(claim),
             Dispatch::Done(claim),
             Dispatch::Done(Claim { number: 8, ..claim }),
+            Dispatch::Lane(lane),
+            Dispatch::Lane(Lane {
+                cell_m: 3.0,
+                ..lane
+            }),
+            Dispatch::Coverage(coverage),
+            Dispatch::Coverage(Coverage {
+                missed: [1; 16],
+                ..coverage
+            }),
+            Dispatch::Mark(mark),
+            Dispatch::Mark(Mark {
+                log_ratios: [0.0, 0.0, 0.0, 1.0],
+                ..mark
+            }),
+            Dispatch::Statement(Statement {
+                mark: mark.id,
+                at_m: [0.0; 2],
+                verdict: MarkVerdict::Confirmed,
+            }),
+            Dispatch::Statement(Statement {
+                mark: mark.id,
+                at_m: [0.0; 2],
+                verdict: MarkVerdict::Rejected,
+            }),
         ];
         let mut hashes: Vec<u64> = all.into_iter().map(hash).collect();
         hashes.sort_unstable();

@@ -5,6 +5,7 @@ pub(crate) mod command;
 pub(crate) mod dispatch;
 pub(crate) mod goal_id;
 pub(crate) mod infinite;
+pub(crate) mod lane;
 pub(crate) mod message;
 pub(crate) mod percept;
 pub(crate) mod random_words;

@@ -31,13 +31,15 @@ impl Ability {
     /// Why the robot can never serve a goal, if it cannot.
     pub(crate) fn lacks(&self, task: &Task) -> Option<Reason> {
         let has = task.capability == 0 || self.capabilities.contains(&task.capability);
-        (!has).then_some(Reason::Capability)
+        // Brains have no command to neutralise yet.
+        let can = task.work != Work::Neutralise;
+        (!has || !can).then_some(Reason::Capability)
     }
 
     /// Time that the work at a goal takes.
     pub(crate) fn work_s(&self, task: &Task) -> f64 {
         let search_m = match task.work {
-            Work::Visit => 0.0,
+            Work::Visit | Work::Interrogate | Work::Neutralise => 0.0,
             Work::Search => self.lanes.length_m(task),
         };
         f64::from(task.service_s) + self.travel_s(search_m)
@@ -61,7 +63,7 @@ impl Ability {
     /// in the whole area.
     pub(crate) fn covers(&self, task: &Task, at: Point) -> bool {
         let (away_m, radius_m) = (at.to(task.at()).length(), f64::from(task.radius_m));
-        let is_seen = task.work == Work::Visit || away_m + radius_m <= self.all_round_m;
+        let is_seen = task.work != Work::Search || away_m + radius_m <= self.all_round_m;
         away_m <= radius_m && is_seen
     }
 

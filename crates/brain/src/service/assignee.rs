@@ -6,15 +6,17 @@ use super::failures::Failures;
 use super::finished::Finished;
 use super::holder::Holder;
 use super::jobs::{Job, Jobs};
+use super::lane_reports::LaneReports;
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
 use crate::io::body::RobotId;
-use crate::io::dispatch::{Award, Claim, Dispatch, Reason};
+use crate::io::dispatch::{Award, Claim, Dispatch, Reason, Task, Work};
 use crate::io::goal_id::GoalId;
 use crate::io::message::{About, Message};
 use crate::io::percept::ReceivedMessage;
 use crate::io::verdict::Verdict;
+use crate::perception::beliefs::Beliefs;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -34,15 +36,19 @@ pub(crate) struct Assignee {
     pub(super) is_out_of_service: bool,
     /// The goal that it proposed last.
     pub(super) proposed: Option<GoalId>,
+    lane: LaneReports,
+    /// The goal of this step in which it has interrogated a mark.
+    interrogated: Option<Task>,
     pub(super) outbox: Vec<Message>,
 }
 
-base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed } without { outbox });
+base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed, lane } without { outbox, interrogated });
 
 impl Assignee {
     /// Takes a step: messages first, then the work, then what is due.
     pub(crate) fn step(&mut self, ability: &Ability, moment: &Moment) {
         self.outbox.clear();
+        self.interrogated = None;
         self.proposed = self.proposed.filter(|goal| self.serves(*goal));
         self.now_s = moment
             .percept
@@ -59,6 +65,23 @@ impl Assignee {
         self.bid(ability, moment);
         self.renew(moment.percept);
         self.report(ability, moment);
+    }
+
+    /// Reports what it has searched and detected in a lane that a controller has named, and its
+    /// verdicts on the marks that it has interrogated.
+    pub(crate) fn report_lane(&mut self, ability: &Ability, moment: &Moment, beliefs: &Beliefs) {
+        let inbox = moment.percept.inbox.iter();
+        for received in inbox.filter(|received| ability.is_controller(received.from)) {
+            if let About::Dispatch(Dispatch::Lane(lane)) = received.message.about {
+                self.lane.name(lane, beliefs, self.now_s);
+            }
+        }
+        if let Some(task) = self.interrogated.take() {
+            self.lane.state(&task, beliefs);
+        }
+        for dispatch in self.lane.step(moment, beliefs, self.now_s) {
+            self.send(RobotId::EVERYONE, dispatch);
+        }
     }
 
     /// Adds the messages of this step to those of the robot, the most urgent ones first.
@@ -342,6 +365,7 @@ impl Assignee {
     fn finish(&mut self, goal: GoalId) {
         if let (Some(job), Some(lease)) = (self.jobs.remove(goal), self.holder.release(goal)) {
             let number = lease.number;
+            self.interrogated = Some(job.task).filter(|task| task.work == Work::Interrogate);
             self.finished
                 .add(Claim { goal, number }, job.owner, self.now_s);
         }

@@ -58,7 +58,7 @@ impl Job {
     pub(crate) fn target(&self, ability: &Ability) -> (Point, f64) {
         let radius_m = f64::from(self.task.radius_m);
         let corner = match self.task.work {
-            Work::Visit => None,
+            Work::Visit | Work::Interrogate | Work::Neutralise => None,
             Work::Search => ability.lanes.corner(&self.task, self.corners),
         };
         let near_m = (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0);
@@ -67,7 +67,7 @@ impl Job {
 
     /// Whether it remains only to be there for the time of service.
     pub(crate) fn is_swept(&self, ability: &Ability) -> bool {
-        self.task.work == Work::Visit
+        self.task.work != Work::Search
             || ability.is_stationary()
             || ability.lanes.corner(&self.task, self.corners).is_none()
     }

@@ -4,7 +4,8 @@
 //! * [`holder`] and [`grantor`]: the two halves of a lease, for robots and controllers;
 //! * [`assignee`]: the robot's half, a step as a table of contents, with [`bids`],
 //!   [`renewals`] and [`reporting`], the [`jobs`] that it serves, its known [`offers`], its
-//!   [`failures`], and when it sends what ([`schedule`]).
+//!   [`failures`], and when it sends what ([`schedule`]);
+//! * [`lane_reports`]: what it reports of a mined lane, [`lane_coverage`] and [`lane_marks`].
 
 pub(crate) mod ability;
 pub(crate) mod assignee;
@@ -14,7 +15,10 @@ mod failures;
 mod finished;
 pub(crate) mod grantor;
 pub(crate) mod holder;
-mod jobs;
+pub(crate) mod jobs;
+mod lane_coverage;
+mod lane_marks;
+mod lane_reports;
 pub(crate) mod lanes;
 pub(crate) mod numbers;
 mod offers;

@@ -8,6 +8,7 @@
 
 mod headings;
 mod homing;
+mod lane;
 mod layers;
 mod orders;
 mod percepts;

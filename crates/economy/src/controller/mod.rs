@@ -8,15 +8,18 @@
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
-//!   [`colleagues`]: the other controllers, by their [`presence`].
+//!   [`colleagues`]: the other controllers, by their [`presence`];
+//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state.
 
 mod arbitration;
 mod auction;
 mod bids;
+mod clearing;
 mod colleagues;
 mod displacement;
 mod estates;
 mod heirs;
+mod lane_work;
 mod lapses;
 mod orphans;
 mod owned;
@@ -30,6 +33,7 @@ mod wards;
 
 pub(crate) use auction::{CALLS_PER_STEP, REPEAT_S};
 
+use crate::clearance::{LanePicture, LaneStatement};
 use crate::settings::Settings;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -37,6 +41,7 @@ use bids::Bids;
 use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
 use brain::{Reason, RobotId, Task, wait_s};
 use colleagues::Colleagues;
+use lane_work::Clearing;
 use owned::{Heir, Owned};
 use picture::Picture;
 use wards::{Orphan, Ward};
@@ -69,6 +74,7 @@ pub struct Controller {
     refused: u32,
     awards: u32,
     lapses: u32,
+    clearing: Clearing,
     outbox: Vec<Message>,
 }
 
@@ -91,7 +97,8 @@ base::hashed!(Controller {
     next_renewal_s,
     refused,
     awards,
-    lapses
+    lapses,
+    clearing
 } without { settings, outbox });
 
 /// A goal that a controller owns.
@@ -114,6 +121,7 @@ impl Controller {
     #[must_use]
     pub fn new(settings: Arc<Settings>) -> Self {
         Self {
+            clearing: Clearing::new(settings.clearance.as_ref()),
             settings,
             own: RobotId::default(),
             now_s: f64::NEG_INFINITY,
@@ -151,8 +159,15 @@ impl Controller {
     /// The controller with the settings of another one, and its own memory.
     #[must_use]
     pub fn with_settings_of(&self, other: &Self) -> Self {
+        let is_same_lane = self.settings.clearance == other.settings.clearance;
+        let clearing = if is_same_lane {
+            self.clearing.clone()
+        } else {
+            Clearing::new(other.settings.clearance.as_ref())
+        };
         Self {
             settings: other.settings.clone(),
+            clearing,
             ..self.clone()
         }
     }
@@ -177,6 +192,7 @@ impl Controller {
         }
         self.sense(percept);
         self.present(percept);
+        self.clear(percept);
         self.call();
         self.award();
         self.arbitrate();
@@ -252,7 +268,19 @@ impl Controller {
         self.lapses
     }
 
-    /// Owns a goal that a person has issued.
+    /// What it believes of the lane that it is to clear, if there is one.
+    #[must_use]
+    pub fn lane(&self) -> Option<&LanePicture> {
+        self.clearing.picture()
+    }
+
+    /// What it has stated about the lane, if it has.
+    #[must_use]
+    pub fn lane_statement(&self) -> Option<LaneStatement> {
+        self.clearing.statement()
+    }
+
+    /// Owns a goal that a person has issued, or that it has planned.
     fn own(&mut self, task: Task) {
         let is_known = self.goals.iter().any(|owned| owned.task.id == task.id);
         if is_known || !task.is_valid() {

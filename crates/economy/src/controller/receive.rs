@@ -49,6 +49,9 @@ impl Controller {
             Dispatch::Release(claim) => self.take_release(from, claim),
             Dispatch::Renew(renewal) => self.renew_services(from, renewal),
             Dispatch::RenewOne(claim) => self.renew_service(from, claim),
+            Dispatch::Coverage(_) | Dispatch::Mark(_) | Dispatch::Statement(_) => {
+                self.clearing.receive(from, &dispatch);
+            }
             _ => {}
         }
     }

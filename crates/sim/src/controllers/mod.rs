@@ -75,6 +75,7 @@ impl ControllerSpec {
             max_drift,
             robot_kinds,
             controller_kinds,
+            clearance: None,
         }
     }
 }

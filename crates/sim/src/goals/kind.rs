@@ -104,6 +104,8 @@ impl GoalKind {
         let work = match self.work {
             Work::Visit => "visit",
             Work::Search => "search",
+            Work::Interrogate => "interrogate",
+            Work::Neutralise => "neutralise",
         };
         let deadline_s = self.deadline_s.map(|time_s| time_s.to_string());
         [

@@ -110,8 +110,18 @@ export interface Contact {
   age_s: number;
 }
 
+/** What all looks of a robot so far have missed, for 16 cells of a lane. It is cumulative: a later message replaces an earlier one, and a repeated one changes nothing. */
+export interface Coverage {
+  /** The first of the cells. */
+  first: number;
+  /** Number of marks of the robot so far. Looks without a mark are evidence of a clear place only for a receiver that has all marks. */
+  marks: number;
+  /** For each cell, the probability that all looks miss an item there that the sensors can detect, as its negative logarithm in steps of 1/16 nat; 255 stands for 255 or more. */
+  missed: [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
+}
+
 /** A message about a goal that a controller owns or awards. */
-export type Dispatch = { issue: Task } | { serial: number } | { query: Record<string, never> } | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { restore: Task } | { bind: Award } | { assigned: Assignment } | { service: boolean };
+export type Dispatch = { issue: Task } | { serial: number } | { query: Record<string, never> } | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { restore: Task } | { bind: Award } | { assigned: Assignment } | { service: boolean } | { lane: Lane } | { coverage: Coverage } | { mark: Mark } | { statement: Statement };
 
 /** The progress of a robot towards a goal. */
 export interface Fitness {
@@ -182,6 +192,33 @@ export interface HeadingOptions {
   /** All around, the first straight ahead, anticlockwise. */
   headings: HeadingOption[];
 }
+
+/** A lane to be cleared, as a grid of square cells, row by row from the lower left corner. */
+export interface Lane {
+  /** Its lower left corner in the world, in metres. */
+  min_m: [number, number];
+  /** Its upper right corner. */
+  max_m: [number, number];
+  /** Side of a cell. The last cells of rows and columns may reach beyond the lane. */
+  cell_m: number;
+  /** The kinds of items that are to be cleared: one bit for each, from the lowest. */
+  hazards: number;
+}
+
+/** A place where a robot has detected something. It is cumulative: a later message replaces an earlier one with the same id. */
+export interface Mark {
+  /** Its id: the robot, and the number that the robot gave it. */
+  id: GoalId;
+  /** Its position in the world, in metres. */
+  at_m: [number, number];
+  /** Standard deviation of the position along each axis, the error of the robot's pose included. */
+  deviation_m: number;
+  /** For each of the first four kinds of items, the log likelihood ratio of all looks of the robot at the place, contacts and misses: an item of that kind that its sensors can detect, against nothing there but false alarms. */
+  log_ratios: [number, number, number, number];
+}
+
+/** A verdict on a mark. */
+export type MarkVerdict = "confirmed" | "rejected" | "isolated" | "neutralised";
 
 /** A message from one robot or controller to others. */
 export interface Message {
@@ -380,13 +417,23 @@ export interface SensorRequest {
   on: boolean;
 }
 
+/** What a robot states about a mark. */
+export interface Statement {
+  /** The mark, or the goal that the robot served there. */
+  mark: GoalId;
+  /** Its position in the world, in metres: receivers may not know the goal. */
+  at_m: [number, number];
+  /** The statement. */
+  verdict: MarkVerdict;
+}
+
 /** A goal as it is described in messages. */
 export interface Task {
   /** Its id. */
   id: GoalId;
   /** Its position in the world, in metres. */
   at_m: [number, number];
-  /** A robot is there within this distance; of a search, the radius of the area. */
+  /** A robot is there within this distance; of a search or an interrogation, the radius of the area. */
   radius_m: number;
   /** Value of serving it, relative to other goals. */
   value: number;
@@ -404,7 +451,7 @@ export interface Task {
 export type Verdict = "complete" | "impossible" | "approaching" | "receding";
 
 /** What a goal consists of. */
-export type Work = "visit" | "search";
+export type Work = "visit" | "search" | "interrogate" | "neutralise";
 
 /** A value, and its age. */
 export interface BooleanReading {

@@ -50,6 +50,12 @@ impl Localisation {
         self.history.pose_before(age_s, body)
     }
 
+    /// The pose some time ago, for an age that has been needed before.
+    pub(crate) fn pose_then(&self, age_s: f64, body: &Body) -> Option<Pose> {
+        let is_kept = (0.0..=self.depth_s).contains(&age_s);
+        is_kept.then(|| self.history.pose_before(age_s, body))?
+    }
+
     /// Updates the pose after a step with a displacement.
     pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
         let is_known = self.pose().is_some();

@@ -79,6 +79,11 @@ impl Beliefs {
         self.localisation.pose()
     }
 
+    /// The pose at the time of a measurement of the last step.
+    pub(crate) fn pose_then(&self, age_s: f64, body: &Body) -> Option<Pose> {
+        self.localisation.pose_then(age_s, body)
+    }
+
     /// Estimated remaining time of the battery, in seconds; infinite if unknown.
     pub(crate) fn battery_s(&self) -> f64 {
         self.battery.remaining_s()

@@ -1,0 +1,137 @@
+//! What a robot has searched of a lane, by its own detectors.
+//!
+//! The coverage map of its beliefs also contains what other robots report. Controllers receive the
+//! looks of each robot from that robot, and count them once.
+
+use super::ability::Moment;
+use crate::io::lane::{CELLS_PER_MESSAGE, Coverage, Lane};
+use crate::perception::beliefs::coverage_map::{CoverageMap, DetectorScan};
+use crate::perception::beliefs::field::Field;
+use crate::perception::beliefs::{Beliefs, Map};
+use alloc::vec;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// The coverage of a lane.
+#[derive(Debug, Clone)]
+pub(super) struct LaneCoverage {
+    lane: Lane,
+    /// On the grid of the robot's map.
+    own: CoverageMap,
+    /// The steps that were sent last, and the next block of cells.
+    sent: Vec<u8>,
+    next_block: usize,
+}
+
+base::hashed!(LaneCoverage {
+    lane,
+    own,
+    sent,
+    next_block
+});
+
+impl LaneCoverage {
+    pub(super) fn new(lane: Lane, map: &Map) -> Self {
+        let blocks = lane.cells().div_ceil(CELLS_PER_MESSAGE);
+        Self {
+            lane,
+            own: CoverageMap::new(map.field.cells()),
+            sent: vec![0; blocks * CELLS_PER_MESSAGE],
+            next_block: 0,
+        }
+    }
+
+    pub(super) fn lane(&self) -> Lane {
+        self.lane
+    }
+
+    /// Adds the measurements of a percept.
+    pub(super) fn update(&mut self, moment: &Moment, beliefs: &Beliefs) {
+        let Some(map) = &beliefs.map else {
+            return;
+        };
+        for observation in &moment.percept.observations {
+            let mut detectors = moment.body.detectors.iter();
+            let detector = detectors.find(|detector| detector.sensor == observation.sensor);
+            let pose = beliefs.pose_then(observation.age_s, moment.body);
+            if let (Some(detector), Some(pose)) = (detector, pose) {
+                let scan = DetectorScan {
+                    detector,
+                    at: pose.at,
+                    heading_rad: pose.heading_rad,
+                    trust: 1.0,
+                    observations: 1.0,
+                    blur_m: pose.blur_m(),
+                };
+                self.own.update(&map.field, &map.occupancy, &scan);
+            }
+        }
+    }
+
+    /// How often all looks miss a visible item at a position, in nats.
+    pub(super) fn nats_at(&self, map: &Map, at: Point) -> f64 {
+        -libm::log(
+            self.own
+                .of(map.field.nearest_cell(at))
+                .max(f64::MIN_POSITIVE),
+        )
+    }
+
+    /// The messages to be sent, at most a number: changed blocks of cells, then others again, as
+    /// messages are lost. `marks` is the number of marks so far.
+    pub(super) fn due(&mut self, map: &Map, marks: u32, max: usize) -> Vec<Coverage> {
+        let blocks = self.sent.len() / CELLS_PER_MESSAGE;
+        let order = (0..blocks).map(|index| (self.next_block + index) % blocks);
+        let all = order.map(|block| (block, self.block(map, block)));
+        let (mut due, same): (Vec<_>, Vec<_>) = all.partition(|(block, missed)| {
+            self.sent[block * CELLS_PER_MESSAGE..][..CELLS_PER_MESSAGE] != *missed
+        });
+        due.truncate(max.saturating_sub(1));
+        due.extend(same.into_iter().take(max - due.len()));
+        if let Some((block, _)) = due.last() {
+            self.next_block = (block + 1) % blocks;
+        }
+        let send = |(block, missed): (usize, [u8; CELLS_PER_MESSAGE])| {
+            let first = block * CELLS_PER_MESSAGE;
+            self.sent[first..first + CELLS_PER_MESSAGE].copy_from_slice(&missed);
+            Coverage {
+                first: u32::try_from(first).unwrap_or(u32::MAX),
+                marks,
+                missed,
+            }
+        };
+        due.into_iter().map(send).collect()
+    }
+
+    fn block(&self, map: &Map, block: usize) -> [u8; CELLS_PER_MESSAGE] {
+        core::array::from_fn(|index| {
+            let cell = block * CELLS_PER_MESSAGE + index;
+            if cell < self.lane.cells() {
+                Coverage::steps(self.nats(&map.field, cell))
+            } else {
+                0
+            }
+        })
+    }
+
+    /// How often all looks miss a visible item at a random position of a cell of the lane, in nats.
+    fn nats(&self, field: &Field, cell: usize) -> f64 {
+        let area = self.lane.cell_area(cell);
+        let [columns, rows] = field.columns_and_rows(area.min(), area.max());
+        let (mut sum, mut count) = (0.0, 0.0);
+        for row in rows {
+            for cell in row * field.columns + columns.start..row * field.columns + columns.end {
+                if area.contains(field.centre(cell)) {
+                    sum += self.own.of(cell);
+                    count += 1.0;
+                }
+            }
+        }
+        let missed = if count > 0.0 {
+            sum / count
+        } else {
+            self.own.of(field.nearest_cell(self.lane.centre(cell)))
+        };
+        -libm::log(missed.max(f64::MIN_POSITIVE))
+    }
+}

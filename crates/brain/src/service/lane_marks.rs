@@ -1,0 +1,154 @@
+//! The marks that a robot reports to the controllers of a lane: its tracks with own contacts.
+
+use crate::io::body::RobotId;
+use crate::io::goal_id::GoalId;
+use crate::io::lane::{MARK_KINDS, Mark};
+use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::items::track::Track;
+use alloc::vec::Vec;
+
+/// Maximum number of marks; controllers wait for those of further tracks, and declare nothing.
+const MAX_MARKS: usize = 1024;
+
+/// Log likelihood ratio of kinds that a track excludes, in nats.
+const EXCLUDED: f32 = -50.0;
+
+/// A mark is sent again when a log ratio has changed by this, in nats, or its position by this part of
+/// its deviation.
+const CHANGE_NATS: f32 = 0.25;
+const CHANGE_DEVIATIONS: f32 = 0.5;
+
+/// All marks of a robot.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LaneMarks {
+    list: Vec<Reported>,
+    /// Whether there were tracks beyond the maximum.
+    is_full: bool,
+    repeated: usize,
+}
+
+base::hashed!(LaneMarks {
+    list,
+    is_full,
+    repeated
+});
+
+#[derive(Debug, Clone, Copy)]
+struct Reported {
+    mark: Mark,
+    /// How often all looks before the first contact missed a visible item there, in nats.
+    missed_nats: f32,
+    /// The mark that was sent last.
+    sent: Option<Mark>,
+}
+
+base::hashed!(Reported {
+    mark,
+    missed_nats,
+    sent
+});
+
+impl LaneMarks {
+    /// Number of marks so far, including those that have not been sent.
+    pub(super) fn count(&self) -> u32 {
+        let count = u32::try_from(self.list.len()).unwrap_or(u32::MAX);
+        count.saturating_add(self.is_full.into())
+    }
+
+    /// Updates the marks by the tracks of a robot; that of a track that no longer exists remains as it
+    /// was. `missed_nats` are those of all of its looks at a
+    /// place before this step.
+    pub(super) fn update(&mut self, beliefs: &Beliefs, missed_nats: impl Fn(&Track) -> f64) {
+        let deviation_m = beliefs.pose().map_or(0.0, |pose| pose.deviation_m);
+        for track in &beliefs.items.tracks {
+            let Some(mut mark) = mark_of(track, beliefs.id, deviation_m) else {
+                continue;
+            };
+            let known = self.list.iter().position(|known| known.mark.id == mark.id);
+            if let Some(index) = known {
+                mark.add_nats(-self.list[index].missed_nats);
+                self.list[index].mark = mark;
+            } else if self.list.len() < MAX_MARKS {
+                #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+                let missed_nats = missed_nats(track) as f32;
+                mark.add_nats(-missed_nats);
+                self.list.push(Reported {
+                    mark,
+                    missed_nats,
+                    sent: None,
+                });
+            } else {
+                self.is_full = true;
+            }
+        }
+    }
+
+    /// The marks to be sent, at most a number: new ones, then changed ones, then one again, as messages
+    /// are lost.
+    pub(super) fn due(&mut self, max: usize) -> Vec<Mark> {
+        let mut due: Vec<usize> = Vec::new();
+        let new = |reported: &Reported| reported.sent.is_none();
+        let changed = |reported: &Reported| reported.sent.is_some() && reported.has_changed();
+        for is_due in [&new as &dyn Fn(&Reported) -> bool, &changed] {
+            let numbered = self.list.iter().enumerate();
+            due.extend(
+                numbered
+                    .filter(|(_, reported)| is_due(reported))
+                    .map(|(index, _)| index),
+            );
+        }
+        due.truncate(max.saturating_sub(1));
+        if !self.list.is_empty() {
+            self.repeated = (self.repeated + 1) % self.list.len();
+            if !due.contains(&self.repeated) {
+                due.push(self.repeated);
+            }
+        }
+        let send = |index: usize| {
+            let reported = &mut self.list[index];
+            reported.sent = Some(reported.mark);
+            reported.mark
+        };
+        due.into_iter().map(send).collect()
+    }
+}
+
+impl Reported {
+    fn has_changed(&self) -> bool {
+        let Some(sent) = self.sent else {
+            return true;
+        };
+        let ratios = self.mark.log_ratios.into_iter().zip(sent.log_ratios);
+        let moved = self.mark.at_m.into_iter().zip(sent.at_m);
+        let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m;
+        let mut ratios = ratios.map(|(now, then)| (now - then).abs());
+        let mut moved = moved.map(|(now, then)| (now - then).abs());
+        ratios.any(|change| change > CHANGE_NATS) || moved.any(|change_m| change_m > max_m)
+    }
+}
+
+impl Mark {
+    fn add_nats(&mut self, nats: f32) {
+        self.log_ratios = self.log_ratios.map(|ratio| ratio + nats);
+    }
+}
+
+/// The mark of a track by own looks; `None` without an own contact.
+#[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+fn mark_of(track: &Track, own: RobotId, pose_deviation_m: f64) -> Option<Mark> {
+    let mut sources = track.sources[..track.count].iter();
+    let source = sources.find(|source| source.provenance.observer == own)?;
+    // Kinds are reported as they are.
+    let mut log_ratios = [EXCLUDED; MARK_KINDS];
+    *log_ratios.get_mut(usize::from(track.kind))? = source.log_ratio as f32;
+    let variance_m2 = track.variance_m2 + pose_deviation_m * pose_deviation_m;
+    Some(Mark {
+        id: GoalId {
+            issuer: own,
+            number: source.provenance.track_id,
+        },
+        at_m: [track.at.x as f32, track.at.y as f32],
+        deviation_m: libm::sqrt(variance_m2) as f32,
+        log_ratios,
+    })
+}

@@ -1,0 +1,289 @@
+//! What a robot reports of a mined lane, and how it interrogates marks.
+
+use crate::{body, brain, percept_at};
+use base::geometry::{Point, Rectangle};
+use brain::{
+    About, Award, Body, Brain, Command, Contact, Coverage, Detector, Dispatch, GoalId, Lane, Mark,
+    MarkVerdict, Message, Observation, Other, Percept, Reason, ReceivedMessage, RobotId, Statement,
+    Task, Work,
+};
+
+const OWNER: RobotId = RobotId { kind: 1, index: 0 };
+
+const MATE: RobotId = RobotId { kind: 0, index: 7 };
+
+const LANE: Lane = Lane {
+    min_m: [0.0; 2],
+    max_m: [20.0, 8.0],
+    cell_m: 2.0,
+    hazards: 1,
+};
+
+/// A robot at (5, 5) that detects items within 3 m with a probability of one half.
+struct Robot {
+    brain: Brain,
+    step: u32,
+    heading_rad: f64,
+}
+
+impl Robot {
+    fn new() -> Self {
+        let detector = Detector {
+            range_m: 3.0,
+            width_rad: 7.0,
+            detection_probability: vec![vec![[0.0, 0.5]], vec![[0.0, 0.5]]],
+            false_alarms_per_m2: vec![1e-3; 2],
+            noise_m: 0.1,
+            ..Detector::default()
+        };
+        let corner = Point { x: 20.0, y: 20.0 };
+        let body = Body {
+            sensors: vec!["detector".to_owned()],
+            detectors: vec![detector],
+            item_kinds: vec!["mine".to_owned(), "clutter".to_owned()],
+            others: vec![Other::default()],
+            field: Some(Rectangle::spanned(Point::default(), corner)),
+            ..body()
+        };
+        let spec =
+            r#"{"limit_speed_to_stopping_distance": false, "behaviours": [{"kind": "serve"}]}"#;
+        Self {
+            brain: brain(spec, body),
+            step: 0,
+            heading_rad: 0.0,
+        }
+    }
+
+    /// A step with a measurement; `contacts` are kinds and distances ahead.
+    fn command(&mut self, messages: &[(RobotId, About)], contacts: &[(u16, f64)]) -> Command {
+        self.step += 1;
+        let inbox = messages.iter().map(|(from, about)| ReceivedMessage {
+            from: *from,
+            age_s: 0.0,
+            message: Message::to(RobotId::default(), *about),
+        });
+        let contacts = contacts.iter().map(|(kind, range_m)| Contact {
+            kind: *kind,
+            sensor: 0,
+            range_m: *range_m,
+            bearing_rad: -self.heading_rad,
+            age_s: 0.0,
+        });
+        let percept = Percept {
+            time_s: Some(0.1 * f64::from(self.step)),
+            inbox: inbox.collect(),
+            observations: vec![Observation {
+                sensor: 0,
+                age_s: 0.0,
+            }],
+            contacts: contacts.collect(),
+            ..percept_at(5.0, 5.0, self.heading_rad)
+        };
+        let command = self.brain.step(&percept);
+        self.heading_rad += 0.1 * command.motion.turn_rate_rad_s;
+        command
+    }
+
+    fn step(&mut self, messages: &[Dispatch], contacts: &[(u16, f64)]) -> Vec<Dispatch> {
+        let messages = messages.iter();
+        let messages: Vec<_> = messages
+            .map(|dispatch| (OWNER, About::Dispatch(*dispatch)))
+            .collect();
+        let sent = self.command(&messages, contacts).outbox.into_iter();
+        let sent = sent.filter_map(|message| match message.about {
+            About::Dispatch(dispatch) => Some(dispatch),
+            _ => None,
+        });
+        sent.collect()
+    }
+
+    /// Some steps after a lane has been named; returns all messages.
+    fn steps(&mut self, count: u32, contacts: &[(u16, f64)]) -> Vec<Dispatch> {
+        let mut sent = self.step(&[Dispatch::Lane(LANE)], contacts);
+        (1..count).for_each(|_| sent.extend(self.step(&[], contacts)));
+        sent
+    }
+
+    /// Is awarded the interrogation of a mark; returns whether it accepts.
+    fn interrogate(&mut self, work: Work) -> Result<(), Reason> {
+        let task = Task {
+            id: GoalId {
+                issuer: OWNER,
+                number: 3,
+            },
+            at_m: [6.0, 5.0],
+            radius_m: 1.5,
+            value: 1.0,
+            service_s: 1.0,
+            due_s: f32::MAX,
+            work,
+            capability: 0,
+        };
+        let sent = self.step(&[Dispatch::Call { number: 0, task }], &[]);
+        for sent in sent {
+            match sent {
+                Dispatch::Bid(bid) => {
+                    let award = Award {
+                        goal: task.id,
+                        number: bid.number,
+                        lease_s: 3600.0,
+                    };
+                    self.step(&[Dispatch::Award(award)], &[]);
+                    return Ok(());
+                }
+                Dispatch::Refuse(refusal) => return Err(refusal.reason),
+                _ => {}
+            }
+        }
+        Err(Reason::Lease)
+    }
+}
+
+/// The last value that is reported of the cell at a position.
+fn nats(sent: &[Dispatch], x: f64, y: f64) -> f64 {
+    let cell = LANE.cell_at(Point { x, y }).unwrap();
+    let mut steps = sent.iter().filter_map(|sent| match sent {
+        Dispatch::Coverage(Coverage { first, missed, .. }) => {
+            let index = cell.checked_sub(*first as usize)?;
+            missed.get(index).copied()
+        }
+        _ => None,
+    });
+    Coverage::nats(steps.next_back().unwrap_or_default().into())
+}
+
+fn marks(sent: &[Dispatch]) -> Vec<Mark> {
+    let marks = sent.iter().filter_map(|sent| match sent {
+        Dispatch::Mark(mark) => Some(*mark),
+        _ => None,
+    });
+    marks.collect()
+}
+
+fn statements(sent: &[Dispatch]) -> Vec<Statement> {
+    let statements = sent.iter().filter_map(|sent| match sent {
+        Dispatch::Statement(statement) => Some(*statement),
+        _ => None,
+    });
+    statements.collect()
+}
+
+#[test]
+fn a_robot_reports_the_looks_at_cells_in_its_view_only() {
+    let sent = Robot::new().steps(12, &[]);
+    // After eleven looks, each with a probability of one half, the second report.
+    let expected = 11.0 * 2.0_f64.ln();
+    assert!(
+        (nats(&sent, 5.0, 5.0) - expected).abs() < 0.1,
+        "{}",
+        nats(&sent, 5.0, 5.0)
+    );
+    assert!(nats(&sent, 15.0, 5.0) < 1e-9);
+}
+
+#[test]
+fn a_robot_that_knows_no_lane_reports_nothing_about_one() {
+    let mut robot = Robot::new();
+    let sent: Vec<_> = (0..30).flat_map(|_| robot.step(&[], &[(0, 1.0)])).collect();
+    let is_report = |sent: &Dispatch| matches!(sent, Dispatch::Coverage(_) | Dispatch::Mark(_));
+    assert!(!sent.iter().any(is_report));
+}
+
+#[test]
+fn looks_of_team_mates_are_not_reported_as_own() {
+    let mut robot = Robot::new();
+    robot.step(&[Dispatch::Lane(LANE)], &[]);
+    let mate = About::Sender {
+        at: Point { x: 15.0, y: 5.0 },
+        heading_rad: 0.0,
+        observations: 5,
+    };
+    let mut sent = Vec::new();
+    for _ in 0..15 {
+        let outbox = robot.command(&[(MATE, mate)], &[]).outbox;
+        sent.extend(
+            outbox
+                .into_iter()
+                .filter_map(|message| match message.about {
+                    About::Dispatch(dispatch) => Some(dispatch),
+                    _ => None,
+                }),
+        );
+    }
+    assert!(nats(&sent, 5.0, 5.0) > 1.0 && nats(&sent, 15.0, 5.0) < 1e-9);
+}
+
+#[test]
+fn reports_are_sent_once_a_second_with_a_bounded_number_of_messages() {
+    let sent = Robot::new().steps(50, &[(0, 1.0)]);
+    let reports = sent
+        .iter()
+        .filter(|sent| matches!(sent, Dispatch::Coverage(_)));
+    // Three blocks of cells, five seconds.
+    assert_eq!(reports.count(), 15);
+    assert!(marks(&sent).len() <= 10);
+}
+
+/// The mark of one contact after a number of looks, as reported after eleven looks.
+fn mark_after(looks: u32) -> Mark {
+    let mut robot = Robot::new();
+    robot.step(&[Dispatch::Lane(LANE)], &[]);
+    (0..looks).for_each(|_| assert_eq!(marks(&robot.step(&[], &[])), []));
+    robot.step(&[], &[(0, 1.0)]);
+    let sent = robot.steps(9 - looks, &[]);
+    let mut counts = sent.iter().filter_map(|sent| match sent {
+        Dispatch::Coverage(coverage) => Some(coverage.marks),
+        _ => None,
+    });
+    assert_eq!(counts.next_back(), Some(1));
+    *marks(&sent).last().unwrap()
+}
+
+#[test]
+fn a_mark_has_the_evidence_of_all_own_looks_before_and_after_the_contact() {
+    let (early, late) = (mark_after(0), mark_after(6));
+    assert_eq!(late.id.issuer, RobotId::default());
+    assert!((late.at_m[0] - 6.0).abs() < 0.1 && late.deviation_m < 0.5);
+    assert!(late.log_ratios[1] < -10.0, "it is no clutter");
+    let contact = (0.5 / (core::f32::consts::TAU * 0.01 * 1e-3)).ln();
+    for mark in [early, late] {
+        let expected = contact - 10.0 * 2.0_f32.ln();
+        assert!((mark.log_ratios[0] - expected).abs() < 0.2, "{mark:?}");
+    }
+}
+
+#[test]
+fn a_robot_confirms_a_mark_at_which_it_detects_a_mine_and_rejects_others() {
+    for (contacts, verdict) in [
+        (&[(0, 1.0)][..], MarkVerdict::Confirmed),
+        (&[(1, 1.0)][..], MarkVerdict::Rejected),
+        (&[][..], MarkVerdict::Rejected),
+    ] {
+        let mut robot = Robot::new();
+        robot.step(&[Dispatch::Lane(LANE)], &[]);
+        assert_eq!(robot.interrogate(Work::Interrogate), Ok(()));
+        let sent = robot.steps(60, contacts);
+        let stated = statements(&sent);
+        assert_eq!(stated.len(), 3, "repeated, as messages are lost");
+        assert!(stated.iter().all(|stated| stated.verdict == verdict));
+        assert_eq!((stated[0].mark.number, stated[0].at_m), (3, [6.0, 5.0]));
+    }
+}
+
+#[test]
+fn a_robot_faces_the_mark_that_it_interrogates() {
+    let mut robot = Robot::new();
+    robot.heading_rad = 2.0;
+    robot.step(&[], &[]);
+    assert_eq!(robot.interrogate(Work::Interrogate), Ok(()));
+    (0..8).for_each(|_| {
+        robot.step(&[], &[]);
+    });
+    assert!(robot.heading_rad < 1.2, "{}", robot.heading_rad);
+}
+
+#[test]
+fn a_robot_refuses_to_neutralise_without_a_tool() {
+    let refused = Robot::new().interrogate(Work::Neutralise);
+    assert_eq!(refused, Err(Reason::Capability));
+}

@@ -1,0 +1,65 @@
+//! Whether a controller declares a lane clear, or gives it up.
+
+use super::picture::LanePicture;
+use super::plan::Plan;
+use base::hash::Hash;
+use base::hashed::Hashed;
+
+/// A lane is given up when no goal has lowered the risk for this time, in seconds: robots out of range
+/// may come back.
+const PATIENCE_S: f64 = 60.0;
+
+/// What a controller states about a lane. It states it once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LaneStatement {
+    /// Whether it declares the lane clear; otherwise it gives it up.
+    pub is_clear: bool,
+    /// The probability that at least one mine is left, at that time.
+    pub risk: f64,
+    /// That time, on its clock.
+    pub at_s: f64,
+}
+
+base::hashed!(LaneStatement {
+    is_clear,
+    risk,
+    at_s
+});
+
+/// The decision on a lane.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Decision {
+    pub(crate) statement: Option<LaneStatement>,
+    /// Since when no goal lowers the risk.
+    hopeless_since_s: Option<f64>,
+}
+
+impl Hashed for Decision {
+    fn add_to(&self, hash: &mut Hash) {
+        (self.statement, self.hopeless_since_s).add_to(hash);
+    }
+}
+
+impl Decision {
+    /// Declares the lane clear when the risk is low and all marks that robots report have been
+    /// received; gives it up when no robot in range can lower the risk.
+    pub(crate) fn decide(&mut self, picture: &LanePicture, plan: &Plan, now_s: f64) {
+        let risk = picture.risk().probability;
+        let is_clear = risk < picture.clearance().declare_below && picture.missing_marks() == 0;
+        self.hopeless_since_s = if plan.is_possible {
+            None
+        } else {
+            self.hopeless_since_s.or(Some(now_s))
+        };
+        let is_hopeless = self
+            .hopeless_since_s
+            .is_some_and(|since_s| now_s >= since_s + PATIENCE_S);
+        if self.statement.is_none() && (is_clear || is_hopeless) {
+            self.statement = Some(LaneStatement {
+                is_clear,
+                risk,
+                at_s: now_s,
+            });
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The marks of all robots, as places.
+
+use super::place::Place;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use brain::{Mark, RobotId, Statement};
+
+/// Maximum number of places; marks of further ones are refused, and remain missing.
+const MAX_PLACES: usize = 10_000;
+
+/// All places that robots have marked.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Marks {
+    pub(super) places: Vec<Place>,
+    next_number: u32,
+    /// For each robot, the number of its marks that have been received, and of those that it reports.
+    counts: Vec<MarkCount>,
+}
+
+base::hashed!(Marks {
+    places,
+    next_number,
+    counts
+});
+
+#[derive(Debug, Clone, Copy)]
+struct MarkCount {
+    robot: RobotId,
+    received: u32,
+    reported: u32,
+}
+
+base::hashed!(MarkCount {
+    robot,
+    received,
+    reported
+});
+
+impl Marks {
+    /// Takes a mark: it updates the one with the same id, or belongs to the nearest place within reach,
+    /// or is a new place.
+    pub(super) fn take(&mut self, mark: Mark) {
+        let is_full = self.places.len() >= MAX_PLACES;
+        let known = self.places.iter_mut().find(|place| place.holds(&mark));
+        match known {
+            Some(place) => match place.without(&mark) {
+                // It has moved away from the other marks.
+                Some(others) if others.distance_to(&mark).is_none() => *place = others,
+                _ => {
+                    place.put(mark);
+                    return;
+                }
+            },
+            None if is_full => return,
+            None => self.count(mark.id.issuer).received += 1,
+        }
+        self.add(mark);
+    }
+
+    fn add(&mut self, mark: Mark) {
+        let places = self.places.iter_mut();
+        let near = places.filter_map(|place| Some((place.distance_to(&mark)?, place)));
+        let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
+        if let Some((_, place)) = nearest {
+            place.put(mark);
+        } else {
+            self.places.push(Place::new(self.next_number, mark));
+            self.next_number += 1;
+        }
+    }
+
+    /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place.
+    pub(super) fn state(&mut self, statement: &Statement) {
+        let at = Point::from(statement.at_m.map(f64::from));
+        let is_named = |place: &Place| place.marks.iter().any(|mark| mark.id == statement.mark);
+        let named = self.places.iter().position(is_named);
+        let index = named.or_else(|| {
+            let places = self.places.iter().enumerate();
+            let away = places.map(|(index, place)| (place.at.to(at).length(), index, place));
+            let near = away.filter(|(away_m, _, place)| *away_m <= place.reach_m());
+            let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
+            nearest.map(|(_, index, _)| index)
+        });
+        if let Some(place) = index.and_then(|index| self.places.get_mut(index)) {
+            place.state(statement.verdict);
+        }
+    }
+
+    /// Notes how many marks a robot has; returns whether all of them have been received.
+    pub(super) fn note_reported(&mut self, robot: RobotId, reported: u32) -> bool {
+        let count = self.count(robot);
+        count.reported = count.reported.max(reported);
+        count.received >= reported
+    }
+
+    /// Number of marks that robots report and that have not been received.
+    pub(super) fn missing(&self) -> u32 {
+        let missing = self.counts.iter();
+        let missing = missing.map(|count| count.reported.saturating_sub(count.received));
+        missing.sum()
+    }
+
+    fn count(&mut self, robot: RobotId) -> &mut MarkCount {
+        let known = self.counts.iter().position(|count| count.robot == robot);
+        let index = known.unwrap_or_else(|| {
+            self.counts.push(MarkCount {
+                robot,
+                received: 0,
+                reported: 0,
+            });
+            self.counts.len() - 1
+        });
+        &mut self.counts[index]
+    }
+}

@@ -1,0 +1,201 @@
+//! The lane as a controller believes it to be.
+
+use super::coverage::Searched;
+use super::marks::Marks;
+use super::place::Place;
+use super::risk::Risk;
+use super::settings::Clearance;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use brain::{Coverage, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+
+/// Probabilities of a mine are at most this: no mark is certain.
+const MAX_PROBABILITY: f64 = 1.0 - 1e-9;
+
+/// What a controller believes of a lane.
+#[derive(Debug, Clone)]
+pub struct LanePicture {
+    clearance: Arc<Clearance>,
+    /// For each sensor model, the blind share of each kind; for each kind of robots, its model.
+    blind: Vec<[f64; MARK_KINDS]>,
+    model_of_kind: Vec<usize>,
+    searched: Searched,
+    marks: Marks,
+}
+
+base::hashed!(LanePicture { searched, marks } without { clearance, blind, model_of_kind });
+
+/// A place that robots have marked, as a controller believes it to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BelievedMark {
+    /// Its number, which never changes.
+    pub number: u32,
+    /// Its position in the world.
+    pub at: Point,
+    /// Standard deviation of the position along each axis, in metres.
+    pub deviation_m: f64,
+    /// Probability of each kind of items; the rest is that of nothing.
+    pub probabilities: [f64; MARK_KINDS],
+    /// Probability that it holds a mine that has not been neutralised.
+    pub mine: f64,
+    /// The last statement about it.
+    pub verdict: Option<MarkVerdict>,
+}
+
+impl LanePicture {
+    /// The picture before any message.
+    #[must_use]
+    pub fn new(clearance: Arc<Clearance>) -> Self {
+        let models = clearance.models();
+        let shares = models
+            .iter()
+            .map(|robot| core::array::from_fn(|kind| robot.blind_share_of(kind)));
+        Self {
+            blind: shares.collect(),
+            searched: Searched::new(models.len(), clearance.lane.cells()),
+            marks: Marks::default(),
+            model_of_kind: clearance.model_of_kind(),
+            clearance,
+        }
+    }
+
+    /// What is known of the lane and the robots.
+    #[must_use]
+    pub fn clearance(&self) -> &Clearance {
+        &self.clearance
+    }
+
+    /// Takes what a robot has searched, unless some of its marks have not been received: the robot
+    /// repeats both.
+    pub fn take_coverage(&mut self, robot: RobotId, coverage: &Coverage) {
+        let Some(model) = self.model_of(robot) else {
+            return;
+        };
+        if self.marks.note_reported(robot, coverage.marks) {
+            self.searched.take(robot, model, coverage);
+        }
+    }
+
+    /// Takes a mark of a robot; one that names another issuer has no effect.
+    pub fn take_mark(&mut self, robot: RobotId, mark: &Mark) {
+        let is_own = mark.id.issuer == robot && self.model_of(robot).is_some();
+        if is_own && mark.is_valid() {
+            self.marks.take(*mark);
+        }
+    }
+
+    /// Takes a statement of a robot about a mark.
+    pub fn take_statement(&mut self, statement: &Statement) {
+        if statement.at_m.into_iter().all(f32::is_finite) {
+            self.marks.state(statement);
+        }
+    }
+
+    /// Number of marks that robots report and that have not been received.
+    #[must_use]
+    pub fn missing_marks(&self) -> u32 {
+        self.marks.missing()
+    }
+
+    /// The places that robots have marked, in the order of their numbers.
+    pub fn marks(&self) -> impl Iterator<Item = BelievedMark> {
+        self.marks.places.iter().map(|place| self.believed(place))
+    }
+
+    /// Expected number of mines in a cell without a mark.
+    #[must_use]
+    pub fn unmarked(&self, cell: usize) -> f64 {
+        self.unmarked_after(cell, &[])
+    }
+
+    /// The same after further looks, in nats for each sensor model; 0 for those that are missing.
+    pub(crate) fn unmarked_after(&self, cell: usize, more_nats: &[f64]) -> f64 {
+        let lane = &self.clearance.lane;
+        let share = lane.cell_area(cell).area_m2() / lane.area().area_m2();
+        let left = self.clearance.hazards().map(|(kind, expected)| {
+            let missed = (0..self.blind.len()).map(|model| {
+                let nats = self.searched.nats_without(model, cell, &[]);
+                let more_nats = more_nats.get(model).copied().unwrap_or_default();
+                missed_share(self.blind[model][kind], nats + more_nats)
+            });
+            expected * share * missed.product::<f64>()
+        });
+        left.sum()
+    }
+
+    /// The probability that at least one mine is left in the lane.
+    #[must_use]
+    pub fn risk(&self) -> Risk {
+        let area = self.clearance.lane.area();
+        let cells = 0..self.clearance.lane.cells();
+        let inside = self.marks().filter(|mark| area.contains(mark.at));
+        Risk::new(
+            cells.map(|cell| self.unmarked(cell)).sum(),
+            inside.map(|mark| mark.mine),
+        )
+    }
+
+    fn model_of(&self, robot: RobotId) -> Option<usize> {
+        self.model_of_kind.get(usize::from(robot.kind)).copied()
+    }
+
+    fn believed(&self, place: &Place) -> BelievedMark {
+        let probabilities = self.probabilities(place);
+        let is_open = place.verdict != Some(MarkVerdict::Neutralised);
+        let hazards = self.clearance.hazards().filter(|_| is_open);
+        let mine: f64 = hazards.map(|(kind, _)| probabilities[kind]).sum();
+        BelievedMark {
+            number: place.number,
+            at: place.at,
+            deviation_m: libm::sqrt(place.variance_m2),
+            probabilities,
+            mine: mine.min(MAX_PROBABILITY),
+            verdict: place.verdict,
+        }
+    }
+
+    /// Probability of each kind of items at a place, against nothing but false alarms.
+    fn probabilities(&self, place: &Place) -> [f64; MARK_KINDS] {
+        let log_odds: [f64; MARK_KINDS] = core::array::from_fn(|kind| self.log_odds(place, kind));
+        let highest = log_odds.into_iter().fold(0.0, f64::max);
+        let odds = log_odds.map(|odds| libm::exp(odds - highest));
+        let total = libm::exp(-highest) + odds.into_iter().sum::<f64>();
+        odds.map(|odds| odds / total)
+    }
+
+    /// Log odds of a kind of items at a place, against nothing but false alarms.
+    ///
+    /// An item that a sensor model has detected is one that it can detect. If the model has not,
+    /// either all of its looks have missed the item, or the model is blind to it.
+    fn log_odds(&self, place: &Place, kind: usize) -> f64 {
+        let area_m2 = self.clearance.lane.area().area_m2();
+        let expected = self.clearance.expected.get(kind).copied();
+        let Some(expected) = expected.filter(|expected| *expected > 0.0) else {
+            return f64::NEG_INFINITY;
+        };
+        let robots = place.robots();
+        let models =
+            (0..self.blind.len()).map(|model| self.log_missed(model, kind, place.at, &robots));
+        libm::log(expected / area_m2) + place.log_ratio_m2(kind) + models.sum::<f64>()
+    }
+
+    /// Log likelihood of the looks of a model's robots without a mark, for an item at a position that
+    /// some robots have marked.
+    fn log_missed(&self, model: usize, kind: usize, at: Point, robots: &[RobotId]) -> f64 {
+        let blind = self.blind[model][kind];
+        let cell = self.clearance.lane.cell_at(at);
+        let nats = cell.map_or(0.0, |cell| self.searched.nats_without(model, cell, robots));
+        let mut marked = robots.iter();
+        if marked.any(|robot| self.model_of(*robot) == Some(model)) {
+            libm::log(1.0 - blind) - nats
+        } else {
+            libm::log(missed_share(blind, nats))
+        }
+    }
+}
+
+/// Share of items that all looks of a model miss.
+fn missed_share(blind: f64, nats: f64) -> f64 {
+    blind + (1.0 - blind) * libm::exp(-nats)
+}

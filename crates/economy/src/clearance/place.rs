@@ -1,0 +1,131 @@
+//! A place that robots have marked: their marks, fused.
+
+use alloc::vec::Vec;
+use base::geometry::Point;
+use brain::{Mark, MarkVerdict, RobotId};
+use core::f64::consts::TAU;
+
+/// Marks belong to one place within this many joint standard deviations. With 3, one pair of marks of
+/// the same item in ninety would be two places, of which one is never neutralised; with 4, one in 3,000.
+const GATE: f64 = 4.0;
+
+/// Error of the position of a statement, in metres: that of a robot's pose, and its distance.
+const STATEMENT_M: f64 = 1.0;
+
+/// Maximum number of marks of a place.
+const MAX_MARKS: usize = 64;
+
+/// A place with at least one mark.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    /// Its number, which never changes.
+    pub(super) number: u32,
+    pub(super) marks: Vec<Mark>,
+    /// The last statement about it; one that it has been neutralised is final.
+    pub(super) verdict: Option<MarkVerdict>,
+    /// Mean of the positions, weighted by their precision, and its variance along each axis.
+    pub(super) at: Point,
+    pub(super) variance_m2: f64,
+}
+
+base::hashed!(Place {
+    number,
+    marks,
+    verdict,
+    at,
+    variance_m2
+});
+
+impl Place {
+    pub(super) fn new(number: u32, mark: Mark) -> Self {
+        let mut place = Self {
+            number,
+            marks: Vec::new(),
+            verdict: None,
+            at: mark.at(),
+            variance_m2: variance_m2(&mark),
+        };
+        place.put(mark);
+        place
+    }
+
+    /// Adds a mark, or replaces the one with the same id.
+    pub(super) fn put(&mut self, mark: Mark) {
+        self.marks.retain(|known| known.id != mark.id);
+        self.marks.push(mark);
+        self.fuse();
+    }
+
+    /// The place without a mark; `None` if that is its only one.
+    pub(super) fn without(&self, mark: &Mark) -> Option<Self> {
+        let mut place = self.clone();
+        place.marks.retain(|known| known.id != mark.id);
+        if place.marks.is_empty() {
+            return None;
+        }
+        place.fuse();
+        Some(place)
+    }
+
+    /// Takes a statement; one that it has been neutralised is final.
+    pub(super) fn state(&mut self, verdict: MarkVerdict) {
+        if self.verdict != Some(MarkVerdict::Neutralised) {
+            self.verdict = Some(verdict);
+        }
+    }
+
+    /// Statements within this distance can be about it.
+    pub(super) fn reach_m(&self) -> f64 {
+        GATE * libm::sqrt(self.variance_m2) + STATEMENT_M
+    }
+
+    pub(super) fn holds(&self, mark: &Mark) -> bool {
+        self.marks.iter().any(|known| known.id == mark.id)
+    }
+
+    /// The robots that have marked it.
+    pub(super) fn robots(&self) -> Vec<RobotId> {
+        self.marks.iter().map(|mark| mark.id.issuer).collect()
+    }
+
+    /// Distance of a mark in joint standard deviations, squared; `None` if it belongs to another place:
+    /// two marks of one robot are two places.
+    pub(super) fn distance_to(&self, mark: &Mark) -> Option<f64> {
+        let is_same_robot = |known: &Mark| known.id.issuer == mark.id.issuer;
+        if self.marks.len() >= MAX_MARKS || self.marks.iter().any(is_same_robot) {
+            return None;
+        }
+        let joint_m2 = self.variance_m2 + variance_m2(mark);
+        let square = self.at.to(mark.at()).length_squared() / joint_m2;
+        (square <= GATE * GATE).then_some(square)
+    }
+
+    /// Log likelihood ratio of all marks for a kind of items that all of their sensors can detect,
+    /// integrated over the position of the item, in square metres.
+    ///
+    /// ```text
+    /// integral of product exp(L_r - |x - x_r|^2 / 2 s_r^2) dx
+    ///   = exp(sum L_r) x 2 pi s^2 x exp(-sum |x_0 - x_r|^2 / 2 s_r^2),  1 / s^2 = sum 1 / s_r^2
+    /// ```
+    pub(super) fn log_ratio_m2(&self, kind: usize) -> f64 {
+        let each = self.marks.iter().map(|mark| {
+            let away_m2 = self.at.to(mark.at()).length_squared();
+            f64::from(mark.log_ratios[kind]) - away_m2 / (2.0 * variance_m2(mark))
+        });
+        libm::log(TAU * self.variance_m2) + each.sum::<f64>()
+    }
+
+    fn fuse(&mut self) {
+        let (mut precision, mut sum) = (0.0, Point::default());
+        for mark in &self.marks {
+            let weight = 1.0 / variance_m2(mark);
+            precision += weight;
+            sum = sum.plus(mark.at().times(weight));
+        }
+        (self.at, self.variance_m2) = (sum.times(1.0 / precision), 1.0 / precision);
+    }
+}
+
+fn variance_m2(mark: &Mark) -> f64 {
+    f64::from(mark.deviation_m) * f64::from(mark.deviation_m)
+}

@@ -1,0 +1,179 @@
+//! The goals that follow from what a controller believes of a lane.
+//!
+//! ```text
+//! search       each tile, again in each way, while that lowers the expected number of mines
+//! interrogate  each mark without a verdict above a probability of a mine; rejected ones again
+//! neutralise   each mark that has been confirmed, or fenced off
+//! ```
+//!
+//! The value of a goal is the expected number of mines that it finds or destroys. An auction divides
+//! the time of a bid by it, so that robots serve first what lowers the risk most per second.
+
+use super::picture::{BelievedMark, LanePicture};
+use super::settings::{Clearance, Skill};
+use alloc::vec;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use brain::{Lane, MarkVerdict, Work};
+
+/// Goals with a lower value, as a share of the expected number of mines that are left, are not served.
+const MIN_SHARE: f64 = 1e-3;
+
+/// Goals lower the risk if they find more than this share of the mines that are left.
+const MIN_POSSIBLE_SHARE: f64 = 0.01;
+
+/// Radius of a place, in deviations of its position.
+const RADIUS_DEVIATIONS: f64 = 3.0;
+
+/// A mark is interrogated at most this many times: more looks of a blind sensor change nothing.
+pub(crate) const MAX_INTERROGATIONS: u32 = 3;
+
+/// What a goal is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Subject {
+    /// A search of a tile, by the index of the way.
+    Tile { tile: u32, search: u8 },
+    /// The interrogation of a marked place.
+    Suspect { place: u32 },
+    /// The neutralisation of a marked place.
+    Mine { place: u32 },
+}
+
+/// A goal that is to be served.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Proposal {
+    pub(crate) subject: Subject,
+    /// The tile in which it lies.
+    pub(crate) tile: u32,
+    pub(crate) at: Point,
+    pub(crate) radius_m: f64,
+    /// Expected number of mines that it finds or destroys.
+    pub(crate) value: f64,
+    pub(crate) work: Work,
+    pub(crate) skill: Skill,
+}
+
+/// All goals that lower the risk.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Plan {
+    pub(crate) proposals: Vec<Proposal>,
+    /// Whether the goals that robots in range can serve lower the risk.
+    pub(crate) is_possible: bool,
+}
+
+/// The circumstances in which a controller plans.
+pub(crate) struct Circumstances<'c> {
+    /// The kinds of robots in range.
+    pub(crate) kinds: &'c [u8],
+    /// How often a place has been interrogated.
+    pub(crate) interrogations: &'c dyn Fn(u32) -> u32,
+}
+
+impl Plan {
+    pub(crate) fn new(picture: &LanePicture, circumstances: &Circumstances) -> Self {
+        let clearance = picture.clearance();
+        let tiles = Lane {
+            cell_m: clearance.tile_m,
+            ..clearance.lane
+        };
+        let mut proposals = Vec::new();
+        for (search, skill) in (0..).zip(&clearance.searches) {
+            proposals.extend(searches(picture, &tiles, search, *skill));
+        }
+        for mark in picture.marks() {
+            let interrogations = (circumstances.interrogations)(mark.number);
+            proposals.extend(work_at(&mark, clearance, &tiles, interrogations));
+        }
+        let expected = picture.risk().expected();
+        let is_possible = |one: &Proposal| circumstances.has(clearance, &one.skill);
+        let possible = proposals.iter().filter(|one| is_possible(one));
+        let gain: f64 = possible.map(|one| one.value).sum();
+        proposals.retain(|one| one.value > MIN_SHARE * expected);
+        Self {
+            proposals,
+            is_possible: gain > MIN_POSSIBLE_SHARE * expected,
+        }
+    }
+}
+
+impl Circumstances<'_> {
+    /// Whether a robot in range has a skill.
+    fn has(&self, clearance: &Clearance, skill: &Skill) -> bool {
+        let mut kinds = self.kinds.iter();
+        kinds.any(|kind| {
+            let robot = clearance.robots.get(usize::from(*kind));
+            robot.is_some_and(|robot| robot.has(skill))
+        })
+    }
+}
+
+/// One more search of each tile.
+fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Vec<Proposal> {
+    let nats = nats_of(picture.clearance(), &skill);
+    let lane = picture.clearance().lane;
+    let mut gains = vec![0.0; tiles.cells()];
+    for cell in 0..lane.cells() {
+        let gain = picture.unmarked(cell) - picture.unmarked_after(cell, &nats);
+        if let Some(tile) = tiles.cell_at(lane.centre(cell)) {
+            gains[tile] += gain;
+        }
+    }
+    let each = (0..).zip(gains).map(|(tile, value)| {
+        let area = tiles.cell_area(tile as usize);
+        Proposal {
+            subject: Subject::Tile { tile, search },
+            tile,
+            at: tiles.centre(tile as usize),
+            radius_m: area.size().length() / 2.0,
+            value,
+            work: Work::Search,
+            skill,
+        }
+    });
+    each.collect()
+}
+
+/// For each sensor model, the looks of one search by the best robots that have the skill.
+fn nats_of(clearance: &Clearance, skill: &Skill) -> Vec<f64> {
+    let models = clearance.models();
+    let mut nats = vec![0.0; models.len()];
+    let able = clearance.robots.iter().filter(|robot| robot.has(skill));
+    let best = able.max_by(|one, other| one.search_nats.total_cmp(&other.search_nats));
+    if let Some(best) = best {
+        let index = models.iter().position(|robot| robot.model == best.model);
+        nats[index.unwrap_or_default()] = best.search_nats;
+    }
+    nats
+}
+
+/// What is to be done at a mark, if anything.
+fn work_at(
+    mark: &BelievedMark,
+    clearance: &Clearance,
+    tiles: &Lane,
+    interrogations: u32,
+) -> Option<Proposal> {
+    let place = mark.number;
+    let is_suspect = mark.mine > clearance.interrogate_above;
+    let (subject, work, skill) = match mark.verdict {
+        Some(MarkVerdict::Confirmed | MarkVerdict::Isolated) => {
+            let subject = Subject::Mine { place };
+            (subject, Work::Neutralise, clearance.neutralise?)
+        }
+        None | Some(MarkVerdict::Rejected) if is_suspect && interrogations < MAX_INTERROGATIONS => {
+            let subject = Subject::Suspect { place };
+            (subject, Work::Interrogate, clearance.interrogate?)
+        }
+        _ => return None,
+    };
+    let tile = tiles.cell_at(mark.at)?;
+    Some(Proposal {
+        subject,
+        tile: u32::try_from(tile).ok()?,
+        at: mark.at,
+        radius_m: (RADIUS_DEVIATIONS * mark.deviation_m).max(skill.range_m.into()),
+        value: mark.mine,
+        work,
+        skill,
+    })
+}

@@ -1,0 +1,102 @@
+//! What a controller knows of a lane and of the sensors of robots before the mission.
+
+use crate::clearance::risk::chance_of_any;
+use alloc::vec::Vec;
+use brain::Lane;
+
+/// A lane that controllers are to clear, and what they assume of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clearance {
+    /// The lane, and the kinds of items that make it unsafe until they are neutralised.
+    pub lane: Lane,
+    /// Expected number of items of each kind in the lane, uniformly distributed; the number is Poisson
+    /// distributed. At most four kinds: marks distinguish no more.
+    pub expected: Vec<f64>,
+    /// The kinds of robots, as ids count them.
+    pub robots: Vec<RobotModel>,
+    /// The lane is declared clear when the risk is below this probability.
+    pub declare_below: f64,
+    /// Marks are interrogated while the probability of a mine there is above this.
+    pub interrogate_above: f64,
+    /// Side of the tiles that are searched as one goal, in metres.
+    pub tile_m: f32,
+    /// The ways to search a tile, such as a survey from the air and a search on the ground.
+    pub searches: Vec<Skill>,
+    /// How marks are interrogated; without it, no robot can.
+    pub interrogate: Option<Skill>,
+    /// How marks are neutralised; without it, no robot can.
+    pub neutralise: Option<Skill>,
+}
+
+/// What robots need for goals of a kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Skill {
+    /// Number of the capability; 0 if all robots have it.
+    pub capability: u8,
+    /// Time that it takes at the place.
+    pub service_s: f32,
+    /// Range of the tool, in metres; unused by searches.
+    pub range_m: f32,
+}
+
+/// What is known of the item detector of a kind of robots.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RobotModel {
+    /// Number of the sensor model: robots with the same model are blind to the same items.
+    pub model: u32,
+    /// Share of the items of each kind that sensors of the model never detect; 0 if missing.
+    pub blind_share: Vec<f64>,
+    /// Numbers of the capabilities.
+    pub capabilities: Vec<u8>,
+    /// Probability that one search of a place misses an item that the sensor can detect, as its
+    /// negative logarithm in nats.
+    pub search_nats: f64,
+}
+
+impl Clearance {
+    /// Lowest risk that any number of looks of all robots can reach: the probability that there is a
+    /// mine to which all sensor models are blind.
+    #[must_use]
+    pub fn floor(&self) -> f64 {
+        let models = self.models();
+        let left = self.hazards().map(|(kind, expected)| {
+            let blind = models.iter().map(|robot| robot.blind_share_of(kind));
+            expected * blind.product::<f64>()
+        });
+        chance_of_any(left.sum())
+    }
+
+    /// The kinds that make the lane unsafe, and their expected numbers.
+    pub(crate) fn hazards(&self) -> impl Iterator<Item = (usize, f64)> {
+        let kinds = self.expected.iter().copied().enumerate();
+        kinds.filter(|(kind, _)| self.lane.is_hazard(*kind))
+    }
+
+    /// One kind of robots of each sensor model.
+    pub(crate) fn models(&self) -> Vec<&RobotModel> {
+        let mut models: Vec<&RobotModel> = Vec::new();
+        for robot in &self.robots {
+            if !models.iter().any(|known| known.model == robot.model) {
+                models.push(robot);
+            }
+        }
+        models
+    }
+
+    /// For each kind of robots, the index of its sensor model in [`models`](Self::models).
+    pub(crate) fn model_of_kind(&self) -> Vec<usize> {
+        let models = self.models();
+        let index = |robot: &RobotModel| models.iter().position(|known| known.model == robot.model);
+        self.robots.iter().filter_map(index).collect()
+    }
+}
+
+impl RobotModel {
+    pub(crate) fn has(&self, skill: &Skill) -> bool {
+        skill.capability == 0 || self.capabilities.contains(&skill.capability)
+    }
+
+    pub(crate) fn blind_share_of(&self, kind: usize) -> f64 {
+        self.blind_share.get(kind).copied().unwrap_or_default()
+    }
+}

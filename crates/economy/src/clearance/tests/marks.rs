@@ -1,0 +1,159 @@
+//! Marks of several robots, fused.
+
+use super::simulated::{clearance, picture};
+use crate::clearance::LanePicture;
+use brain::{Coverage, GoalId, Mark, MarkVerdict, RobotId, Statement};
+
+const OAV: RobotId = RobotId { kind: 0, index: 0 };
+const UGV: RobotId = RobotId { kind: 1, index: 0 };
+
+fn mark(robot: RobotId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
+    Mark {
+        id: GoalId {
+            issuer: robot,
+            number: 0,
+        },
+        at_m: [x_m, 1.0],
+        deviation_m,
+        log_ratios: [log_ratio, log_ratio - 1.0, 0.0, 0.0],
+    }
+}
+
+fn looked(picture: &mut LanePicture, robot: RobotId, nats: f64) {
+    for first in (0..50).step_by(16) {
+        let missed = [Coverage::steps(nats); 16];
+        picture.take_coverage(
+            robot,
+            &Coverage {
+                first,
+                marks: 0,
+                missed,
+            },
+        );
+    }
+}
+
+fn lane() -> LanePicture {
+    picture(&clearance([4.0, 4.0], [0.2, 0.01]))
+}
+
+#[test]
+fn marks_within_four_joint_deviations_are_one_place_at_their_weighted_mean() {
+    let mut picture = lane();
+    picture.take_mark(OAV, &mark(OAV, 10.0, 0.4, 3.0));
+    picture.take_mark(UGV, &mark(UGV, 11.0, 0.2, 3.0));
+    let places: Vec<_> = picture.marks().collect();
+    assert_eq!(places.len(), 1);
+    assert!((places[0].at.x - 10.8).abs() < 1e-6);
+    assert!((places[0].deviation_m - (0.032_f64).sqrt()).abs() < 1e-6);
+    picture.take_mark(UGV, &mark(UGV, 12.0, 0.2, 3.0));
+    assert_eq!(picture.marks().count(), 2, "it has moved away");
+}
+
+#[test]
+fn two_marks_of_one_robot_are_two_places() {
+    let mut picture = lane();
+    picture.take_mark(OAV, &mark(OAV, 10.0, 0.4, 3.0));
+    let mut second = mark(OAV, 10.1, 0.4, 3.0);
+    second.id.number = 1;
+    picture.take_mark(OAV, &second);
+    assert_eq!(picture.marks().count(), 2);
+    picture.take_mark(UGV, &second);
+    assert_eq!(picture.marks().count(), 2, "the mark names another robot");
+}
+
+#[test]
+fn a_second_robot_that_agrees_makes_a_mark_probable() {
+    let mut picture = lane();
+    picture.take_mark(OAV, &mark(OAV, 10.0, 0.4, 3.0));
+    let one = picture.marks().next().unwrap().mine;
+    picture.take_mark(UGV, &mark(UGV, 10.1, 0.4, 3.0));
+    let both = picture.marks().next().unwrap().mine;
+    assert!(both > 3.0 * one, "{one} {both}");
+}
+
+#[test]
+fn a_mark_that_another_model_misses_is_explained_by_its_blindness_or_by_nothing_there() {
+    let mine = |looks: f64, robot| {
+        let mut picture = lane();
+        picture.take_mark(OAV, &mark(OAV, 10.0, 0.4, 6.0));
+        looked(&mut picture, robot, looks);
+        picture.marks().next().unwrap().mine
+    };
+    assert!(mine(5.0, UGV) < 0.2 * mine(0.0, UGV));
+    // More looks change nothing once the model is probably blind to it.
+    assert!((mine(14.0, UGV) / mine(12.0, UGV) - 1.0).abs() < 0.01);
+    // The looks of the robot itself are already in its mark.
+    assert_eq!(mine(5.0, OAV), mine(0.0, OAV));
+}
+
+#[test]
+fn looks_of_a_robot_count_only_with_all_of_its_marks() {
+    let mut picture = lane();
+    let before = picture.risk().unmarked;
+    let coverage = Coverage {
+        first: 0,
+        marks: 1,
+        missed: [32; 16],
+    };
+    picture.take_coverage(OAV, &coverage);
+    assert_eq!(
+        (picture.missing_marks(), picture.risk().unmarked),
+        (1, before)
+    );
+    picture.take_mark(OAV, &mark(OAV, 10.0, 0.4, 3.0));
+    picture.take_coverage(OAV, &coverage);
+    assert!(picture.missing_marks() == 0 && picture.risk().unmarked < before);
+}
+
+#[test]
+fn only_a_place_that_has_been_neutralised_holds_no_mine() {
+    let mut picture = lane();
+    let mark = mark(OAV, 10.0, 0.4, 9.0);
+    picture.take_mark(OAV, &mark);
+    let mine = |picture: &LanePicture| picture.marks().next().unwrap().mine;
+    let state = |picture: &mut LanePicture, verdict| {
+        picture.take_statement(&Statement {
+            mark: mark.id,
+            at_m: mark.at_m,
+            verdict,
+        });
+    };
+    let before = mine(&picture);
+    for verdict in [
+        MarkVerdict::Confirmed,
+        MarkVerdict::Rejected,
+        MarkVerdict::Isolated,
+    ] {
+        state(&mut picture, verdict);
+        assert_eq!(mine(&picture), before);
+    }
+    state(&mut picture, MarkVerdict::Neutralised);
+    state(&mut picture, MarkVerdict::Confirmed);
+    assert_eq!(mine(&picture), 0.0);
+}
+
+/// Controllers receive statements about goals of other controllers.
+#[test]
+fn a_statement_about_an_unknown_goal_is_about_the_nearest_place() {
+    let mut picture = lane();
+    for (number, x_m) in [(0, 10.0), (1, 12.0)] {
+        let mut mark = mark(OAV, x_m, 0.1, 9.0);
+        mark.id.number = number;
+        picture.take_mark(OAV, &mark);
+    }
+    let mut state = |x_m| {
+        picture.take_statement(&Statement {
+            mark: GoalId {
+                issuer: RobotId::OPERATOR,
+                number: 7,
+            },
+            at_m: [x_m, 1.0],
+            verdict: MarkVerdict::Confirmed,
+        });
+        let verdicts = picture.marks().map(|mark| mark.verdict.is_some());
+        verdicts.collect::<Vec<bool>>()
+    };
+    assert_eq!(state(14.0), [false, false]);
+    assert_eq!(state(11.2), [false, true]);
+}

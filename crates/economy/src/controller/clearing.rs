@@ -1,0 +1,127 @@
+//! The goals of a mined lane: they follow from what the controller believes of it.
+//!
+//! Several controllers share a lane: each plans the goals of its own tiles, in turn among the
+//! controllers in range, so that the others take over when one is lost.
+
+use super::Controller;
+use super::lane_work::{LaneWork, Planned};
+use crate::clearance::plan::{Circumstances, Plan, Subject};
+use alloc::vec::Vec;
+use brain::{Dispatch, GoalId, Percept, RobotId};
+
+/// Time between two plans, and between two messages about the lane, in seconds.
+const PLAN_PERIOD_S: f64 = 1.0;
+const LANE_PERIOD_S: f64 = 5.0;
+
+/// Number of searches on offer at once for each robot in range.
+const SEARCHES_PER_ROBOT: usize = 3;
+
+impl Controller {
+    /// Plans the goals of the lane until it has stated that the lane is clear, or has given it up.
+    pub(super) fn clear(&mut self, percept: &Percept) {
+        let now_s = self.now_s;
+        // Taken out, as planning owns goals.
+        let Some(mut work) = self.clearing.work.take() else {
+            return;
+        };
+        if now_s >= work.next_lane_s {
+            work.next_lane_s = now_s + LANE_PERIOD_S;
+            let lane = work.picture.clearance().lane;
+            self.send(RobotId::EVERYONE, Dispatch::Lane(lane));
+        }
+        if now_s >= work.next_plan_s && work.decision.statement.is_none() {
+            work.next_plan_s = now_s + PLAN_PERIOD_S;
+            let plan = self.plan(&mut work);
+            work.decision.decide(&work.picture, &plan, now_s);
+            if work.decision.statement.is_some() {
+                self.cancel(&mut work, |_| false);
+            } else {
+                self.issue(&mut work, plan, percept);
+            }
+        }
+        self.clearing.work = Some(work);
+    }
+
+    fn plan(&self, work: &mut LaneWork) -> Plan {
+        work.note_done(&self.goals, self.now_s);
+        let mut kinds: Vec<u8> = self.picture.present().map(|robot| robot.id.kind).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let interrogated = &work.interrogated;
+        Plan::new(
+            &work.picture,
+            &Circumstances {
+                kinds: &kinds,
+                interrogations: &|place| {
+                    let times = interrogated.iter().find(|(known, _)| *known == place);
+                    times.map_or(0, |(_, times)| *times)
+                },
+            },
+        )
+    }
+
+    /// Owns the proposed goals, and cancels those that no longer are.
+    fn issue(&mut self, work: &mut LaneWork, plan: Plan, percept: &Percept) {
+        let is_proposed = |subject: Subject| {
+            plan.proposals
+                .iter()
+                .any(|proposal| proposal.subject == subject)
+        };
+        self.cancel(work, is_proposed);
+        let (turn, turns) = self.turn();
+        let mut proposals = plan.proposals;
+        proposals
+            .retain(|proposal| proposal.tile % turns == turn && !work.is_planned(proposal.subject));
+        proposals.sort_by(|one, other| other.value.total_cmp(&one.value));
+        let open = work
+            .planned
+            .iter()
+            .filter(|planned| planned.is_open_search());
+        let robots = self.picture.present().count().max(1);
+        let mut free = (SEARCHES_PER_ROBOT * robots).saturating_sub(open.count());
+        for proposal in proposals {
+            if matches!(proposal.subject, Subject::Tile { .. }) {
+                if free == 0 {
+                    continue;
+                }
+                free -= 1;
+            }
+            let issuer = self.own;
+            let number = self.numbers.next(percept);
+            let goal = GoalId { issuer, number };
+            self.own(proposal.task(goal));
+            work.planned.push(Planned {
+                goal,
+                subject: proposal.subject,
+                done_s: None,
+            });
+        }
+    }
+
+    /// Cancels the goals without an assignee whose subject is not proposed.
+    fn cancel(&mut self, work: &mut LaneWork, is_proposed: impl Fn(Subject) -> bool) {
+        let is_served = |goal: GoalId| self.services.grant_of(goal).is_some();
+        let idle = work.planned.iter().filter(|planned| {
+            planned.done_s.is_none() && !is_proposed(planned.subject) && !is_served(planned.goal)
+        });
+        let idle: Vec<GoalId> = idle.map(|planned| planned.goal).collect();
+        for goal in &idle {
+            if let Some(owned) = self.goal_mut(*goal) {
+                owned.is_done = true;
+                owned.assigned = None;
+                self.bids.remove_for(*goal);
+                self.close_offer(*goal);
+            }
+        }
+        work.planned.retain(|planned| !idle.contains(&planned.goal));
+    }
+
+    /// Its turn among the controllers in range, and the number of turns.
+    fn turn(&self) -> (u32, u32) {
+        let others = self.colleagues.list.iter().map(|colleague| colleague.id);
+        let (before, after): (Vec<RobotId>, Vec<RobotId>) = others.partition(|id| *id < self.own);
+        let count = |ids: &[RobotId]| u32::try_from(ids.len()).unwrap_or(u32::MAX);
+        let turn = count(&before);
+        (turn, turn.saturating_add(count(&after)).saturating_add(1))
+    }
+}

@@ -1,0 +1,165 @@
+//! What a controller knows of a mined lane, and the goals that it has planned.
+
+use super::owned::Owned;
+use crate::clearance::plan::{Proposal, Subject};
+use crate::clearance::{Clearance, Decision, LanePicture, LaneStatement};
+use alloc::boxed::Box;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use base::hash::Hash;
+use base::hashed::Hashed;
+use brain::{Dispatch, GoalId, RobotId, Task};
+
+/// Messages of a robot that has served a goal arrive within this time, in seconds: what it has searched
+/// is not searched again before.
+const REST_S: f64 = 10.0;
+
+/// Lowest value of a goal: values are relative, and not 0.
+const MIN_VALUE: f64 = 1e-3;
+
+/// The lane of a controller, if it has one.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Clearing {
+    pub(super) work: Option<Box<LaneWork>>,
+}
+
+/// Controllers without a lane have the hash that they had before there were lanes.
+impl Hashed for Clearing {
+    fn add_to(&self, hash: &mut Hash) {
+        if let Some(work) = &self.work {
+            work.add_to(hash);
+        }
+    }
+}
+
+/// The work on a lane.
+#[derive(Debug, Clone)]
+pub(super) struct LaneWork {
+    pub(super) picture: LanePicture,
+    pub(super) decision: Decision,
+    pub(super) planned: Vec<Planned>,
+    /// How often places have been interrogated.
+    pub(super) interrogated: Vec<(u32, u32)>,
+    pub(super) next_plan_s: f64,
+    pub(super) next_lane_s: f64,
+}
+
+base::hashed!(LaneWork {
+    picture,
+    decision,
+    planned,
+    interrogated,
+    next_plan_s,
+    next_lane_s
+});
+
+/// A goal that the controller has planned.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Planned {
+    pub(super) goal: GoalId,
+    pub(super) subject: Subject,
+    /// When it had been served; until then none.
+    pub(super) done_s: Option<f64>,
+}
+
+impl Hashed for Planned {
+    fn add_to(&self, hash: &mut Hash) {
+        let subject = match self.subject {
+            Subject::Tile { tile, search } => (tile, search),
+            Subject::Suspect { place } => (place, u8::MAX - 1),
+            Subject::Mine { place } => (place, u8::MAX),
+        };
+        ((self.goal, self.done_s), subject).add_to(hash);
+    }
+}
+
+impl Clearing {
+    pub(super) fn new(clearance: Option<&Arc<Clearance>>) -> Self {
+        let work = clearance.map(|clearance| {
+            Box::new(LaneWork {
+                picture: LanePicture::new(clearance.clone()),
+                decision: Decision::default(),
+                planned: Vec::new(),
+                interrogated: Vec::new(),
+                next_plan_s: f64::NEG_INFINITY,
+                next_lane_s: f64::NEG_INFINITY,
+            })
+        });
+        Self { work }
+    }
+
+    pub(super) fn picture(&self) -> Option<&LanePicture> {
+        self.work.as_ref().map(|work| &work.picture)
+    }
+
+    pub(super) fn statement(&self) -> Option<LaneStatement> {
+        self.work.as_ref()?.decision.statement
+    }
+
+    /// Takes a message of a robot about the lane.
+    pub(super) fn receive(&mut self, from: RobotId, dispatch: &Dispatch) {
+        let Some(work) = &mut self.work else {
+            return;
+        };
+        match dispatch {
+            Dispatch::Coverage(coverage) => work.picture.take_coverage(from, coverage),
+            Dispatch::Mark(mark) => work.picture.take_mark(from, mark),
+            Dispatch::Statement(statement) => work.picture.take_statement(statement),
+            _ => {}
+        }
+    }
+}
+
+impl LaneWork {
+    /// Notes the goals that have been served; after a rest, their subjects can be proposed again.
+    pub(super) fn note_done(&mut self, goals: &[Owned], now_s: f64) {
+        for planned in &mut self.planned {
+            let owned = goals.iter().find(|owned| owned.task.id == planned.goal);
+            if planned.done_s.is_some() || owned.is_some_and(|owned| !owned.is_done) {
+                continue;
+            }
+            planned.done_s = Some(now_s);
+            if let Subject::Suspect { place } = planned.subject {
+                match self
+                    .interrogated
+                    .iter_mut()
+                    .find(|(known, _)| *known == place)
+                {
+                    Some((_, times)) => *times += 1,
+                    None => self.interrogated.push((place, 1)),
+                }
+            }
+        }
+        let is_resting = |done_s: f64| now_s < done_s + REST_S;
+        self.planned
+            .retain(|planned| planned.done_s.is_none_or(is_resting));
+    }
+
+    pub(super) fn is_planned(&self, subject: Subject) -> bool {
+        self.planned
+            .iter()
+            .any(|planned| planned.subject == subject)
+    }
+}
+
+impl Planned {
+    pub(super) fn is_open_search(&self) -> bool {
+        self.done_s.is_none() && matches!(self.subject, Subject::Tile { .. })
+    }
+}
+
+impl Proposal {
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    pub(super) fn task(&self, id: GoalId) -> Task {
+        Task {
+            id,
+            at_m: [self.at.x as f32, self.at.y as f32],
+            radius_m: self.radius_m as f32,
+            value: self.value.max(MIN_VALUE) as f32,
+            service_s: self.skill.service_s,
+            due_s: f32::MAX,
+            work: self.work,
+            capability: self.skill.capability,
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! A controller with a mined lane, and robots that only send messages.
+
+use brain::{
+    About, Command, Coverage, Dispatch, Lane, Message, Percept, ReceivedMessage, Report, RobotId,
+    Task, Work,
+};
+use economy::{Clearance, Controller, RobotModel, Settings, Skill};
+use std::sync::Arc;
+
+const OAV: RobotId = RobotId { kind: 0, index: 0 };
+
+fn settings() -> Settings {
+    let clearance = Clearance {
+        lane: Lane {
+            min_m: [0.0; 2],
+            max_m: [40.0, 10.0],
+            cell_m: 2.0,
+            hazards: 1,
+        },
+        expected: vec![2.0],
+        robots: vec![RobotModel {
+            search_nats: 3.0,
+            ..RobotModel::default()
+        }],
+        declare_below: 0.01,
+        interrogate_above: 0.05,
+        tile_m: 10.0,
+        searches: vec![Skill::default()],
+        interrogate: None,
+        neutralise: None,
+    };
+    Settings {
+        robot_kinds: 1,
+        clearance: Some(Arc::new(clearance)),
+        ..Settings::default()
+    }
+}
+
+/// A controller at a time, with the messages that it receives.
+struct Station {
+    controller: Controller,
+    id: RobotId,
+    step: u32,
+}
+
+impl Station {
+    fn new(index: u32) -> Self {
+        Self {
+            controller: Controller::new(Arc::new(settings())),
+            id: RobotId { kind: 1, index },
+            step: 0,
+        }
+    }
+
+    fn step(&mut self, inbox: &[(RobotId, Dispatch)]) -> Vec<Dispatch> {
+        self.step += 1;
+        let inbox = inbox.iter().map(|(from, dispatch)| ReceivedMessage {
+            from: *from,
+            age_s: 0.0,
+            message: Message::to_all(About::Dispatch(*dispatch)),
+        });
+        let percept = Percept {
+            time_s: Some(f64::from(self.step) * 0.1),
+            random_words: [self.step.wrapping_mul(7919), 1, 2, self.id.index],
+            id: self.id,
+            inbox: inbox.collect(),
+            ..Percept::default()
+        };
+        let mut command = Command::default();
+        self.controller.step_into(&percept, &mut command);
+        let sent = command
+            .outbox
+            .into_iter()
+            .filter_map(|message| match message.about {
+                About::Dispatch(dispatch) => Some(dispatch),
+                _ => None,
+            });
+        sent.collect()
+    }
+
+    /// The positions of its goals along the lane.
+    fn goals(&self) -> Vec<f32> {
+        let mut goals: Vec<Task> = self.controller.goals().map(|goal| goal.task).collect();
+        assert!(goals.iter().all(|task| task.work == Work::Search));
+        goals.sort_by(|one, other| one.at_m[0].total_cmp(&other.at_m[0]));
+        goals.into_iter().map(|task| task.at_m[0]).collect()
+    }
+}
+
+fn report() -> (RobotId, Dispatch) {
+    let report = Report {
+        at_m: [0.0; 2],
+        speed_m_s: 1.0,
+        battery: 1.0,
+        goals: 0,
+        payload: 4,
+    };
+    (OAV, Dispatch::Report(report))
+}
+
+fn searched(first: u32) -> (RobotId, Dispatch) {
+    let coverage = Coverage {
+        first,
+        marks: 0,
+        missed: [200; 16],
+    };
+    (OAV, Dispatch::Coverage(coverage))
+}
+
+#[test]
+fn a_controller_names_its_lane_and_calls_for_searches_of_its_tiles() {
+    let mut station = Station::new(0);
+    let mut sent = Vec::new();
+    for _ in 0..30 {
+        sent.extend(station.step(&[report()]));
+    }
+    let lanes = sent.iter().filter(|sent| matches!(sent, Dispatch::Lane(_)));
+    assert_eq!(lanes.count(), 1, "every five seconds");
+    assert_eq!(station.goals(), [5.0, 15.0, 25.0]);
+    let calls = sent
+        .iter()
+        .filter(|sent| matches!(sent, Dispatch::Call { .. }));
+    assert!(calls.count() >= 3);
+}
+
+#[test]
+fn goals_that_no_longer_lower_the_risk_are_cancelled_and_the_lane_is_declared_clear() {
+    let mut station = Station::new(0);
+    for _ in 0..30 {
+        station.step(&[report()]);
+    }
+    assert!(station.controller.lane_statement().is_none());
+    let before = station.controller.lane().unwrap().risk().probability;
+    let all: Vec<_> = (0..112).step_by(16).map(searched).collect();
+    (0..20).for_each(|_| {
+        station.step(&all);
+    });
+    assert!(station.goals().is_empty());
+    let statement = station.controller.lane_statement().unwrap();
+    assert!(before > 0.8 && statement.is_clear && statement.risk < 0.01);
+}
+
+#[test]
+fn two_controllers_in_range_plan_different_tiles_and_one_that_is_lost_is_replaced() {
+    let mut stations = [Station::new(0), Station::new(1)];
+    for _ in 0..40 {
+        for (index, station) in (0..).zip(&mut stations) {
+            let other = RobotId {
+                kind: 1,
+                index: 1 - index,
+            };
+            station.step(&[report(), (other, Dispatch::Serial(index))]);
+        }
+    }
+    assert_eq!(stations[0].goals(), [5.0, 25.0]);
+    assert_eq!(stations[1].goals(), [15.0, 35.0]);
+    (0..100).for_each(|_| {
+        stations[0].step(&[report()]);
+    });
+    assert_eq!(stations[0].goals().len(), 3);
+}
+
+#[test]
+fn a_controller_without_a_lane_states_nothing_about_it() {
+    let mut station = Station::new(0);
+    station.controller = Controller::new(Arc::new(Settings {
+        clearance: None,
+        ..settings()
+    }));
+    let sent = (0..20).flat_map(|_| station.step(&[report(), searched(0)]));
+    let is_lane = |sent: &Dispatch| matches!(sent, Dispatch::Lane(_) | Dispatch::Call { .. });
+    assert!(!sent.collect::<Vec<_>>().iter().any(is_lane));
+    assert!(station.controller.lane().is_none());
+}
