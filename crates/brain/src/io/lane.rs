@@ -112,6 +112,17 @@ impl Lane {
         area.min().plus(area.size().times(0.5))
     }
 
+    /// The cell nearest to a position.
+    #[must_use]
+    pub fn nearest_cell(&self, at: Point) -> usize {
+        let area = self.area();
+        let within = Point {
+            x: at.x.max(area.min().x).min(area.max().x),
+            y: at.y.max(area.min().y).min(area.max().y),
+        };
+        self.cell_at(within).unwrap_or_default()
+    }
+
     /// The cell that contains a position; `None` outside the lane.
     #[must_use]
     #[expect(
@@ -270,6 +281,7 @@ mod tests {
         }
         assert_eq!(LANE.cell_at(Point { x: 9.0, y: 7.0 }), Some(14));
         assert_eq!(LANE.cell_at(Point { x: 9.1, y: 7.0 }), None);
+        assert_eq!(LANE.nearest_cell(Point { x: 9.1, y: 1.0 }), 4);
     }
 
     #[test]

@@ -8,10 +8,13 @@ use super::settings::Clearance;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use brain::{Coverage, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use brain::{Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
 
 /// Probabilities of a mine are at most this: no mark is certain.
 const MAX_PROBABILITY: f64 = 1.0 - 1e-9;
+
+/// A mark that is farther from the lane than this, in deviations of its position, is not in it.
+const BORDER_DEVIATIONS: f64 = 3.0;
 
 /// What a controller believes of a lane.
 #[derive(Debug, Clone)]
@@ -41,6 +44,13 @@ pub struct BelievedMark {
     pub mine: f64,
     /// The last statement about it.
     pub verdict: Option<MarkVerdict>,
+}
+
+impl BelievedMark {
+    /// Whether what has been marked may lie in a lane. A mine at the border may seem to be beyond it.
+    pub(crate) fn may_be_in(&self, lane: &Lane) -> bool {
+        lane.area().distance_m(self.at) <= BORDER_DEVIATIONS * self.deviation_m
+    }
 }
 
 impl LanePicture {
@@ -127,9 +137,9 @@ impl LanePicture {
     /// The probability that at least one mine is left in the lane.
     #[must_use]
     pub fn risk(&self) -> Risk {
-        let area = self.clearance.lane.area();
-        let cells = 0..self.clearance.lane.cells();
-        let inside = self.marks().filter(|mark| area.contains(mark.at));
+        let lane = self.clearance.lane;
+        let cells = 0..lane.cells();
+        let inside = self.marks().filter(|mark| mark.may_be_in(&lane));
         Risk::new(
             cells.map(|cell| self.unmarked(cell)).sum(),
             inside.map(|mark| mark.mine),
@@ -184,8 +194,8 @@ impl LanePicture {
     /// some robots have marked.
     fn log_missed(&self, model: usize, kind: usize, at: Point, robots: &[RobotId]) -> f64 {
         let blind = self.blind[model][kind];
-        let cell = self.clearance.lane.cell_at(at);
-        let nats = cell.map_or(0.0, |cell| self.searched.nats_without(model, cell, robots));
+        let cell = self.clearance.lane.nearest_cell(at);
+        let nats = self.searched.nats_without(model, cell, robots);
         let mut marked = robots.iter();
         if marked.any(|robot| self.model_of(*robot) == Some(model)) {
             libm::log(1.0 - blind) - nats

@@ -80,7 +80,8 @@ impl Plan {
         for (search, skill) in (0..).zip(&clearance.searches) {
             proposals.extend(searches(picture, &tiles, search, *skill));
         }
-        for mark in picture.marks() {
+        let marks = picture.marks();
+        for mark in marks.filter(|mark| mark.may_be_in(&clearance.lane)) {
             let interrogations = (circumstances.interrogations)(mark.number);
             proposals.extend(work_at(&mark, clearance, &tiles, interrogations));
         }
@@ -166,10 +167,9 @@ fn work_at(
         }
         _ => return None,
     };
-    let tile = tiles.cell_at(mark.at)?;
     Some(Proposal {
         subject,
-        tile: u32::try_from(tile).ok()?,
+        tile: u32::try_from(tiles.nearest_cell(mark.at)).ok()?,
         at: mark.at,
         radius_m: (RADIUS_DEVIATIONS * mark.deviation_m).max(skill.range_m.into()),
         value: mark.mine,

@@ -157,3 +157,14 @@ fn a_statement_about_an_unknown_goal_is_about_the_nearest_place() {
     assert_eq!(state(14.0), [false, false]);
     assert_eq!(state(11.2), [false, true]);
 }
+
+#[test]
+fn a_mark_just_beyond_the_border_counts_and_one_far_beyond_does_not() {
+    let marked = |x_m| {
+        let mut picture = lane();
+        picture.take_mark(OAV, &mark(OAV, x_m, 0.2, 9.0));
+        picture.risk().marked
+    };
+    assert!(marked(4.6) > 0.5 && marked(4.6) == marked(5.4));
+    assert_eq!(marked(4.3), 0.0);
+}
