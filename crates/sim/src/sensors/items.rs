@@ -1,8 +1,8 @@
 //! Item detector.
 
-use super::poisson::Poisson;
 use super::sector::{Sector, SectorSpec};
 use super::sensor_frame::{NoisePurpose, SensorFrame, blurred};
+use crate::poisson::Poisson;
 use crate::world::items::Items;
 use base::geometry::Point;
 use base::noise::share;

@@ -7,7 +7,6 @@ pub mod heading;
 pub mod items;
 pub(crate) mod memory;
 pub(crate) mod pending;
-pub(crate) mod poisson;
 pub mod position;
 pub mod range;
 pub(crate) mod rays;

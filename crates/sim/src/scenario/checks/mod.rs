@@ -8,6 +8,7 @@ mod drive;
 mod end;
 mod goals;
 mod ground;
+mod items;
 mod memory;
 mod names;
 mod periodic;
@@ -28,12 +29,13 @@ use std::collections::BTreeSet;
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 /// Checks of what the conversion for runs relies on.
-const CHECKS_OF_FORM: [Check; 6] = [
+const CHECKS_OF_FORM: [Check; 7] = [
     clock::errors,
     names::errors,
     rates::errors,
     drive::errors,
     detection::errors,
+    items::errors,
     memory::errors,
 ];
 

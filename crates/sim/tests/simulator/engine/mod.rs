@@ -23,6 +23,7 @@ mod footprints;
 mod goals;
 mod golden;
 mod inspect;
+mod item_numbers;
 mod judge;
 mod layers;
 mod links;
