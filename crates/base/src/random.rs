@@ -62,6 +62,8 @@ pub enum Purpose {
     Goal = 7,
     /// Centre of a cluster of goals; the index is that of the cluster.
     GoalCluster = 8,
+    /// Number of items of a kind.
+    ItemNumber = 9,
 }
 
 /// The stream of an entity for a purpose in a run, before its first draw.

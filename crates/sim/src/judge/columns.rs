@@ -86,14 +86,14 @@ fn finds() -> Vec<Column> {
         Column::new(
             "found",
             Whole,
-            |on| Bounds::up_to(on.targets().into()),
+            |on| Bounds::up_to(on.max_targets().into()),
             |on, of| on.sum_of_targets(|kind| of.found[kind]).into(),
         )
         .with_term("found", 4),
         Column::new(
             "missed",
             Whole,
-            |on| Bounds::up_to(on.targets().into()),
+            |on| Bounds::up_to(on.max_targets().into()),
             |on, of| on.sum_of_targets(|kind| of.missed[kind]).into(),
         )
         .with_term("missed", 5),
@@ -142,7 +142,7 @@ fn costs() -> Vec<Column> {
 
 /// The columns of the counts of one kind of items, by its number.
 fn counts_of((number, (kind, _)): (usize, (&str, u32))) -> [Column; 2] {
-    let of_all = move |on: &Scenario| Bounds::up_to(on.items[number].count.into());
+    let of_all = move |on: &Scenario| Bounds::up_to(on.items[number].max_number().into());
     let found = move |_: &Scenario, of: &Outcome| of.found[number].into();
     let missed = move |_: &Scenario, of: &Outcome| of.missed[number].into();
     [

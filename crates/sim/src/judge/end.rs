@@ -45,7 +45,8 @@ impl Moment<'_> {
     pub(crate) fn completed_at(&self, before: Option<u64>) -> Option<u64> {
         let end = self.scenario.end.as_ref().filter(|_| self.meets_end())?;
         if end.is_default() {
-            return self.last_find().max(self.last_service());
+            // Without any of them, the run was complete when it began.
+            return self.last_find().max(self.last_service()).or(Some(0));
         }
         before.or(Some(self.tick))
     }
@@ -71,7 +72,7 @@ impl Moment<'_> {
         let Self {
             scenario, tally, ..
         } = self;
-        let missed = |kind: usize| scenario.items[kind].count.saturating_sub(tally.found[kind]);
+        let missed = |kind: usize| tally.missed(kind);
         match count {
             Count::Found => scenario.sum_of_targets(|kind| tally.found[kind]).into(),
             Count::Missed => scenario.sum_of_targets(missed).into(),

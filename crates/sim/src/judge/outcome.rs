@@ -3,7 +3,6 @@
 use super::goal_outcome::GoalOutcome;
 use super::moment::Moment;
 use crate::clock::seconds;
-use std::iter::zip;
 
 /// The outcome of a run, named like the columns of results.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,8 +40,7 @@ impl Outcome {
         let Moment {
             scenario, tally, ..
         } = *moment;
-        let missed = zip(&scenario.items, &tally.found);
-        let missed = missed.map(|(kind, found)| kind.count.saturating_sub(*found));
+        let missed = (0..scenario.items.len()).map(|kind| tally.missed(kind));
         let complete_s = tally.complete_at.map(|tick| seconds(tick, scenario.step_s));
         let cost = tally.removed.and(moment.body_states.iter());
         Self {

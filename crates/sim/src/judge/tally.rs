@@ -18,6 +18,8 @@ use std::collections::BTreeMap;
 pub(crate) struct Tally {
     /// By the number of the item.
     records: Vec<ItemRecord>,
+    /// Items of the run, by kind.
+    present: Vec<u32>,
     /// Items found, by kind.
     pub(super) found: Vec<u32>,
     /// The step in which the run was complete.
@@ -35,8 +37,13 @@ pub(crate) struct Tally {
 impl Tally {
     /// The tally of a run that begins.
     pub(crate) fn new(scenario: &Scenario, items: &Items) -> Self {
+        let mut present = vec![0; scenario.items.len()];
+        items
+            .kinds()
+            .for_each(|kind| present[usize::from(kind)] += 1);
         Self {
             records: vec![ItemRecord::default(); items.len()],
+            present,
             found: vec![0; scenario.items.len()],
             goals: scenario.goals().map(Box::new),
             ..Self::default()
@@ -79,6 +86,11 @@ impl Tally {
     pub(crate) fn counts(&self) -> (u64, u64) {
         let found = self.found.iter().copied().map(u64::from).sum();
         (found, self.counted_steps + u64::from(self.removed.stopped))
+    }
+
+    /// Items of a kind that are not found.
+    pub(super) fn missed(&self, kind: usize) -> u32 {
+        self.present[kind] - self.found[kind]
     }
 
     /// What happened to each item, by its number.

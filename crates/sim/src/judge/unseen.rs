@@ -6,7 +6,7 @@ use crate::scenario::ScenarioSpec;
 use base::document::{Document, Value};
 use base::scenario::condition::{Operator, Unseen};
 
-/// A kind of items: its name, the largest number of them, and whether all configurations have as many.
+/// A kind of items: its name, the largest number of them in a run, and whether all runs have as many.
 struct Kind {
     name: String,
     count: u32,
@@ -50,7 +50,8 @@ fn kinds(document: &Document) -> Vec<Kind> {
     let kind = |(name, count): (String, u32)| {
         let factor = format!("items.{name}.count");
         Kind {
-            is_fixed: document.get(&["study", "vary", &factor]).is_none(),
+            is_fixed: document.get(&["study", "vary", &factor]).is_none()
+                && !ScenarioSpec::may_draw_number(document, &name),
             count,
             name,
         }

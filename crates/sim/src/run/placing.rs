@@ -100,7 +100,7 @@ pub(super) fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<It
     let draws = draws(scenario, seed, run, EntityClass::Items);
     let mut items = Vec::new();
     for (number, kind) in (0..).zip(&scenario.items) {
-        for index in 0..kind.count {
+        for index in 0..kind.number.draw(kind.count, (seed, run), kind.key) {
             let thing = Entity {
                 kind: kind.key,
                 index,

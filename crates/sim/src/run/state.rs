@@ -75,6 +75,9 @@ impl State {
         state.controllers = place_controllers(scenario, (seed, run), &state.ids)?;
         state.fail_named(scenario);
         state.order_service(scenario);
+        if scenario.draws_item_numbers() && state.moment(scenario).meets_end() {
+            state.tally.complete_at = Some(0);
+        }
         Ok(state)
     }
 

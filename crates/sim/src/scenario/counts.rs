@@ -2,19 +2,28 @@
 
 use super::ready::Scenario;
 use super::spec::ScenarioSpec;
-use base::document::Document;
+use crate::world::item_number::ItemNumber;
+use base::document::{Document, Node, Value};
 use base::scenario::largest;
 
 impl ScenarioSpec {
-    /// Each kind of items, with the largest number of them in any configuration of a document. Works on documents
+    /// Each kind of items, with the largest number of them in a run of any configuration of a document. Works on documents
     /// with errors, too.
     pub(crate) fn max_counts(document: &Document) -> Vec<(String, u32)> {
         let kinds = Self::names(document, &["items"]).unwrap_or_default();
         let kinds = kinds.into_iter().map(|name| {
-            let count = max_count(document, "items", &name);
+            let count = max_number(document, &name);
             (name, count)
         });
         kinds.collect()
+    }
+
+    /// Whether runs of any configuration of a document draw their number of items of a kind.
+    pub(crate) fn may_draw_number(document: &Document, name: &str) -> bool {
+        let varied = format!("items.{name}.number");
+        let number = document.get(&["items", name, "number"]);
+        let is_drawn = |node: &Node| node.value == Value::Text("poisson".to_owned());
+        number.is_some_and(is_drawn) || document.get(&["study", "vary", &varied]).is_some()
     }
 }
 
@@ -29,13 +38,23 @@ impl Scenario {
     /// The scenario as one of the configurations of a document.
     pub(super) fn among_those_of(mut self, document: &Document) -> Self {
         for kind in &mut self.items {
-            kind.max_count = max_count(document, "items", &kind.name);
+            kind.max_count = max_number(document, &kind.name);
         }
         self
     }
 }
 
-/// The largest number of items or robots of a kind, by the table of its kinds.
+/// The largest number of items of a kind in a run.
+pub(super) fn max_number(document: &Document, name: &str) -> u32 {
+    let count = max_count(document, "items", name);
+    if ScenarioSpec::may_draw_number(document, name) {
+        ItemNumber::Poisson.max(count)
+    } else {
+        count
+    }
+}
+
+/// The largest count of items or robots of a kind, by the table of its kinds.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

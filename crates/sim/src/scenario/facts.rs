@@ -2,6 +2,16 @@
 
 use super::ready::Scenario;
 use crate::clock::seconds;
+use crate::world::item_number::ItemNumber;
+use crate::world::items::ItemKind;
+
+/// The number of items of a kind, as text.
+fn number_of(kind: &ItemKind) -> String {
+    match kind.number {
+        ItemNumber::Fixed => kind.count.to_string(),
+        ItemNumber::Poisson => format!("{} on average, Poisson", kind.count),
+    }
+}
 
 impl Scenario {
     /// Number of robots of each kind, in the order in which ids count them.
@@ -34,7 +44,7 @@ impl Scenario {
             let clutter = if kind.is_target { "" } else { " (not target)" };
             (
                 format!("items {}", kind.name),
-                format!("{}{clutter}", kind.count),
+                format!("{}{clutter}", number_of(kind)),
             )
         });
         let goals = self.goals.iter();

@@ -11,6 +11,7 @@ use crate::end::EndCondition;
 use crate::goals::kind::{GoalContext, GoalKind};
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
+use crate::world::item_number::ItemNumber;
 use crate::world::items::ItemKind;
 use crate::world::obstacles::Solid;
 use crate::world::static_geometry::{StaticGeometry, Wall};
@@ -173,9 +174,16 @@ impl Scenario {
             .all(|pair| pair[0].layer == pair[1].layer)
     }
 
-    /// Number of targets.
-    pub(crate) fn targets(&self) -> u32 {
-        self.sum_of_targets(|kind| self.items[kind].count)
+    /// The largest number of targets in a run.
+    pub(crate) fn max_targets(&self) -> u32 {
+        self.sum_of_targets(|kind| self.items[kind].max_number())
+    }
+
+    /// Whether runs can begin with any number of items of a kind.
+    pub(crate) fn draws_item_numbers(&self) -> bool {
+        self.items
+            .iter()
+            .any(|kind| kind.number != ItemNumber::Fixed)
     }
 
     /// The sum of a number of each kind of items, over the kinds that are targets.

@@ -2,9 +2,9 @@
 
 use super::blindness::Blindness;
 use super::confusion::{Confusion, matrix};
-use super::poisson::Poisson;
 use super::sector::{Sector, SectorSpec};
 use super::sensor_frame::{NoisePurpose, SensorFrame, blurred};
+use crate::poisson::Poisson;
 use crate::world::items::Items;
 use base::geometry::Point;
 use base::noise::share;

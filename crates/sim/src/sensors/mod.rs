@@ -10,7 +10,6 @@ pub mod items;
 pub(crate) mod memory;
 pub(crate) mod pass;
 pub(crate) mod pending;
-pub(crate) mod poisson;
 pub mod position;
 pub mod range;
 pub(crate) mod rays;

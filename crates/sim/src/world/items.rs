@@ -1,6 +1,7 @@
 //! Items: targets, and clutter that is taken for them.
 
 use super::buckets::Buckets;
+use super::item_number::ItemNumber;
 use base::geometry::{Point, Torus};
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
@@ -14,9 +15,14 @@ pub(crate) const RECOGNISED_WITHIN_M: f64 = 1.0;
 /// A kind of item.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ItemSpec {
-    /// Number of items of this kind.
+    /// Number of items of this kind; their mean number with `number = "poisson"`.
     #[schemars(range(max = 1_000_000))]
     pub count: u32,
+    /// Number of items in a run: `count`, or drawn in each run from a Poisson distribution with the mean `count`, at
+    /// most 500. Drawn numbers are cut at `count` + 8 sqrt(`count`) + 8, which bounds the columns. A run that draws
+    /// no target is complete when it begins.
+    #[serde(default)]
+    pub number: ItemNumber,
     /// Whether these items are to be found; false for clutter. A run is complete when all targets
     /// are found, unless `[end]` has another condition.
     #[serde(default = "yes")]
@@ -30,14 +36,28 @@ fn yes() -> bool {
     true
 }
 
+impl ItemSpec {
+    /// The largest number of items of this kind in a run.
+    pub(crate) fn max_number(&self) -> u32 {
+        self.number.max(self.count)
+    }
+
+    /// Whether all runs have the same number of them.
+    pub(crate) fn is_fixed(&self) -> bool {
+        self.number == ItemNumber::Fixed
+    }
+}
+
 /// A kind of item, converted for runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ItemKind {
     pub(crate) name: String,
     /// Its name in random streams: [`kind_key`].
     pub(crate) key: u32,
+    /// The mean number of items in a run.
     pub(crate) count: u32,
-    /// The largest number of items of this kind in any configuration of the study.
+    pub(crate) number: ItemNumber,
+    /// The largest number of items of this kind in a run of any configuration of the study.
     pub(crate) max_count: u32,
     pub(crate) is_target: bool,
     pub(crate) placement: Placement,
@@ -49,10 +69,16 @@ impl ItemKind {
             name: name.clone(),
             key: kind_key(name),
             count: spec.count,
-            max_count: spec.count,
+            number: spec.number,
+            max_count: spec.max_number(),
             is_target: spec.target,
             placement: spec.placement.clone(),
         }
+    }
+
+    /// The largest number of items of this kind in a run.
+    pub(crate) fn max_number(&self) -> u32 {
+        self.number.max(self.count)
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod buckets;
 pub(crate) mod grid;
+pub mod item_number;
 pub mod items;
 pub mod obstacles;
 pub mod origin;

@@ -1,10 +1,10 @@
 //! Checks that detectors detect existing items, with valid probabilities.
 
+use crate::poisson::MAX_MEAN;
 use crate::scenario::spec::ScenarioSpec;
 use crate::schedule::Schedule;
 use crate::sensors::Measures;
 use crate::sensors::items::{Detection, ItemsSpec};
-use crate::sensors::poisson::MAX_MEAN;
 use base::document::Place;
 use base::error::InputError;
 

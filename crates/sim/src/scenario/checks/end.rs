@@ -1,15 +1,15 @@
 //! Checks that the condition of the end can hold, but not from the start.
 
 use crate::end::{Count, EndCondition};
-use crate::scenario::counts::max_count;
+use crate::scenario::counts::{max_count, max_number};
 use crate::scenario::spec::ScenarioSpec;
 use crate::world::items::ItemSpec;
 use base::document::{Document, Place};
 use base::error::InputError;
 
-/// A count at the start of a run, and the largest that it can be in any configuration of the study.
+/// A count at the start of a run, unless runs differ, and the largest that it can be in any configuration of the study.
 struct Range {
-    start: f64,
+    start: Option<f64>,
     max: f64,
 }
 
@@ -45,8 +45,8 @@ fn hint(text: &str) -> &'static str {
 
 fn error(condition: &EndCondition, range: &Range, at: &Place) -> Option<InputError> {
     let quantity = &condition.comparison.quantity;
-    if condition.comparison.holds_for(range.start) {
-        let start = range.start;
+    let start = range.start;
+    if let Some(start) = start.filter(|start| condition.comparison.holds_for(*start)) {
         return Some(at.error(format!(
             "a condition that does not hold at the start of a run, where {quantity} is {start}"
         )));
@@ -66,28 +66,33 @@ fn error(condition: &EndCondition, range: &Range, at: &Place) -> Option<InputErr
 
 fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
     let items: Vec<(&String, &ItemSpec)> = spec.items.iter().collect();
-    let max = |name: &str| f64::from(max_count(document, "items", name));
+    let max = |name: &str| f64::from(max_number(document, name));
     let targets = items.iter().filter(|(_, kind)| kind.target);
     let all_targets = targets.clone().map(|(name, _)| max(name)).sum();
     let (start, max) = match count {
-        Count::Found => (0.0, all_targets),
+        Count::Found => (Some(0.0), all_targets),
         Count::Missed => {
-            let counts = targets.map(|(_, kind)| f64::from(kind.count));
+            let counts = targets.map(|(_, kind)| number(kind));
             (counts.sum(), all_targets)
         }
-        Count::FoundOf(kind) => (0.0, max(items[kind].0)),
-        Count::MissedOf(kind) => (items[kind].1.count.into(), max(items[kind].0)),
+        Count::FoundOf(kind) => (Some(0.0), max(items[kind].0)),
+        Count::MissedOf(kind) => (number(items[kind].1), max(items[kind].0)),
         Count::Served | Count::Open => {
             let kinds = spec.goals.keys();
             let counts = kinds.map(|name| f64::from(max_count(document, "goals", name)));
-            (0.0, counts.sum())
+            (Some(0.0), counts.sum())
         }
-        Count::FalseAlarms | Count::Collisions => (0.0, f64::INFINITY),
+        Count::FalseAlarms | Count::Collisions => (Some(0.0), f64::INFINITY),
         Count::RobotsStopped => {
             let kinds = spec.robots.keys();
             let counts = kinds.map(|name| f64::from(max_count(document, "robots", name)));
-            (0.0, counts.sum())
+            (Some(0.0), counts.sum())
         }
     };
     Range { start, max }
+}
+
+/// The number of items of a kind in each run, if all runs have the same.
+fn number(kind: &ItemSpec) -> Option<f64> {
+    kind.is_fixed().then(|| kind.count.into())
 }

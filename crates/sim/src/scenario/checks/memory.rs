@@ -52,7 +52,7 @@ const ITEM_BYTES: f64 = 64.0;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let items = spec.items.iter().map(|(name, kind)| {
-        let bytes = f64::from(kind.count) * ITEM_BYTES;
+        let bytes = f64::from(kind.max_number()) * ITEM_BYTES;
         (bytes, at.key("items").key(name))
     });
     let robots = spec.robots.iter().map(|(name, robot)| {

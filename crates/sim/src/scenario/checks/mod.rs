@@ -9,6 +9,7 @@ mod end;
 mod goals;
 mod ground;
 mod identification;
+mod items;
 mod memory;
 mod names;
 mod periodic;
@@ -29,13 +30,14 @@ use std::collections::BTreeSet;
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 /// Checks of what the conversion for runs relies on.
-const CHECKS_OF_FORM: [Check; 7] = [
+const CHECKS_OF_FORM: [Check; 8] = [
     clock::errors,
     names::errors,
     rates::errors,
     drive::errors,
     detection::errors,
     identification::errors,
+    items::errors,
     memory::errors,
 ];
 

@@ -19,7 +19,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         let at = at.key("items").key(name).key("placement");
         errors.extend(errors_of_points(
             checked,
-            (&kind.placement, kind.count),
+            (&kind.placement, kind.max_number()),
             &at,
         ));
     }

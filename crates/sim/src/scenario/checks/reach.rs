@@ -34,7 +34,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         if !finders.is_empty() && !checked.spec.world.periodic {
             let targets = Targets {
                 placement: &kind.placement,
-                count: kind.count,
+                count: kind.max_number(),
                 robots: "robot with a sensor for it",
             };
             errors.extend(out_of_reach(checked, &targets, &finders, &at));

@@ -24,6 +24,7 @@ mod goals;
 mod golden;
 mod identification;
 mod inspect;
+mod item_numbers;
 mod judge;
 mod layers;
 mod links;
