@@ -683,6 +683,43 @@ class DispatchColumnsBind(AwardColumns):
     row: Integers
 
 
+class AssignmentColumns(TypedDict):
+    """A robot that has been awarded a goal.
+
+    Attributes:
+        goal: The goal.
+        robot: The robot.
+    """
+
+    goal: GoalIdColumns
+    robot: RobotIdColumns
+
+
+class DispatchColumnsAssigned(AssignmentColumns):
+    """From an owner to its heir: a robot that has been awarded a goal.
+
+    Of an inherited goal, only such a robot can report that it is done.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+
+
+class DispatchColumnsService(TypedDict):
+    """From the operator to a robot: whether it is in service.
+
+    Out of service, it releases its goals, bids for none, and refuses awards.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: Integers
+    value: Booleans
+
+
 class DispatchColumns(TypedDict):
     """A message about a goal that a controller owns or awards.
 
@@ -720,6 +757,10 @@ class DispatchColumns(TypedDict):
         bind: From an owner to its heir: from now on, it owns the goal only while the heir
             renews its lease. The number is that of the answer to which it refers, the duration
             that of its longest service lease.
+        assigned: From an owner to its heir: a robot that has been awarded a goal. Of an
+            inherited goal, only such a robot can report that it is done.
+        service: From the operator to a robot: whether it is in service. Out of service, it
+            releases its goals, bids for none, and refuses awards.
     """
 
     issue: DispatchColumnsIssue
@@ -748,6 +789,8 @@ class DispatchColumns(TypedDict):
     relieved: DispatchColumnsRelieved
     restore: DispatchColumnsRestore
     bind: DispatchColumnsBind
+    assigned: DispatchColumnsAssigned
+    service: DispatchColumnsService
 
 
 class AboutColumns(TypedDict):
@@ -1410,6 +1453,43 @@ class DispatchArraysBind(AwardArrays):
     row: NotRequired[ArrayLike]
 
 
+class AssignmentArrays(TypedDict):
+    """A robot that has been awarded a goal.
+
+    Attributes:
+        goal: The goal.
+        robot: The robot.
+    """
+
+    goal: GoalIdArrays
+    robot: RobotIdArrays
+
+
+class DispatchArraysAssigned(AssignmentArrays):
+    """From an owner to its heir: a robot that has been awarded a goal.
+
+    Of an inherited goal, only such a robot can report that it is done.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+
+
+class DispatchArraysService(TypedDict):
+    """From the operator to a robot: whether it is in service.
+
+    Out of service, it releases its goals, bids for none, and refuses awards.
+
+    Attributes:
+        row: The message that each is in.
+    """
+
+    row: NotRequired[ArrayLike]
+    value: ArrayLike
+
+
 class DispatchArrays(TypedDict):
     """A message about a goal that a controller owns or awards.
 
@@ -1447,6 +1527,10 @@ class DispatchArrays(TypedDict):
         bind: From an owner to its heir: from now on, it owns the goal only while the heir
             renews its lease. The number is that of the answer to which it refers, the duration
             that of its longest service lease.
+        assigned: From an owner to its heir: a robot that has been awarded a goal. Of an
+            inherited goal, only such a robot can report that it is done.
+        service: From the operator to a robot: whether it is in service. Out of service, it
+            releases its goals, bids for none, and refuses awards.
     """
 
     issue: NotRequired[DispatchArraysIssue]
@@ -1475,6 +1559,8 @@ class DispatchArrays(TypedDict):
     relieved: NotRequired[DispatchArraysRelieved]
     restore: NotRequired[DispatchArraysRestore]
     bind: NotRequired[DispatchArraysBind]
+    assigned: NotRequired[DispatchArraysAssigned]
+    service: NotRequired[DispatchArraysService]
 
 
 class AboutArrays(TypedDict):

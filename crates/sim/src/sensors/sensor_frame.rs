@@ -34,6 +34,10 @@ pub(crate) enum NoisePurpose {
     Clock = 10,
     /// Whether a robot or controller fails; not a sensor's.
     Failure = 11,
+    /// Whether a charge destroys an item; not a sensor's.
+    Act = 14,
+    /// Whether an item destroys a robot; not a sensor's.
+    Hazard = 15,
 }
 
 /// Purposes of one sensor are numbered from here.

@@ -128,6 +128,7 @@ impl WorkerScratch {
         self.command.heading_rad = command.heading_rad;
         self.command.requests.clone_from(&command.requests);
         self.command.outbox.clone_from(&command.outbox);
+        self.command.acts.clone_from(&command.acts);
     }
 
     /// Notes the items of external contacts: the nearest item of the kind, if it is near.
@@ -158,6 +159,9 @@ impl WorkerScratch {
         self.clear_percept(kind);
         sense(view, robot, agent, &mut self.sensing, &mut self.percept);
         self.add_own_state(view, robot, brain_step);
+        if let Some(acting) = &mut agent.inputs.acting {
+            acting.deliver(&mut self.percept);
+        }
         true
     }
 
@@ -171,6 +175,8 @@ impl WorkerScratch {
         percept.contacts.clear();
         percept.neighbours.clear();
         percept.inbox.clear();
+        percept.acted.clear();
+        percept.charges = None;
         let rings = kind.brain.body().rings.len();
         // Kinds have different numbers of rings.
         while percept.scans.len() > rings {
@@ -208,6 +214,9 @@ impl WorkerScratch {
         agent.setpoint = self.command.motion;
         for request in &self.command.requests {
             agent.switch(*request);
+        }
+        if let Some(acting) = &mut agent.inputs.acting {
+            acting.command(&self.command.acts);
         }
         let participant = agent.inputs.participant.as_ref();
         let most = participant.map_or(0, |each| each.radio.messages_per_step);

@@ -16,6 +16,7 @@ mod places;
 mod rates;
 mod reach;
 mod room;
+mod tools;
 
 use super::checked::Checked;
 use super::ready::Scenario;
@@ -29,13 +30,14 @@ use std::collections::BTreeSet;
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 /// Checks of what the conversion for runs relies on.
-const CHECKS_OF_FORM: [Check; 7] = [
+const CHECKS_OF_FORM: [Check; 8] = [
     clock::errors,
     names::errors,
     rates::errors,
     drive::errors,
     detection::errors,
     items::errors,
+    tools::errors,
     memory::errors,
 ];
 
