@@ -70,7 +70,7 @@ impl Moment<'_> {
 }
 
 /// The numbers of all targets and of their kinds.
-fn targets<'m>(moment: &'m Moment) -> impl Iterator<Item = (u32, u16)> {
+fn targets(moment: &Moment) -> impl Iterator<Item = (u32, u16)> {
     let kinds = (0..).zip(moment.items.kinds());
     kinds.filter(|(_, kind)| moment.scenario.items[usize::from(*kind)].is_target)
 }

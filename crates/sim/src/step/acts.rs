@@ -117,7 +117,9 @@ impl State {
             *charges -= 1;
         }
         if act.kind == ActKind::Neutralise && is_success {
-            items.iter().for_each(|item| self.items.remove(*item));
+            for item in &items {
+                self.items.remove(*item);
+            }
         }
         acting.report(act, is_success);
         let done = Done {

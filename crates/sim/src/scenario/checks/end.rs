@@ -70,7 +70,6 @@ fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
     let targets = items.iter().filter(|(_, kind)| kind.target);
     let all_targets = targets.clone().map(|(name, _)| max(name)).sum();
     let (start, max) = match count {
-        Count::Found => (Some(0.0), all_targets),
         Count::Missed => {
             let counts = targets.map(|(_, kind)| number(kind));
             (counts.sum(), all_targets)
@@ -79,7 +78,9 @@ fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
             let counts = targets.map(|(_, kind)| number(kind));
             (counts.sum(), all_targets)
         }
-        Count::Marked | Count::Confirmed | Count::Neutralised => (Some(0.0), all_targets),
+        Count::Found | Count::Marked | Count::Confirmed | Count::Neutralised => {
+            (Some(0.0), all_targets)
+        }
         Count::FoundOf(kind) => (Some(0.0), max(items[kind].0)),
         Count::MissedOf(kind) => (number(items[kind].1), max(items[kind].0)),
         Count::Served | Count::Open => {
