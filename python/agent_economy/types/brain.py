@@ -997,6 +997,8 @@ class Percept(TypedDict):
     contacts: NotRequired[Sequence[Contact]]
     neighbours: NotRequired[Sequence[Neighbour]]
     inbox: NotRequired[Sequence[ReceivedMessage]]
+    acted: NotRequired[Sequence[Acted]]
+    charges: NotRequired[int | None]
 
 
 class ServedGoal(TypedDict):
