@@ -49,6 +49,8 @@ def sample(schema: Any, chance: random.Random) -> Any:
     match schema["type"]:
         case "integer":
             return chance.randint(0, MAX[schema["format"]])
+        case "boolean":
+            return chance.random() < 0.5
         case "number":
             return chance.randint(0, 4096) / 64
         case "array":
