@@ -46,15 +46,22 @@ def sample(schema: Any, chance: random.Random) -> Any:
         return sample(chance.choice(parts), chance)
     if "const" in schema:
         return schema["const"]
+    if schema["type"] == "array":
+        return [sample(schema["items"], chance) for _ in range(schema["minItems"])]
+    if schema["type"] != "object":
+        return scalar(schema, chance)
+    properties = schema.get("properties", {})
+    return {key: sample(each, chance) for key, each in properties.items()}
+
+
+def scalar(schema: Any, chance: random.Random) -> float | bool:
+    """Return a random number or flag."""
     match schema["type"]:
         case "integer":
             return chance.randint(0, MAX[schema["format"]])
         case "number":
             return chance.randint(0, 4096) / 64
-        case "array":
-            return [sample(schema["items"], chance) for _ in range(schema["minItems"])]
-    properties = schema.get("properties", {})
-    return {key: sample(each, chance) for key, each in properties.items()}
+    return chance.random() < 0.5
 
 
 def kinds_of_messages() -> list[tuple[str, ...]]:
