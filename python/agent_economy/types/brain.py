@@ -828,7 +828,7 @@ class Command(TypedDict):
     heading_rad: float | None
     requests: Sequence[SensorRequest]
     outbox: Sequence[Message]
-    acts: Sequence[Act]
+    acts: NotRequired[Sequence[Act]]
 
 
 class Contact(TypedDict):
