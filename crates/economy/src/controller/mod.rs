@@ -32,6 +32,7 @@ mod unserved;
 mod wards;
 
 pub(crate) use auction::{CALLS_PER_STEP, REPEAT_S};
+pub use tenures::RENEWAL_RETRY_S;
 
 use crate::clearance::{LanePicture, LaneStatement};
 use crate::settings::Settings;

@@ -6,10 +6,11 @@ use super::wards::{Orphan, Request};
 use alloc::vec::Vec;
 use brain::{Claim, Dispatch, GoalId, Lease, Percept, RobotId, Task};
 
-/// Leases are renewed when this part of their duration is left, and a renewal without an answer is
-/// repeated after this time, in seconds.
+/// Leases are renewed when this part of their duration is left.
 const RENEWED_AT: f64 = 2.0 / 3.0;
-const RENEWAL_RETRY_S: f64 = 0.5;
+
+/// A renewal of an owner lease without an answer is repeated after this time, in seconds.
+pub const RENEWAL_RETRY_S: f64 = 0.5;
 
 /// Maximum number of leases that are renewed one by one in a step.
 const MAX_RENEWALS: usize = 16;

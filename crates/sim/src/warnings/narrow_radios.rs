@@ -5,9 +5,7 @@ use crate::controllers::ControllerSpec;
 use crate::scenario::{Checked, ScenarioSpec};
 use base::document::Place;
 use base::warning::Warning;
-
-/// Time after which a renewal without an answer is repeated, in seconds.
-const RETRY_S: f64 = 0.5;
+use economy::RENEWAL_RETRY_S;
 
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let spec = &checked.spec;
@@ -31,7 +29,7 @@ fn of_controllers(
     let owned = goals.filter(|goal| owner_of(goal, spec) == Some(name));
     let owned: u32 = owned.map(|goal| goal.count).sum();
     let each = owned.div_ceil(kind.count.max(1)).min(kind.max_goals);
-    let needed = (f64::from(each) * RETRY_S / kind.owner_lease_s).ceil();
+    let needed = (f64::from(each) * RENEWAL_RETRY_S / kind.owner_lease_s).ceil();
     (kind.count > 0 && needed > kind.radio.messages_per_step.into()).then(|| {
         let effect = format!(
             "fewer than the {needed} that {each} goals of a controller need: owner leases may end before they are \

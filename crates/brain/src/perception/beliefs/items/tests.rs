@@ -13,6 +13,16 @@ mod calibration;
 mod observations;
 mod uncertain;
 
+/// A random number from the Poisson distribution (Knuth, *Seminumerical algorithms*, 3.4.1).
+fn poisson(mean: f64, random: &mut Stream) -> u32 {
+    let (min, mut product, mut number) = (libm::exp(-mean), unit(random), 0);
+    while product > min {
+        product *= unit(random);
+        number += 1;
+    }
+    number
+}
+
 pub(crate) const ME: RobotId = RobotId { kind: 0, index: 0 };
 pub(crate) const POSITION: Point = Point { x: 3.0, y: 0.0 };
 

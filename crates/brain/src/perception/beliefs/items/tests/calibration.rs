@@ -6,16 +6,6 @@ use base::geometry::Rectangle;
 use base::noise::normal_pair;
 use core::f64::consts::PI;
 
-/// A random number from the Poisson distribution (Knuth, *Seminumerical algorithms*, 3.4.1).
-fn poisson(mean: f64, random: &mut Stream) -> u32 {
-    let (min, mut product, mut number) = (libm::exp(-mean), unit(random), 0);
-    while product > min {
-        product *= unit(random);
-        number += 1;
-    }
-    number
-}
-
 /// An observation of a world, distributed as in the detector's specification.
 fn model_observation(
     (items, map): (&mut Items, &mut Map),

@@ -138,15 +138,6 @@ const NEAR_M: f64 = 0.35;
 /// One item of a world: its kind, its position, and whether the sensor is blind to it.
 type WorldItem = (u16, Point, bool);
 
-fn poisson(mean: f64, random: &mut Stream) -> u32 {
-    let (min, mut product, mut number) = (libm::exp(-mean), unit(random), 0);
-    while product > min {
-        product *= unit(random);
-        number += 1;
-    }
-    number
-}
-
 fn anywhere(half_width_m: f64, random: &mut Stream) -> Point {
     let mut along = || half_width_m * (2.0 * unit(random) - 1.0);
     Point {
