@@ -38,6 +38,10 @@ ALWAYS_WHOLE = {"Command", "Motion"}
 """Types whose keys may be omitted in files, but which brains always return completely."""
 
 
+OMITTED = {"acts"}
+"""Their keys that commands of Python brains may lack: only robots with tools act."""
+
+
 def main() -> None:
     """Write all files, or with `--check` exit with 1 if one of them differs."""
     brain, page = (load(f"{name}.schema.json") for name in ("brain", "page"))
@@ -206,7 +210,7 @@ def record(name: str, description: str, keys: list[Field], *, is_total: bool = F
     """Return a type of a dict."""
     types = {
         key.name: python(key.schema)
-        if key.is_required or is_total
+        if key.is_required or (is_total and key.name not in OMITTED)
         else f"NotRequired[{python(key.schema)}]"
         for key in keys
     }

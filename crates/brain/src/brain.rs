@@ -244,6 +244,7 @@ impl Brain {
     fn decide_into(&mut self, percept: &Percept, command: &mut Command) -> Option<usize> {
         command.requests.clear();
         command.outbox.clear();
+        command.acts.clear();
         let period_s = self.kind.body.period_s;
         let Some(elapsed_s) = self.odometry.elapsed_s(percept.time_s, period_s) else {
             self.repeat_into(command);

@@ -51,6 +51,7 @@ pub use brain::Brain;
 pub use goals::Verdict;
 pub use goals::orders::{AssignedGoal, OrderVerdict};
 pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, HeadingOptions};
+pub use io::act::{Act, ActKind, Acted, MAX_ACTS, Tool};
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
 pub use io::dispatch::{

@@ -3,7 +3,7 @@
 use crate::columns::{self, Given, Shape};
 use crate::convert;
 use crate::error::input_error;
-use crate::message_check::Kinds;
+use crate::message_check::{Kinds, tools_of};
 use base::error::{InputError, InputErrors};
 use brain::{Command, Percept};
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -83,7 +83,8 @@ pub(crate) fn command(
             let json = Json::deserialize(given.cell(entry)).unwrap_or_default();
             convert::read_json("", &json)
         });
-        let read = read.and_then(|command| kinds.command("", command));
+        let tools = tools_of(scenario, decision.robot.kind);
+        let read = read.and_then(|command| kinds.command("", tools, command));
         decision.command = read.map_err(|error| {
             let keys = error
                 .path

@@ -23,7 +23,8 @@ impl EventReader {
 
     /// Removes and returns the events since the last call, in their order. Each has the number of steps before its own,
     /// its kind, the name of an item, goal or robot as it was then, and a value: of "detected" the time, of "served" the name
-    /// of the robot, of "collided" the robot's collisions so far, and of "status" the number of its status.
+    /// of the robot, of "acted" what it did, the item there or None, the place and whether it succeeded, of
+    /// "destroyed" the item that destroyed the robot, of "collided" the robot's collisions so far, and of "status" the number of its status.
     fn drain<'py>(&self, py: Python<'py>) -> PyResult<Vec<EventTuple<'py>>> {
         let episodes = self.0.drain();
         let events = episodes
@@ -51,6 +52,23 @@ fn tuple<'py>(py: Python<'py>, scenario: &Scenario, event: &Event) -> PyResult<E
             let name = named(scenario.goal_kinds(), goal.0.into(), goal.1);
             let by = name_of(scenario, by);
             (tick, "served", name, by.into_bound_py_any(py)?)
+        }
+        EventKind::Acted {
+            act,
+            by,
+            at,
+            item,
+            is_success,
+        } => {
+            let item = item.map(|(kind, index)| named(scenario.item_kinds(), kind.into(), index));
+            let value = (act.name(), item, (at.x, at.y), is_success);
+            let value = value.into_bound_py_any(py)?;
+            (tick, "acted", name_of(scenario, by), value)
+        }
+        EventKind::Destroyed { robot, item } => {
+            let item = named(scenario.item_kinds(), item.0.into(), item.1);
+            let name = name_of(scenario, robot);
+            (tick, "destroyed", name, item.into_bound_py_any(py)?)
         }
         EventKind::Collided { robot, total } => {
             let name = name_of(scenario, robot);

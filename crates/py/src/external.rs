@@ -1,7 +1,7 @@
 //! Percepts and commands of external bodies, by robot name.
 
 use crate::convert;
-use crate::message_check::Kinds;
+use crate::message_check::{Kinds, tools_of};
 use crate::metric_scenario::{name_of, participant_of, robot_of};
 use crate::percept_check::fitting;
 use base::document::path_of;
@@ -37,7 +37,8 @@ pub(crate) fn read(
     let named = |name: &str| robot_of(scenario, "percepts", name);
     let percepts = by_robot(("percepts", percepts), named, fits, &mut errors);
     let kinds = Kinds::of_scenario(scenario);
-    let allowed = |at: &str, _, command| kinds.command(at, command);
+    let allowed =
+        |at: &str, id: RobotId, command| kinds.command(at, tools_of(scenario, id.kind), command);
     let named = |name: &str| participant_of(scenario, "commands", name);
     let commands = by_robot(("commands", commands), named, allowed, &mut errors);
     errors.extend(commands_of_external(run, &percepts, &commands));

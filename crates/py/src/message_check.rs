@@ -1,7 +1,7 @@
 //! Rejects messages, and ids of robots, that no brain could use: brains would ignore them unseen.
 
 use base::error::InputError;
-use brain::{About, Body, Command, Message, RobotId};
+use brain::{About, Act, Body, Command, Message, RobotId, Tool};
 use sim::scenario::Scenario;
 
 /// The kinds that messages can be about.
@@ -73,13 +73,43 @@ impl Kinds {
         unknown.or_else(|| self.robot(&format!("{at}.provenance.observer"), provenance.observer))
     }
 
-    /// `command`, if all of its messages are allowed; `at` is its path.
-    pub(crate) fn command(&self, at: &str, command: Command) -> Result<Command, InputError> {
+    /// `command`, if all of its messages are allowed, and if all of its acts have a tool; `at` is its path.
+    pub(crate) fn command(
+        &self,
+        at: &str,
+        tools: &[Tool],
+        command: Command,
+    ) -> Result<Command, InputError> {
         let mut messages = command.outbox.iter().enumerate();
         let error = messages
             .find_map(|(number, message)| self.message(&format!("{at}.outbox[{number}]"), message));
+        let error = error.or_else(|| without_tool(at, tools, &command.acts));
         error.map_or(Ok(command), Err)
     }
+}
+
+/// The tools of robots of a kind; none of controllers.
+pub(crate) fn tools_of(scenario: &Scenario, kind: u8) -> &[Tool] {
+    let brain = scenario.brain(kind);
+    brain.map_or(&[], |brain| brain.body().tools.as_slice())
+}
+
+/// An error of the first act for which there is no tool.
+fn without_tool(at: &str, tools: &[Tool], acts: &[Act]) -> Option<InputError> {
+    let has_none = |act: &Act| !tools.iter().any(|tool| tool.act == act.kind);
+    let number = acts.iter().position(has_none)?;
+    let names: Vec<&str> = tools.iter().map(|tool| tool.act.name()).collect();
+    let allowed = if names.is_empty() {
+        "no act: the robot has no tools".to_owned()
+    } else {
+        format!(
+            "an act for which the robot has a tool: {}",
+            names.join(", ")
+        )
+    };
+    let path = format!("{at}.acts[{number}].kind");
+    let given = Some(acts[number].kind.name().to_owned());
+    Some(InputError::new(path, given, allowed))
 }
 
 fn unless_below(kinds: usize, at: &str, kind: usize, what: &str) -> Option<InputError> {

@@ -3,7 +3,7 @@
 use crate::arrays;
 use crate::convert;
 use crate::error::input_error;
-use crate::message_check::Kinds;
+use crate::message_check::{Kinds, tools_of};
 use crate::metric_scenario::{kind_of, name_of};
 use base::document::path_of;
 use base::error::InputErrors;
@@ -47,7 +47,8 @@ impl PythonBrain<'_> {
         let at = path_of("brains", &name_of(scenario, decision.robot));
         let at = format!("{at}.step()");
         let read = convert::read::<Command>(&at, &command);
-        let read = read.and_then(|read| Kinds::of_scenario(scenario).command(&at, read));
+        let tools = tools_of(scenario, decision.robot.kind);
+        let read = read.and_then(|read| Kinds::of_scenario(scenario).command(&at, tools, read));
         decision.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         Ok(())
     }

@@ -1,18 +1,20 @@
 //! When a run is complete.
 
+use crate::scenario::features::Features;
 use base::scenario::condition::{
     Condition, ConditionColumns, ConditionError, Operator, Quantity, parse,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// When a run is complete and over; without this table, when all targets are found and all goals are served.
+/// When a run is complete and over; without this table, when all targets are complete and all goals are served.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EndSpec {
     /// The condition with which a run is complete: a count that changes during the run, compared with
     /// a number by `>=`, `>`, `<=`, `<`, `==` or `!=`, such as `"found_mine >= 3"`. The counts are
     /// `found` and `missed` (of all targets), `found_KIND` and `missed_KIND` (of a kind of items),
-    /// `false_alarms`, `collisions` and `robots_stopped`, and with goals `served`. A run that is not complete when the time
+    /// `false_alarms`, `collisions` and `robots_stopped`, with goals `served`, and where robots act on items `left`,
+    /// `marked`, `confirmed`, `neutralised` and `robots_lost`. A run that is not complete when the time
     /// limit is reached, or when no robot can move, has failed.
     #[schemars(length(min = 1))]
     pub when: String,
@@ -32,6 +34,18 @@ pub(crate) enum Count {
     Served,
     /// Targets not found, and goals not served.
     Open,
+    /// Targets not complete.
+    Left,
+    /// Targets not complete, and goals not served.
+    LeftOrOpen,
+    /// Targets marked.
+    Marked,
+    /// Targets confirmed.
+    Confirmed,
+    /// Targets destroyed by a charge.
+    Neutralised,
+    /// Robots destroyed by items.
+    RobotsLost,
     /// Items found of the kind of this number.
     FoundOf(usize),
     /// Items not found of the kind of this number.
@@ -46,8 +60,8 @@ pub(crate) struct EndCondition {
 }
 
 impl Count {
-    /// All counts, named as the outcome columns of scenarios with these kinds of items, and with goals or without.
-    fn all<'k>(kinds: impl Iterator<Item = &'k str>, has_goals: bool) -> Vec<(String, Self)> {
+    /// All counts, named as the outcome columns of scenarios with these kinds of items and these optional parts.
+    fn all<'k>(kinds: impl Iterator<Item = &'k str>, has: Features) -> Vec<(String, Self)> {
         let of_one_kind = kinds.enumerate().flat_map(|(number, kind)| {
             [
                 (format!("found_{kind}"), Self::FoundOf(number)),
@@ -62,8 +76,17 @@ impl Count {
             ("robots_stopped", Self::RobotsStopped),
         ];
         let of_all = of_all.map(|(name, count)| (name.to_owned(), count));
-        let of_goals = has_goals.then(|| ("served".to_owned(), Self::Served));
-        let of_all = of_all.into_iter().chain(of_goals);
+        let of_goals = has.goals.then(|| ("served".to_owned(), Self::Served));
+        let of_acts = [
+            ("left", Self::Left),
+            ("marked", Self::Marked),
+            ("confirmed", Self::Confirmed),
+            ("neutralised", Self::Neutralised),
+            ("robots_lost", Self::RobotsLost),
+        ];
+        let of_acts = of_acts.map(|(name, count)| (name.to_owned(), count));
+        let of_acts = of_acts.into_iter().filter(|_| has.acts);
+        let of_all = of_all.into_iter().chain(of_goals).chain(of_acts);
         of_all.chain(of_one_kind).collect()
     }
 }
@@ -82,22 +105,35 @@ impl EndCondition {
         }
     }
 
-    /// That all targets are found and all goals are served.
-    pub(crate) fn all_served() -> Self {
+    /// That all targets are complete; `is_plain` if finding them completes all of them.
+    pub(crate) fn all_complete(is_plain: bool) -> Self {
+        let left = Self {
+            count: Count::Left,
+            ..Self::all_found()
+        };
+        if is_plain { Self::all_found() } else { left }
+    }
+
+    /// That all targets are complete and all goals are served; `is_plain` if finding the targets completes them.
+    pub(crate) fn all_served(is_plain: bool) -> Self {
+        let count = if is_plain {
+            Count::Open
+        } else {
+            Count::LeftOrOpen
+        };
         Self {
-            count: Count::Open,
+            count,
             ..Self::all_found()
         }
     }
 
-    /// Parses a condition on the counts of scenarios with these kinds of items, and with goals or without.
+    /// Parses a condition on the counts of scenarios with these kinds of items and these optional parts.
     pub(crate) fn parse<'k>(
         text: &str,
         kinds: impl Iterator<Item = &'k str>,
-        has_goals: bool,
+        has: Features,
     ) -> Result<Self, ConditionError> {
-        let (names, counts): (Vec<String>, Vec<Count>) =
-            Count::all(kinds, has_goals).into_iter().unzip();
+        let (names, counts): (Vec<String>, Vec<Count>) = Count::all(kinds, has).into_iter().unzip();
         let columns = ConditionColumns {
             names,
             ..ConditionColumns::default()
@@ -111,7 +147,8 @@ impl EndCondition {
 
     /// Whether it is that nothing is left to find or to serve.
     pub(crate) fn is_default(&self) -> bool {
-        *self == Self::all_found() || self.count == Count::Open
+        let is_of_no_text = matches!(self.count, Count::Open | Count::LeftOrOpen);
+        *self == Self::all_found() || *self == Self::all_complete(false) || is_of_no_text
     }
 
     /// Whether it can hold for a count from 0 to `max`.
@@ -127,7 +164,11 @@ mod tests {
     use super::*;
 
     fn condition(text: &str) -> EndCondition {
-        EndCondition::parse(text, ["cow", "mine"].into_iter(), true).unwrap()
+        let has = Features {
+            goals: true,
+            acts: true,
+        };
+        EndCondition::parse(text, ["cow", "mine"].into_iter(), has).unwrap()
     }
 
     #[test]

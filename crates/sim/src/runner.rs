@@ -67,7 +67,7 @@ impl Engine for Metric {
     }
 
     fn merit_terms(&self, document: &Document) -> Vec<MeritTerm> {
-        columns::columns(&[], ScenarioSpec::has_goals(document)).merit_terms()
+        columns::columns(&[], ScenarioSpec::features(document)).merit_terms()
     }
 
     fn condition_columns(&self, document: &Document) -> ConditionColumns {
@@ -110,7 +110,7 @@ impl Runner for Runs {
 
 impl Runs {
     fn outcome_columns(&self) -> OutcomeColumns<Scenario, Outcome> {
-        columns::columns(&self.0.max_item_counts(), !self.0.goals.is_empty())
+        columns::columns(&self.0.max_item_counts(), self.0.features())
     }
 
     fn finish(

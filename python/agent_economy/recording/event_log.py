@@ -16,7 +16,7 @@ LEVELS = {"empty": Log.WARNING, "broken": Log.ERROR}
 
 
 class EventLog:
-    """Writes finds, services of goals, collisions and changes of status to the log."""
+    """Writes finds, services, acts, losses, collisions and changes of status to the log."""
 
     def __init__(self, file: File, simulation: Simulation, clock: Clock, items: Items) -> None:
         """Begin with the events of the next step."""
@@ -53,7 +53,21 @@ def in_words(kind: str, value: Any) -> tuple["Log.Level.ValueType", str]:
     """Return the level and the message of an event."""
     if kind == "served":
         return Log.INFO, f"served by {value}"
+    if kind == "acted":
+        return act_in_words(value)
+    if kind == "destroyed":
+        return Log.ERROR, f"destroyed by {value}"
     if kind == "collided":
         return Log.WARNING, f"collision, {value} in total"
     status = str(STATUSES[value])
     return LEVELS.get(status, Log.INFO), status
+
+
+def act_in_words(
+    value: tuple[str, str | None, tuple[float, float], bool],
+) -> tuple["Log.Level.ValueType", str]:
+    """Return the level and the message of an act on an item or a place."""
+    act, item, at, is_success = value
+    result = "" if is_success else ", failed"
+    place = f"at ({at[0]:.1f}, {at[1]:.1f})"
+    return Log.INFO if is_success else Log.WARNING, f"{act} {item or 'nothing'} {place}{result}"

@@ -964,6 +964,28 @@ class ReceivedMessageColumnRows(ReceivedMessageColumns):
     row: Integers
 
 
+class ActedColumns(TypedDict):
+    """The result of an act.
+
+    Attributes:
+        kind: What the robot did. 0 mark, 1 confirm, 2 reject, 3 isolate, 4 neutralise.
+        at: The place that its command named.
+        is_success: Whether it was done. Of `neutralise`: whether the charge destroyed
+            something. A statement reveals nothing about what is there. An act without the tool,
+            out of its range or without a charge fails.
+    """
+
+    kind: Integers
+    at: Floats
+    is_success: Booleans
+
+
+class ActedColumnRows(ActedColumns):
+    """The same of several entries; `row` is the one that each belongs to."""
+
+    row: Integers
+
+
 class Percepts(TypedDict):
     """All that a robot knows at one moment; any part may be missing.
 
@@ -989,6 +1011,8 @@ class Percepts(TypedDict):
         contacts: Contacts since the last step: detected items, and false alarms.
         neighbours: Robots that its sensors detected since the last step.
         inbox: Messages received since the last step.
+        acted: Results of its acts since the last step.
+        charges: Number of charges that are left; only of a robot with a tool that needs them.
     """
 
     body: Body
@@ -1006,6 +1030,8 @@ class Percepts(TypedDict):
     contacts: ContactColumnRows
     neighbours: NeighbourColumnRows
     inbox: ReceivedMessageColumnRows
+    acted: ActedColumnRows
+    charges: Integers
 
 
 class MotionArrays(TypedDict):
@@ -1842,6 +1868,24 @@ class MessageArrayRows(MessageArrays):
     row: ArrayLike
 
 
+class ActArrays(TypedDict):
+    """Something that a robot does to the item at a place, or states about it.
+
+    Attributes:
+        kind: What it does. 0 mark, 1 confirm, 2 reject, 3 isolate, 4 neutralise.
+        at: The place in the world, as far as the robot knows its own position.
+    """
+
+    kind: ArrayLike
+    at: ArrayLike
+
+
+class ActArrayRows(ActArrays):
+    """The same of several entries; `row` is the one that each belongs to."""
+
+    row: ArrayLike
+
+
 class Commands(TypedDict):
     """The output of a brain in one step.
 
@@ -1856,9 +1900,12 @@ class Commands(TypedDict):
         requests: Sensors to switch on or off; each stays so until it is switched again.
             Initially all are on.
         outbox: Messages to other robots.
+        acts: What to do to items; at most 4 in a step. One that takes time continues while the
+            commands repeat it and the robot is stationary.
     """
 
     motion: NotRequired[MotionArrays]
     heading_rad: NotRequired[ArrayLike]
     requests: NotRequired[SensorRequestArrayRows]
     outbox: NotRequired[MessageArrayRows]
+    acts: NotRequired[ActArrayRows]

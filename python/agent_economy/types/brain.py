@@ -445,6 +445,38 @@ class About(TypedDict, total=False):
     dispatch: Dispatch
 
 
+ActKind: TypeAlias = Literal["mark", "confirm", "reject", "isolate", "neutralise"]
+"""What a robot can do to items with its tools."""
+
+
+class Act(TypedDict):
+    """Something that a robot does to the item at a place, or states about it.
+
+    Attributes:
+        kind: What it does.
+        at: The place in the world, as far as the robot knows its own position.
+    """
+
+    kind: ActKind
+    at: Point
+
+
+class Acted(TypedDict):
+    """The result of an act.
+
+    Attributes:
+        kind: What the robot did.
+        at: The place that its command named.
+        is_success: Whether it was done. Of `neutralise`: whether the charge destroyed
+            something. A statement reveals nothing about what is there. An act without the tool,
+            out of its range or without a charge fails.
+    """
+
+    kind: ActKind
+    at: Point
+    is_success: bool
+
+
 OrderVerdict: TypeAlias = Literal["pending", "approaching", "receding", "complete", "impossible"]
 """The state of a goal that a person has assigned."""
 
@@ -671,6 +703,22 @@ class Other(TypedDict):
     detectors: NotRequired[Sequence[Detector]]
 
 
+class Tool(TypedDict):
+    """What a brain knows of a tool of its body.
+
+    Attributes:
+        act: What it does.
+        range_m: Maximum distance of the item or place from the centre of the robot.
+        reach_m: Maximum distance of the item from the place that the command names.
+        duration_s: Time for which the robot is stationary and repeats the act.
+    """
+
+    act: ActKind
+    range_m: float
+    reach_m: float
+    duration_s: float
+
+
 Rectangle: TypeAlias = Sequence[Point]
 """An axis-aligned rectangle, including its boundary.
 
@@ -699,6 +747,7 @@ class Body(TypedDict):
         item_kinds: Names of all kinds of items.
         others: Bodies of all kinds of robots, in the order in which ids count them.
         capabilities: Numbers of its capabilities, from 1; goals require them by number.
+        tools: Its tools for acts, one for each kind of act that it can do.
         field: The area of its mission; without it, unknown.
     """
 
@@ -717,6 +766,7 @@ class Body(TypedDict):
     item_kinds: NotRequired[Sequence[str]]
     others: NotRequired[Sequence[Other]]
     capabilities: NotRequired[Sequence[int]]
+    tools: NotRequired[Sequence[Tool]]
     field: NotRequired[Rectangle | None]
 
 
@@ -770,12 +820,15 @@ class Command(TypedDict):
         requests: Sensors to switch on or off; each stays so until it is switched again.
             Initially all are on.
         outbox: Messages to other robots.
+        acts: What to do to items; at most 4 in a step. One that takes time continues while the
+            commands repeat it and the robot is stationary.
     """
 
     motion: Motion
     heading_rad: float | None
     requests: Sequence[SensorRequest]
     outbox: Sequence[Message]
+    acts: NotRequired[Sequence[Act]]
 
 
 class Contact(TypedDict):
@@ -926,6 +979,8 @@ class Percept(TypedDict):
         contacts: Contacts since the last step: detected items, and false alarms.
         neighbours: Robots that its sensors detected since the last step.
         inbox: Messages received since the last step.
+        acted: Results of its acts since the last step.
+        charges: Number of charges that are left; only of a robot with a tool that needs them.
     """
 
     time_s: NotRequired[float]
@@ -942,6 +997,8 @@ class Percept(TypedDict):
     contacts: NotRequired[Sequence[Contact]]
     neighbours: NotRequired[Sequence[Neighbour]]
     inbox: NotRequired[Sequence[ReceivedMessage]]
+    acted: NotRequired[Sequence[Acted]]
+    charges: NotRequired[int | None]
 
 
 class ServedGoal(TypedDict):

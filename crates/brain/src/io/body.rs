@@ -1,5 +1,6 @@
 //! What a brain knows of its body.
 
+use super::act::Tool;
 use alloc::string::String;
 use alloc::vec::Vec;
 use base::geometry::Rectangle;
@@ -103,6 +104,9 @@ pub struct Body {
     /// Numbers of its capabilities, from 1; goals require them by number.
     #[serde(default)]
     pub capabilities: Vec<u8>,
+    /// Its tools for acts, one for each kind of act that it can do.
+    #[serde(default)]
+    pub tools: Vec<Tool>,
     /// The area of its mission; without it, unknown.
     pub field: Option<Rectangle>,
 }

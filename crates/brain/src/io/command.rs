@@ -1,7 +1,10 @@
 //! Commands: the output of a brain.
 
+use super::act::Act;
 use super::message::Message;
 use alloc::vec::Vec;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,14 +22,30 @@ pub struct Command {
     pub requests: Vec<SensorRequest>,
     /// Messages to other robots.
     pub outbox: Vec<Message>,
+    /// What to do to items; at most 4 in a step. One that takes time continues while the commands repeat it and the robot
+    /// is stationary.
+    pub acts: Vec<Act>,
 }
 
-base::hashed!(Command {
-    motion,
-    heading_rad,
-    requests,
-    outbox
-});
+impl Hashed for Command {
+    /// Acts are added only if there are any: without them, hashes are those of commands before acts existed.
+    fn add_to(&self, hash: &mut Hash) {
+        let Self {
+            motion,
+            heading_rad,
+            requests,
+            outbox,
+            acts,
+        } = self;
+        motion.add_to(hash);
+        heading_rad.add_to(hash);
+        requests.add_to(hash);
+        outbox.add_to(hash);
+        if !acts.is_empty() {
+            acts.add_to(hash);
+        }
+    }
+}
 
 /// A speed and a turn rate.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,5 +1,6 @@
 //! The interface of a brain: what it receives, and what it returns.
 
+pub(crate) mod act;
 pub(crate) mod body;
 pub(crate) mod command;
 pub(crate) mod dispatch;

@@ -1,5 +1,6 @@
 //! Percepts: the input of a brain.
 
+use crate::io::act::Acted;
 use crate::io::body::RobotId;
 use crate::io::command::Motion;
 use crate::io::message::Message;
@@ -49,24 +50,53 @@ pub struct Percept {
     pub neighbours: Vec<Neighbour>,
     /// Messages received since the last step.
     pub inbox: Vec<ReceivedMessage>,
+    /// Results of its acts since the last step.
+    pub acted: Vec<Acted>,
+    /// Number of charges that are left; only of a robot with a tool that needs them.
+    pub charges: Option<u32>,
 }
 
-base::hashed!(Percept {
-    time_s,
-    random_words,
-    id,
-    team_size,
-    position,
-    heading_rad,
-    motion,
-    battery,
-    touch,
-    scans,
-    observations,
-    contacts,
-    neighbours,
-    inbox
-});
+impl Hashed for Percept {
+    /// Acts and charges are added only if there are any: without them, hashes are those of percepts before acts existed.
+    fn add_to(&self, hash: &mut Hash) {
+        let Self {
+            time_s,
+            random_words,
+            id,
+            team_size,
+            position,
+            heading_rad,
+            motion,
+            battery,
+            touch,
+            scans,
+            observations,
+            contacts,
+            neighbours,
+            inbox,
+            acted,
+            charges,
+        } = self;
+        time_s.add_to(hash);
+        random_words.add_to(hash);
+        id.add_to(hash);
+        team_size.add_to(hash);
+        position.add_to(hash);
+        heading_rad.add_to(hash);
+        motion.add_to(hash);
+        battery.add_to(hash);
+        touch.add_to(hash);
+        scans.add_to(hash);
+        observations.add_to(hash);
+        contacts.add_to(hash);
+        neighbours.add_to(hash);
+        inbox.add_to(hash);
+        if !acted.is_empty() || charges.is_some() {
+            acted.add_to(hash);
+            charges.add_to(hash);
+        }
+    }
+}
 
 /// A value, and its age.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

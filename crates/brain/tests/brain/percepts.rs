@@ -4,9 +4,9 @@ use crate::{body, brain};
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
 use brain::{
-    About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, CommitmentStatus, Contact,
-    Detector, GoalId, Message, Motion, Neighbour, Observation, Other, Percept, Provenance,
-    RangeRing, Reading, ReceivedMessage, RobotId, Scan, SensorRequest,
+    About, Act, ActKind, Acted, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command,
+    CommitmentStatus, Contact, Detector, GoalId, Message, Motion, Neighbour, Observation, Other,
+    Percept, Provenance, RangeRing, Reading, ReceivedMessage, RobotId, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -229,6 +229,18 @@ fn others(
     )
 }
 
+fn act_kind() -> impl Strategy<Value = ActKind> {
+    prop_oneof![Just(ActKind::Mark), Just(ActKind::Neutralise)]
+}
+
+fn acted(number: Numbers) -> impl Strategy<Value = Acted> {
+    (act_kind(), point(number), any::<bool>()).prop_map(|(kind, at, is_success)| Acted {
+        kind,
+        at,
+        is_success,
+    })
+}
+
 fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
     let readings = (
         reading(point(number), number),
@@ -246,12 +258,17 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
         0_u32..4,
         proptest::collection::vec(look, 0..3),
     );
-    (clock, readings, scans(number, 2), others(number), identity).prop_map(
+    let results = (
+        proptest::collection::vec(acted(number), 0..2),
+        proptest::option::of(0_u32..9),
+    );
+    let others = (others(number), results);
+    (clock, readings, scans(number, 2), others, identity).prop_map(
         |(
             (time_s, random_words),
             readings,
             scans,
-            (contacts, neighbours, inbox),
+            ((contacts, neighbours, inbox), (acted, charges)),
             (id, team_size, observations),
         )| {
             Percept {
@@ -269,6 +286,8 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
                 contacts,
                 neighbours,
                 inbox,
+                acted,
+                charges,
             }
         },
     )
@@ -276,17 +295,20 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
 
 fn command() -> impl Strategy<Value = Command> {
     let request = any::<(u16, bool)>().prop_map(|(sensor, on)| SensorRequest { sensor, on });
+    let act = (act_kind(), point(finite)).prop_map(|(kind, at)| Act { kind, at });
     (
         motion(finite),
         proptest::option::of(finite(-3.0, 3.0)),
         proptest::collection::vec(request, 0..3),
         proptest::collection::vec(message(finite), 0..3),
+        proptest::collection::vec(act, 0..3),
     )
-        .prop_map(|(motion, heading_rad, requests, outbox)| Command {
+        .prop_map(|(motion, heading_rad, requests, outbox, acts)| Command {
             motion,
             heading_rad,
             requests,
             outbox,
+            acts,
         })
 }
 

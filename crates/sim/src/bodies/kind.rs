@@ -3,16 +3,18 @@
 use super::battery::Battery;
 use super::collision::Collision;
 use super::drive::Drive;
+use super::tools::Tool;
 use super::{Layer, RobotSpec};
 use crate::goals::kind::capability;
 use crate::radio::Radio;
 use crate::schedule::Schedule;
 use crate::sensors::{Measure, Measures, Sensor, SensorSpec};
+use crate::world::items::MARK_TOLERANCE_M;
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
 use brain::behaviours::flock::{self, Sums};
-use brain::{Body, Brain, Detector, Motion, Other, RandomWords, RangeRing};
+use brain::{ActKind, Body, Brain, Detector, Motion, Other, RandomWords, RangeRing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -35,6 +37,10 @@ pub(crate) struct Kind {
     pub(crate) battery: Option<Battery>,
     /// Sorted by name.
     pub(crate) sensors: Vec<Sensor>,
+    /// One for each kind of act that its robots can do.
+    pub(crate) tools: Vec<Tool>,
+    /// Charges of each robot at the start; `None` without a tool that needs them.
+    pub(crate) charges: Option<u32>,
     /// Maximum range of its rays; 0 without rays.
     pub(crate) rays_m: f64,
     pub(crate) radio: Option<Radio>,
@@ -113,6 +119,7 @@ impl Kind {
             .iter()
             .map(|(sensor, spec)| Sensor::new((name, sensor), spec, item_kinds, step_s))
             .collect();
+        let tools = spec.tools.ready(step_s);
         let schedule = Schedule::new(spec.brain.rate_hz, step_s);
         let drive = Drive::new(&spec.drive, step_s);
         let body = Body {
@@ -143,6 +150,7 @@ impl Kind {
             item_kinds: item_kinds.to_vec(),
             others: others(spec.layer, context),
             capabilities: capabilities(spec, context.capabilities),
+            tools: tools.iter().map(|tool| tool.known).collect(),
             field: Some(context.field),
         };
         let mut kind = Self {
@@ -163,6 +171,8 @@ impl Kind {
                 .battery
                 .as_ref()
                 .map(|battery| Battery::new(battery, (spec.mass_kg, spec.payload_kg))),
+            tools,
+            charges: spec.tools.neutralise.as_ref().map(|tool| tool.charges),
             rays_m: rays_m(&sensors),
             sensors,
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
@@ -247,6 +257,15 @@ impl Kind {
         });
         let radio = self.radio.map(|radio| radio.range_m);
         detectors.chain(radio).fold(0.0, f64::max)
+    }
+
+    /// Maximum distance between the place that its robots name and an item that they act on.
+    pub(crate) fn acts_reach_m(&self) -> f64 {
+        let reaches = self.tools.iter().map(|tool| match tool.known.act {
+            ActKind::Isolate | ActKind::Neutralise => tool.known.reach_m,
+            ActKind::Mark | ActKind::Confirm | ActKind::Reject => MARK_TOLERANCE_M,
+        });
+        reaches.fold(0.0, f64::max)
     }
 
     /// Maximum distance at which it detects items.

@@ -9,6 +9,7 @@ pub(crate) mod kind;
 pub mod models;
 pub(crate) mod path;
 pub(crate) mod source;
+pub mod tools;
 
 use crate::radio::RadioSpec;
 use crate::sensors::SensorSpec;
@@ -21,6 +22,7 @@ use models::ModelName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use tools::ToolsSpec;
 
 /// A kind of robot, and the number of these robots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,6 +79,9 @@ pub struct RobotSpec {
     /// The sensors, each under a name of your choice.
     #[serde(default)]
     pub sensors: BTreeMap<String, SensorSpec>,
+    /// Tools with which it acts on items.
+    #[serde(default)]
+    pub tools: ToolsSpec,
     /// The radio. Without it, the robot neither sends nor receives.
     pub radio: Option<RadioSpec>,
     /// What the robot does: its behaviours, and how they are combined.

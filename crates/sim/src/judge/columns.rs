@@ -1,9 +1,11 @@
 //! The outcome columns, each defined in one place.
 
+use super::act_columns;
 use super::find_times::{find_time, find_times};
 use super::goal_columns::{self, Column};
 use super::outcome::Outcome;
 use super::unseen::unseen;
+use crate::scenario::features::Features;
 use crate::scenario::{Scenario, ScenarioSpec};
 use base::document::Document;
 use base::engine::ColumnKind::{Flag, Real, Whole};
@@ -11,14 +13,17 @@ use base::engine::{Bounds, OutcomeColumns};
 use base::scenario::condition::{ConditionColumns, TimesUntil};
 
 /// The outcome columns of scenarios with these kinds of items, each with the largest number of items in any
-/// configuration of the study: all configurations have the same columns. With kinds of goals, there are those of goals.
-pub(crate) fn columns(items: &[(&str, u32)], has_goals: bool) -> OutcomeColumns<Scenario, Outcome> {
+/// configuration of the study: all configurations have the same columns. With kinds of goals, there are those of goals;
+/// where anything can happen to items besides detections, those of acts.
+pub(crate) fn columns(items: &[(&str, u32)], has: Features) -> OutcomeColumns<Scenario, Outcome> {
     let items = items.iter().copied().enumerate();
     let counts = items.clone().flat_map(counts_of);
     let times = items.flat_map(find_times_of);
     let columns = [time_and_team(), finds(), costs()].into_iter().flatten();
-    let goals = has_goals.then(goal_columns::columns);
-    let columns = columns.chain(goals.into_iter().flatten());
+    let goals = has.goals.then(goal_columns::columns);
+    let acts = has.acts.then(act_columns::columns);
+    let more = [goals, acts].into_iter().flatten().flatten();
+    let columns = columns.chain(more);
     OutcomeColumns(columns.chain(counts).chain(times).collect())
 }
 
@@ -30,7 +35,7 @@ pub(crate) fn condition_columns(document: &Document) -> ConditionColumns {
         .map(|(name, count)| (name.as_str(), *count))
         .collect();
     let items = items.as_slice();
-    let names = columns(items, ScenarioSpec::has_goals(document)).names();
+    let names = columns(items, ScenarioSpec::features(document)).names();
     let lengths = items.iter().map(|(_, count)| find_times(*count) as usize);
     let mut start = names.len() - lengths.clone().sum::<usize>();
     let mut times = Vec::new();
@@ -177,7 +182,7 @@ mod tests {
 
     #[test]
     fn merit_terms_are_summed_in_the_order_of_stored_studies() {
-        let terms = columns(&[], false).merit_terms();
+        let terms = columns(&[], Features::default()).merit_terms();
         let names: Vec<&str> = terms.iter().map(|term| &*term.name).collect();
         let expected = "time robots failed price found missed collisions energy distance stopped \
                         false_alarms";

@@ -1,5 +1,6 @@
 //! When a run is over.
 
+use super::act_outcome::ActOutcome;
 use super::moment::Moment;
 use crate::bodies::body_state::Status;
 use crate::end::Count;
@@ -44,7 +45,7 @@ impl Moment<'_> {
     /// The step in which a run was complete, after its scenario changed; `before` is that of the run before.
     pub(crate) fn completed_at(&self, before: Option<u64>) -> Option<u64> {
         let end = self.scenario.end.as_ref().filter(|_| self.meets_end())?;
-        if end.is_default() {
+        if end.is_default() && matches!(end.count, Count::Missed | Count::Open) {
             // Without any of them, the run was complete when it began.
             return self.last_find().max(self.last_service()).or(Some(0));
         }
@@ -84,9 +85,23 @@ impl Moment<'_> {
                 let unserved = scenario.number_of_goals() - self.served();
                 (scenario.sum_of_targets(missed) + unserved).into()
             }
+            Count::Left => self.left().into(),
+            Count::LeftOrOpen => {
+                let unserved = scenario.number_of_goals() - self.served();
+                (self.left() + unserved).into()
+            }
+            Count::Marked => self.acts().marked.into(),
+            Count::Confirmed => self.acts().confirmed.into(),
+            Count::Neutralised => self.acts().neutralised.into(),
+            Count::RobotsLost => self.acts().robots_lost.into(),
             Count::FoundOf(kind) => tally.found[kind].into(),
             Count::MissedOf(kind) => missed(kind).into(),
         }
+    }
+
+    fn acts(&self) -> ActOutcome {
+        let acts = self.tally.acts.as_deref();
+        acts.map_or_else(ActOutcome::default, |acts| ActOutcome::of(self, acts))
     }
 
     fn served(&self) -> u32 {

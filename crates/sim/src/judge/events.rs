@@ -7,7 +7,8 @@
 use crate::bodies::body_state::{BodyState, Status};
 use crate::clock::seconds;
 use crate::scenario::Scenario;
-use brain::RobotId;
+use base::geometry::Point;
+use brain::{ActKind, RobotId};
 use std::mem::replace;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
@@ -44,6 +45,26 @@ pub enum EventKind {
         goal: (u8, u32),
         /// The robot that served it.
         by: RobotId,
+    },
+    /// A robot acted on an item or a place with one of its tools: the first time so, or with a charge.
+    Acted {
+        /// What it did.
+        act: ActKind,
+        /// The robot.
+        by: RobotId,
+        /// The place that it named.
+        at: Point,
+        /// The number of the kind of the nearest item there, and its index.
+        item: Option<(u16, u32)>,
+        /// Whether it was done; of a charge, whether it destroyed the item.
+        is_success: bool,
+    },
+    /// An item has destroyed a robot.
+    Destroyed {
+        /// The robot.
+        robot: RobotId,
+        /// The number of the kind of the item, and its index.
+        item: (u16, u32),
     },
     /// A robot ran into something, or something into it.
     Collided {

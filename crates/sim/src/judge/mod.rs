@@ -4,6 +4,9 @@
 //! and the bodies of a [`moment`] follow the rules of the [`end`] and the [`outcome`], whose numbers are
 //! the [`columns`] of results. What counts is also an event for the readers of [`events`], if there are any.
 
+mod act_columns;
+pub(crate) mod act_outcome;
+pub(crate) mod act_tally;
 mod bounds;
 pub(crate) mod columns;
 pub(crate) mod cost;

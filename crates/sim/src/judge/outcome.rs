@@ -1,5 +1,6 @@
 //! The outcome of a run.
 
+use super::act_outcome::ActOutcome;
 use super::goal_outcome::GoalOutcome;
 use super::moment::Moment;
 use crate::clock::seconds;
@@ -30,6 +31,8 @@ pub struct Outcome {
     pub robots_stopped: u32,
     /// The outcome of the goals, in a scenario with kinds of goals.
     pub goals: Option<GoalOutcome>,
+    /// What robots did to items, in a scenario where they can do more than detect them, or items destroy them.
+    pub acts: Option<ActOutcome>,
     /// Whether every robot has a finite pose.
     is_placed: bool,
 }
@@ -61,6 +64,7 @@ impl Outcome {
                 .goals
                 .as_ref()
                 .map(|goals| GoalOutcome::of(moment, goals)),
+            acts: tally.acts.as_ref().map(|acts| ActOutcome::of(moment, acts)),
             is_placed: is_placed(moment),
         }
     }

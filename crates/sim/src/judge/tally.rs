@@ -1,10 +1,12 @@
 //! What is counted during a run.
 
+use super::act_tally::{ActTally, Done};
 use super::cost::Cost;
-use super::detections::Detections;
+use super::detections::{Detections, Sighting};
 use super::events::{EventKind, EventLog};
 use super::goal_tally::GoalTally;
 use super::items::{Detection, ItemRecord};
+use crate::bodies::Layer;
 use crate::bodies::body_state::BodyState;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
@@ -32,6 +34,8 @@ pub(crate) struct Tally {
     pub(super) removed: Cost,
     /// Counts of goals, in a scenario with kinds of goals.
     pub(crate) goals: Option<Box<GoalTally>>,
+    /// What was done to items, in a scenario where anything can be.
+    pub(crate) acts: Option<Box<ActTally>>,
 }
 
 impl Tally {
@@ -46,6 +50,7 @@ impl Tally {
             present,
             found: vec![0; scenario.items.len()],
             goals: scenario.goals().map(Box::new),
+            acts: scenario.has_acts.then(Box::default),
             ..Self::default()
         }
     }
@@ -74,6 +79,60 @@ impl Tally {
             events.note(tick, EventKind::Detected { item, by });
         }
         is_counted
+    }
+
+    /// Notes an act of a robot; returns whether it counts.
+    pub(crate) fn acted(
+        &mut self,
+        done: &Done,
+        now: (&Scenario, u64, &Items),
+        events: &EventLog,
+    ) -> bool {
+        let acts = self.acts.as_mut();
+        acts.is_some_and(|acts| acts.note(done, now, events))
+    }
+
+    /// Notes the items that robots on the ground have detected, in a scenario where anything can happen to items.
+    pub(crate) fn ground_detected(
+        &mut self,
+        detections: &Detections,
+        (scenario, ids): (&Scenario, &[RobotId]),
+    ) {
+        let Some(acts) = &mut self.acts else {
+            return;
+        };
+        for Sighting { robot, item } in &detections.sightings {
+            let kind = scenario.kind_of(ids[*robot as usize]);
+            if kind.layer == Layer::Ground {
+                acts.meet(*item);
+            }
+        }
+    }
+
+    /// Notes that a robot on the ground came too near to an item.
+    pub(crate) fn met(&mut self, item: u32) {
+        if let Some(acts) = &mut self.acts {
+            acts.meet(item);
+        }
+    }
+
+    /// Notes that an item has destroyed a robot.
+    pub(crate) fn lost(
+        &mut self,
+        (robot, item): (RobotId, u32),
+        (tick, items): (u64, &Items),
+        events: &EventLog,
+    ) {
+        if let Some(acts) = &mut self.acts {
+            acts.robots_lost += 1;
+        }
+        let item = (items.kind(item), items.thing(item).index);
+        events.note(tick, EventKind::Destroyed { robot, item });
+    }
+
+    /// Whether an item was detected.
+    pub(super) fn is_detected(&self, item: u32) -> bool {
+        self.records[item as usize].detected.is_some()
     }
 
     /// Notes new contacts of bodies; returns whether there are any.
@@ -116,6 +175,9 @@ impl Tally {
         for (now, was) in kept {
             next.records[*now] = self.records[*was].renumbered(|id| ids.get(&id).copied());
         }
+        if let Some((next, before)) = next.acts.as_mut().zip(self.acts.as_ref()) {
+            **next = before.continued(kept, |id| ids.get(&id).copied());
+        }
         for (kind, record) in items.kinds().zip(&next.records) {
             next.found[usize::from(kind)] += u32::from(record.detected.is_some());
         }
@@ -131,6 +193,9 @@ impl Tally {
         hash.add(self.collisions);
         if let Some(goals) = &self.goals {
             goals.as_ref().add_to(hash);
+        }
+        if let Some(acts) = &self.acts {
+            acts.add_to(hash);
         }
         if self.removed != Cost::default() {
             hash.add(self.removed.energy_j.to_bits());

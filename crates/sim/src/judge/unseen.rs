@@ -22,7 +22,7 @@ pub(crate) fn unseen(document: &Document, columns: &[String]) -> Vec<Unseen> {
     };
     let kinds = kinds(document);
     let names = kinds.iter().map(|kind| kind.name.as_str());
-    let end = EndCondition::parse(text, names, ScenarioSpec::has_goals(document));
+    let end = EndCondition::parse(text, names, ScenarioSpec::features(document));
     let Ok(end) = end else {
         return Vec::new();
     };

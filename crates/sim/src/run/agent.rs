@@ -1,5 +1,6 @@
 //! The deciding part of a robot: its brain, its motion setpoint, and its inputs.
 
+use super::acting::Acting;
 use super::participant::{Participant, Place};
 use crate::bodies::kind::Kind;
 use crate::sensors::backlog::Backlog;
@@ -26,6 +27,8 @@ pub(crate) struct Inputs {
     pub(crate) backlog: Option<Box<Backlog>>,
     /// The robot as a participant in communication, if it has a radio.
     pub(crate) participant: Option<Box<Participant>>,
+    /// What it does with its tools, if it has any.
+    pub(crate) acting: Option<Box<Acting>>,
 }
 
 impl Agent {
@@ -47,6 +50,7 @@ impl Agent {
                     .needs_backlog()
                     .then(|| Box::new(Backlog::new(&kind.sensors))),
                 participant: kind.radio.map(participant),
+                acting: Acting::new(kind),
             },
         }
     }
@@ -67,6 +71,14 @@ impl Agent {
         self.setpoint = before.setpoint;
         self.sensors_off = before.sensors_off;
         self.inputs.backlog.clone_from(&before.inputs.backlog);
+        if let Some((now, before)) = self
+            .inputs
+            .acting
+            .as_mut()
+            .zip(before.inputs.acting.as_ref())
+        {
+            now.take_over(before);
+        }
         if let Some((now, before)) = self
             .inputs
             .participant

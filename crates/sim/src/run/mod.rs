@@ -1,5 +1,6 @@
 //! A run: its state between two steps, and how it continues with another scenario.
 
+pub(crate) mod acting;
 pub(crate) mod agent;
 mod carry_over;
 mod change;

@@ -53,6 +53,9 @@ impl State {
         let is_external = u64::from(body_state.is_external());
         let status = is_external << 7 | body_state.status as u64;
         hash.add(u64::from(body_state.collisions) << 8 | status);
+        if let Some(acting) = &self.agents[robot].inputs.acting {
+            acting.add_to(hash);
+        }
     }
 
     fn hash_beliefs(&self, hash: &mut Hash) {

@@ -1,5 +1,6 @@
 //! The largest numbers of items and robots in the configurations of a study.
 
+use super::features::Features;
 use super::ready::Scenario;
 use super::spec::ScenarioSpec;
 use crate::world::item_number::ItemNumber;
@@ -27,6 +28,54 @@ impl ScenarioSpec {
     }
 }
 
+impl Scenario {
+    /// Its optional parts.
+    pub(crate) fn features(&self) -> Features {
+        Features {
+            goals: !self.goals.is_empty(),
+            acts: self.has_acts,
+        }
+    }
+}
+
+impl ScenarioSpec {
+    /// The optional parts of any configuration of a document. Works on documents with errors, too.
+    pub(crate) fn features(document: &Document) -> Features {
+        Features {
+            goals: Self::has_goals(document),
+            acts: Self::has_acts(document),
+        }
+    }
+
+    /// Whether anything can happen to items besides detections in any configuration of a document.
+    pub(crate) fn has_acts(document: &Document) -> bool {
+        let filled = Self::filled(document);
+        let has = |table: &str, keys: &[&str]| {
+            let names = Self::names(document, &[table]).unwrap_or_default();
+            let mut paths = names
+                .iter()
+                .flat_map(|name| keys.iter().map(move |key| [table, name, key]));
+            paths.any(|path| filled.get(&path).is_some() || is_varied(document, &path.join(".")))
+        };
+        has("items", &["hazard", "completed_by"])
+            || has("robots", &["tools"])
+            || has("models", &["tools"])
+    }
+}
+
+/// Whether a study varies a key or one below it.
+fn is_varied(document: &Document, path: &str) -> bool {
+    let varied = document.get(&["study", "vary"]).map(|node| &node.value);
+    let Some(Value::Table(varied)) = varied else {
+        return false;
+    };
+    let is_part = |key: &String| {
+        key.strip_prefix(path)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    varied.keys().any(is_part)
+}
+
 impl ScenarioSpec {
     /// Whether a document has kinds of goals. Works on documents with errors, too.
     pub(crate) fn has_goals(document: &Document) -> bool {
@@ -37,6 +86,7 @@ impl ScenarioSpec {
 impl Scenario {
     /// The scenario as one of the configurations of a document.
     pub(super) fn among_those_of(mut self, document: &Document) -> Self {
+        self.has_acts = ScenarioSpec::has_acts(document);
         for kind in &mut self.items {
             kind.max_count = max_number(document, &kind.name);
         }

@@ -4,6 +4,7 @@ mod checked;
 mod checks;
 mod counts;
 mod facts;
+pub(crate) mod features;
 mod kinds;
 mod models;
 mod reading;

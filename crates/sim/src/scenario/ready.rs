@@ -1,6 +1,7 @@
 //! A scenario converted for runs: checked, in SI units and radians, and with constants computed
 //! once.
 
+use super::features::Features;
 use super::spec::ScenarioSpec;
 use super::world_hash::world_hash;
 use crate::agent_clock::AgentClocks;
@@ -56,6 +57,8 @@ pub struct Scenario {
     pub(crate) clocks: AgentClocks,
     /// Whether robots or controllers fail at random times.
     pub(crate) has_failures: bool,
+    /// Whether anything can happen to items besides detections, in any configuration of the study.
+    pub(crate) has_acts: bool,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
     pub(crate) contact_m: f64,
     /// Additional reach of neighbour lists.
@@ -135,6 +138,7 @@ impl Scenario {
                 max_drift: spec.clock.max_drift,
             },
             has_failures: spec.has_failures(),
+            has_acts: false,
             kinds,
         }
     }
@@ -193,9 +197,21 @@ impl Scenario {
         targets.map(|(kind, _)| number(kind)).sum()
     }
 
-    /// The largest range of any item detector.
+    /// The largest distance at which anything detects items or acts on them.
     pub(crate) fn items_reach_m(&self) -> f64 {
+        let acts_m = greatest(&self.kinds, Kind::acts_reach_m);
+        let hazard_m = self
+            .max_hazard_m()
+            .map_or(0.0, |hazard_m| hazard_m + self.max_radius_m());
         greatest(&self.kinds, Kind::items_reach_m)
+            .max(acts_m)
+            .max(hazard_m)
+    }
+
+    /// The largest distance from a robot at which an item can destroy it; `None` if none can.
+    pub(crate) fn max_hazard_m(&self) -> Option<f64> {
+        let hazards = self.items.iter().filter_map(|kind| kind.hazard);
+        hazards.map(|hazard| hazard.radius_m).reduce(f64::max)
     }
 
     /// Length of a time step.
@@ -332,15 +348,20 @@ fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
     let Some(end) = &spec.end else {
         let has_targets = items.iter().any(|kind| kind.is_target && kind.count > 0);
         let has_goals = spec.goals.values().any(|kind| kind.count > 0);
-        let all_found = has_targets.then(EndCondition::all_found);
+        let is_plain = items.iter().all(ItemKind::is_only_found);
+        let all_found = has_targets.then(|| EndCondition::all_complete(is_plain));
         return if has_goals {
-            Some(EndCondition::all_served())
+            Some(EndCondition::all_served(is_plain))
         } else {
             all_found
         };
     };
     let items = spec.items.keys().map(String::as_str);
-    EndCondition::parse(&end.when, items, !spec.goals.is_empty()).ok()
+    let has = Features {
+        goals: !spec.goals.is_empty(),
+        acts: true,
+    };
+    EndCondition::parse(&end.when, items, has).ok()
 }
 
 fn controllers(spec: &ScenarioSpec) -> Vec<ControllerKind> {

@@ -36,6 +36,10 @@ pub(crate) enum NoisePurpose {
     Failure = 11,
     /// Whether sensors of a model can detect an item; not a robot's.
     Blindness = 12,
+    /// Whether a charge destroys an item; not a sensor's.
+    Act = 14,
+    /// Whether an item destroys a robot; not a sensor's.
+    Hazard = 15,
 }
 
 /// Purposes of one sensor are numbered from here.

@@ -132,6 +132,7 @@ impl WorkerScratch {
         self.command.heading_rad = command.heading_rad;
         self.command.requests.clone_from(&command.requests);
         self.command.outbox.clone_from(&command.outbox);
+        self.command.acts.clone_from(&command.acts);
     }
 
     /// Notes the items of external contacts: the nearest item of the kind, if it is near.
@@ -162,6 +163,9 @@ impl WorkerScratch {
         self.clear_percept(kind);
         sense(view, robot, agent, &mut self.sensing, &mut self.percept);
         self.add_own_state(view, robot, brain_step);
+        if let Some(acting) = &mut agent.inputs.acting {
+            acting.deliver(&mut self.percept);
+        }
         true
     }
 
@@ -175,6 +179,8 @@ impl WorkerScratch {
         percept.contacts.clear();
         percept.neighbours.clear();
         percept.inbox.clear();
+        percept.acted.clear();
+        percept.charges = None;
         let rings = kind.brain.body().rings.len();
         // Kinds have different numbers of rings.
         while percept.scans.len() > rings {
@@ -212,6 +218,9 @@ impl WorkerScratch {
         agent.setpoint = self.command.motion;
         for request in &self.command.requests {
             agent.switch(*request);
+        }
+        if let Some(acting) = &mut agent.inputs.acting {
+            acting.command(&self.command.acts);
         }
         if let Some(participant) = &agent.inputs.participant {
             let radio = &participant.radio;

@@ -1,6 +1,7 @@
 //! One step of a run: sense, communicate, decide, act, judge. [`tick`] is the table of contents.
 
 mod act;
+mod acts;
 pub(crate) mod communicate;
 mod decide;
 mod decision_hash;
@@ -12,6 +13,7 @@ pub(crate) mod external;
 mod flock_step;
 mod flock_sums;
 mod flocks;
+mod hazards;
 pub(crate) mod measurement;
 pub(crate) mod neighbours;
 mod parallel;

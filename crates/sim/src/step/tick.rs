@@ -1,6 +1,7 @@
 //! One step of a run: sense, communicate, decide, act, judge.
 
 use super::act::Moves;
+use super::acts;
 use super::communicate;
 use super::decide::{StepInputs, WorkerScratch};
 use super::decision_hash::{add_decisions, add_setpoints};
@@ -8,6 +9,7 @@ use super::direct::ControllerScratch;
 use super::external::ExternalInputs;
 use super::flock_step::flock_step;
 use super::flocks::Flocks;
+use super::hazards;
 use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
@@ -95,7 +97,9 @@ impl StepScratch {
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let is_counted = self.judge_goals(scenario, state);
             let collisions = self.act(scenario, state);
-            self.judge(state, external, collisions) | is_counted
+            let is_counted = hazards::detonate(scenario, state, &self.events) | is_counted;
+            let is_counted = acts::carry_out(scenario, state, &self.events) | is_counted;
+            self.judge((scenario, state), external, collisions) | is_counted
         };
         if scenario.has_failures {
             state.fail(scenario);
@@ -247,7 +251,12 @@ impl StepScratch {
 
     /// Reports to the judge what robots detected in this step, and their collisions; returns whether anything was
     /// counted.
-    fn judge(&self, state: &mut State, external: &ExternalInputs, collisions: u64) -> bool {
+    fn judge(
+        &self,
+        (scenario, state): (&Scenario, &mut State),
+        external: &ExternalInputs,
+        collisions: u64,
+    ) -> bool {
         let State {
             tick,
             items,
@@ -260,11 +269,14 @@ impl StepScratch {
         let here = self.workers.iter().map(|worker| &worker.sensing.detections);
         if external.decisions.robots.is_empty() {
             for detections in here {
+                tally.ground_detected(detections, (scenario, ids));
                 is_counted |= tally.detected(detections, step, &self.events);
             }
         } else {
             let all = iter::once(&external.decisions.detections).chain(here);
-            is_counted |= tally.detected(&Detections::merged(all), step, &self.events);
+            let all = Detections::merged(all);
+            tally.ground_detected(&all, (scenario, ids));
+            is_counted |= tally.detected(&all, step, &self.events);
         }
         is_counted
     }

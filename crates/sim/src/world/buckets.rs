@@ -55,8 +55,17 @@ impl Buckets {
 
     /// Takes the points; each is identified by its index.
     pub(crate) fn fill(&mut self, points: impl ExactSizeIterator<Item = Point> + Clone) {
+        self.take(points.len(), points.zip(0..));
+    }
+
+    /// Takes points with their numbers.
+    pub(crate) fn fill_numbered(&mut self, points: &[(Point, u32)]) {
+        self.take(points.len(), points.iter().copied());
+    }
+
+    fn take(&mut self, count: usize, points: impl Iterator<Item = (Point, u32)> + Clone) {
         let Some(mut images) = self.images.take() else {
-            return self.sort(points.len(), points.zip(0..));
+            return self.sort(count, points);
         };
         images.fill(points);
         self.sort(images.points.len(), images.points.iter().copied());
@@ -121,14 +130,14 @@ impl Buckets {
 }
 
 impl Images {
-    fn fill(&mut self, points: impl Iterator<Item = Point> + Clone) {
+    fn fill(&mut self, points: impl Iterator<Item = (Point, u32)> + Clone) {
         let (torus, reach_m) = (self.torus, self.reach_m);
-        let images = points.clone().zip(0..).flat_map(|(point, number)| {
+        let images = points.clone().flat_map(|(point, number)| {
             let images = torus.images_within(point, reach_m);
             images.map(move |image| (image, number))
         });
         self.points.clear();
-        self.points.extend(points.zip(0..));
+        self.points.extend(points);
         self.points.extend(images);
     }
 }

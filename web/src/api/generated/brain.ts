@@ -3,6 +3,27 @@
 /** The content of a message. */
 export type About = { item: { kind: number; at: Point; provenance: Provenance } } | { sender: { at: Point; heading_rad: number; observations: number } } | { goal: { id: GoalId; at: Point; status: CommitmentStatus } } | { order: { goal: GoalId; at: Point; action: OrderAction } } | { dispatch: Dispatch };
 
+/** Something that a robot does to the item at a place, or states about it. */
+export interface Act {
+  /** What it does. */
+  kind: ActKind;
+  /** The place in the world, as far as the robot knows its own position. */
+  at: Point;
+}
+
+/** What a robot can do to items with its tools. */
+export type ActKind = "mark" | "confirm" | "reject" | "isolate" | "neutralise";
+
+/** The result of an act. */
+export interface Acted {
+  /** What the robot did. */
+  kind: ActKind;
+  /** The place that its command named. */
+  at: Point;
+  /** Whether it was done. Of `neutralise`: whether the charge destroyed something. A statement reveals nothing about what is there. An act without the tool, out of its range or without a charge fails. */
+  is_success: boolean;
+}
+
 /** A robot that has been awarded a goal. */
 export interface Assignment {
   /** The goal. */
@@ -91,6 +112,8 @@ export interface Command {
   requests: SensorRequest[];
   /** Messages to other robots. */
   outbox: Message[];
+  /** What to do to items; at most 4 in a step. One that takes time continues while the commands repeat it and the robot is stationary. */
+  acts: Act[];
 }
 
 /** The status of a commitment to a destination. */
@@ -301,6 +324,10 @@ export interface Percept {
   neighbours: Neighbour[];
   /** Messages received since the last step. */
   inbox: ReceivedMessage[];
+  /** Results of its acts since the last step. */
+  acted: Acted[];
+  /** Number of charges that are left; only of a robot with a tool that needs them. */
+  charges: number | null;
 }
 
 /** A point or a vector; in files `[x, y]`. */

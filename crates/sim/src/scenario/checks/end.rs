@@ -19,7 +19,7 @@ pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError
     };
     let at = document.place().key("end").key("when");
     let items = spec.items.keys().map(String::as_str);
-    let condition = match EndCondition::parse(&end.when, items, !spec.goals.is_empty()) {
+    let condition = match EndCondition::parse(&end.when, items, ScenarioSpec::features(document)) {
         Ok(condition) => condition,
         Err(error) => {
             let hint = hint(&end.when);
@@ -70,10 +70,16 @@ fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
     let targets = items.iter().filter(|(_, kind)| kind.target);
     let all_targets = targets.clone().map(|(name, _)| max(name)).sum();
     let (start, max) = match count {
-        Count::Found => (Some(0.0), all_targets),
         Count::Missed => {
             let counts = targets.map(|(_, kind)| number(kind));
             (counts.sum(), all_targets)
+        }
+        Count::Left | Count::LeftOrOpen => {
+            let counts = targets.map(|(_, kind)| number(kind));
+            (counts.sum(), all_targets)
+        }
+        Count::Found | Count::Marked | Count::Confirmed | Count::Neutralised => {
+            (Some(0.0), all_targets)
         }
         Count::FoundOf(kind) => (Some(0.0), max(items[kind].0)),
         Count::MissedOf(kind) => (number(items[kind].1), max(items[kind].0)),
@@ -83,7 +89,7 @@ fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
             (Some(0.0), counts.sum())
         }
         Count::FalseAlarms | Count::Collisions => (Some(0.0), f64::INFINITY),
-        Count::RobotsStopped => {
+        Count::RobotsStopped | Count::RobotsLost => {
             let kinds = spec.robots.keys();
             let counts = kinds.map(|name| f64::from(max_count(document, "robots", name)));
             (Some(0.0), counts.sum())

@@ -17,6 +17,7 @@ mod places;
 mod rates;
 mod reach;
 mod room;
+mod tools;
 
 use super::checked::Checked;
 use super::ready::Scenario;
@@ -30,7 +31,7 @@ use std::collections::BTreeSet;
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 /// Checks of what the conversion for runs relies on.
-const CHECKS_OF_FORM: [Check; 8] = [
+const CHECKS_OF_FORM: [Check; 9] = [
     clock::errors,
     names::errors,
     rates::errors,
@@ -38,6 +39,7 @@ const CHECKS_OF_FORM: [Check; 8] = [
     detection::errors,
     identification::errors,
     items::errors,
+    tools::errors,
     memory::errors,
 ];
 

@@ -85,7 +85,9 @@ fn events_are_the_finds_collisions_and_stops_of_a_run() {
             EventKind::Status { robot, status } => {
                 assert!(stopped.insert(robot, status).is_none());
             }
-            EventKind::Served { .. } => unreachable!("there are no goals"),
+            EventKind::Served { .. } | EventKind::Acted { .. } | EventKind::Destroyed { .. } => {
+                unreachable!("there are no goals, tools and hazards")
+            }
         }
     }
     assert_eq!(found, simulation.outcome().found.iter().sum::<u32>());

@@ -1,5 +1,6 @@
 //! The engine through its public interface: properties of runs for scenarios of every kind.
 
+mod acts;
 mod battery;
 mod change;
 mod change_pending;
@@ -22,6 +23,7 @@ mod flocks;
 mod footprints;
 mod goals;
 mod golden;
+mod hazards;
 mod identification;
 mod inspect;
 mod item_numbers;

@@ -4,7 +4,7 @@ use super::random;
 use crate::common::{Random, motion, read, robots};
 use base::engine::{BlockOptions, ColumnKind, Runner};
 use base::geometry::Point;
-use brain::{About, Command, Message, Provenance, SensorRequest};
+use brain::{About, Act, ActKind, Command, Message, Provenance, SensorRequest};
 use sim::run::{State, Status};
 use sim::runner::Runs;
 use sim::scenario::Scenario;
@@ -54,11 +54,14 @@ fn command(random: &mut Random) -> Command {
         sensor: u16::try_from(random.below(40)).unwrap(),
         on: random.below(2) == 0,
     };
+    let kind = random.one_of(&[ActKind::Mark, ActKind::Isolate, ActKind::Neutralise]);
+    let act = Act { kind, at };
     Command {
         motion: motion(random.one_of(&values), random.one_of(&values)),
         heading_rad: Some(random.one_of(&values)),
         requests: vec![request],
         outbox: vec![message; random.below(4) as usize],
+        acts: vec![act; random.below(6) as usize],
     }
 }
 

@@ -1,0 +1,10 @@
+//! The optional parts of scenarios.
+
+/// The optional parts of a scenario that have outcome columns.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Features {
+    /// Kinds of goals.
+    pub(crate) goals: bool,
+    /// Tools of robots, hazards, or items that are completed by more than a detection.
+    pub(crate) acts: bool,
+}
