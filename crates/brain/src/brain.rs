@@ -259,7 +259,7 @@ impl Brain {
             brain.publish(elapsed_s, service, &mut command.outbox);
         }
         if let Some((behaviour, layer)) = self.kind.server(&mut self.layers) {
-            behaviour.publish(layer.memory(), &mut command.outbox);
+            behaviour.publish(layer.memory(), command);
         }
         leading
     }

@@ -2,7 +2,6 @@
 
 use crate::bodies::RobotSpec;
 use crate::scenario::ScenarioSpec;
-use crate::schedule::Schedule;
 use crate::sensors::items::{Detection, ItemsSpec};
 use crate::sensors::pass::{Pass, Path};
 use crate::sensors::{Measures, SensorSpec};
@@ -21,7 +20,22 @@ pub(crate) fn derived(spec: &ScenarioSpec) -> Vec<(String, String)> {
             }
         }
     }
+    derived.extend(floors(spec));
     derived
+}
+
+/// The lowest risk that clearing a lane can reach, for each kind of controllers with a lane.
+fn floors(spec: &ScenarioSpec) -> impl Iterator<Item = (String, String)> {
+    let lanes = spec.controllers.iter();
+    lanes.filter_map(|(name, kind)| {
+        let clearance = kind.clearance.as_ref()?.ready(spec);
+        let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
+        let text = format!(
+            "{expected} expected mines; the risk never falls below {}, however often all sensors look",
+            percent(clearance.floor())
+        );
+        Some((format!("controllers.{name}.clearance"), text))
+    })
 }
 
 /// `None` if the sensor never detects that kind, or there is nothing to state.
@@ -37,12 +51,7 @@ fn for_kind(
         Some(kinds) => kinds.get(kind)?,
     };
     let blind = items.blind_share.get(kind).copied().unwrap_or(0.0);
-    let step_s = spec.clock.step_s;
-    let path = Path {
-        speed_m_s: robot.drive.max_speed_m_s,
-        period_s: Schedule::new(sensor.rate_hz, step_s).period_s(step_s),
-        dropout_probability: sensor.dropout_probability,
-    };
+    let path = Path::new(robot, sensor, spec.clock.step_s);
     let is_moving = path.speed_m_s > 0.0 && items.sector.range_m > 0.0;
     let pass = is_moving.then(|| of_pass(&Pass::new(items, detection, path), path, blind));
     let ceiling =

@@ -14,7 +14,8 @@ pub struct EndSpec {
     /// a number by `>=`, `>`, `<=`, `<`, `==` or `!=`, such as `"found_mine >= 3"`. The counts are
     /// `found` and `missed` (of all targets), `found_KIND` and `missed_KIND` (of a kind of items),
     /// `false_alarms`, `collisions` and `robots_stopped`, with goals `served`, and where robots act on items `left`,
-    /// `marked`, `confirmed`, `neutralised` and `robots_lost`. A run that is not complete when the time
+    /// `marked`, `confirmed`, `neutralised` and `robots_lost`, and where controllers clear a lane `declared`, which is
+    /// 1 once they have declared it clear. A run that is not complete when the time
     /// limit is reached, or when no robot can move, has failed.
     #[schemars(length(min = 1))]
     pub when: String,
@@ -46,6 +47,8 @@ pub(crate) enum Count {
     Neutralised,
     /// Robots destroyed by items.
     RobotsLost,
+    /// Whether controllers have declared a lane clear: 0 or 1.
+    Declared,
     /// Items found of the kind of this number.
     FoundOf(usize),
     /// Items not found of the kind of this number.
@@ -86,7 +89,11 @@ impl Count {
         ];
         let of_acts = of_acts.map(|(name, count)| (name.to_owned(), count));
         let of_acts = of_acts.into_iter().filter(|_| has.acts);
+        let of_clearance = [("declared", Self::Declared)].into_iter();
+        let of_clearance = of_clearance.filter(|_| has.clearance);
+        let of_clearance = of_clearance.map(|(name, count)| (name.to_owned(), count));
         let of_all = of_all.into_iter().chain(of_goals).chain(of_acts);
+        let of_all = of_all.chain(of_clearance);
         of_all.chain(of_one_kind).collect()
     }
 }
@@ -124,6 +131,19 @@ impl EndCondition {
         Self {
             count,
             ..Self::all_found()
+        }
+    }
+
+    /// That controllers have declared a lane clear.
+    pub(crate) fn declared() -> Self {
+        Self {
+            count: Count::Declared,
+            comparison: Condition {
+                quantity: Quantity::Column("declared".to_owned()),
+                place: 0,
+                operator: Operator::AtLeast,
+                number: 1.0,
+            },
         }
     }
 
@@ -167,6 +187,7 @@ mod tests {
         let has = Features {
             goals: true,
             acts: true,
+            clearance: true,
         };
         EndCondition::parse(text, ["cow", "mine"].into_iter(), has).unwrap()
     }

@@ -4,8 +4,7 @@ use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
 use crate::io::body::RobotId;
-use crate::io::command::Motion;
-use crate::io::message::Message;
+use crate::io::command::{Command, Motion};
 use crate::service::assignee::Assignee;
 use crate::situation::Situation;
 use alloc::vec::Vec;
@@ -51,8 +50,8 @@ pub(crate) trait Behaviour {
     /// serves them.
     fn communicate(&self, _memory: &mut Self::Memory, _situation: &Situation) {}
 
-    /// Adds its messages to controllers to the outbox.
-    fn publish(&self, _memory: &mut Self::Memory, _outbox: &mut Vec<Message>) {}
+    /// Adds its messages to controllers, and its acts, to a command.
+    fn publish(&self, _memory: &mut Self::Memory, _command: &mut Command) {}
 
     /// The goals of controllers that it serves.
     fn assignee<'m>(&self, _memory: &'m Self::Memory) -> Option<&'m Assignee> {

@@ -147,6 +147,13 @@ pub(super) fn all_round_m(body: &Body) -> f64 {
     detectors.fold(0.0, |range_m, detector| detector.range_m.max(range_m))
 }
 
+/// Within this distance, a body detects items at its front.
+pub(super) fn ahead_m(body: &Body) -> f64 {
+    let is_ahead = |detector: &&Detector| detector.facing_rad.abs() <= detector.width_rad / 2.0;
+    let detectors = body.detectors.iter().filter(is_ahead);
+    detectors.fold(0.0, |range_m, detector| detector.range_m.max(range_m))
+}
+
 /// The path over a field: lanes along its longer side, from one end to the other.
 struct Track {
     field: Field,

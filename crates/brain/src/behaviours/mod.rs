@@ -44,8 +44,7 @@ use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
 use crate::io::body::{Body, RobotId};
-use crate::io::command::Motion;
-use crate::io::message::Message;
+use crate::io::command::{Command, Motion};
 use crate::service::assignee::Assignee;
 use crate::situation::Situation;
 use alloc::vec::Vec;
@@ -174,10 +173,10 @@ macro_rules! behaviours {
                 }
             }
 
-            fn publish(&self, memory: &mut Memory, outbox: &mut Vec<Message>) {
+            fn publish(&self, memory: &mut Memory, command: &mut Command) {
                 match (self, memory) {
                     $((Self::$kind(ready), Memory::$kind(memory)) => {
-                        ready.publish(memory, outbox)
+                        ready.publish(memory, command)
                     })+
                     _ => {}
                 }

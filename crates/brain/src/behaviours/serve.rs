@@ -1,13 +1,13 @@
 //! Serving the goals of controllers.
 
 use super::behaviour::Behaviour;
-use super::lawnmower::{all_round_m, swath_m};
+use super::lawnmower::{ahead_m, all_round_m, swath_m};
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::{Body, RobotId};
-use crate::io::command::Motion;
+use crate::io::act::ActKind;
+use crate::io::command::{Command, Motion};
 use crate::io::dispatch::Work;
-use crate::io::message::Message;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
 use crate::service::ability::{Ability, Moment};
@@ -16,7 +16,6 @@ use crate::service::jobs::Job;
 use crate::service::lanes::Lanes;
 use crate::situation::Situation;
 use alloc::boxed::Box;
-use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle};
 use base::trig::wrapped;
 use schemars::JsonSchema;
@@ -73,6 +72,9 @@ impl Ready {
                     within: body.field.map(|field| inset(field, body.radius_m)),
                 },
                 all_round_m: all_round_m(body),
+                ahead_m: ahead_m(body),
+                position_noise_m: body.position_noise_m,
+                charge: body.tool(ActKind::Neutralise).copied(),
                 capabilities: body.capabilities.clone(),
                 robot_kinds: body.others.len(),
             },
@@ -82,10 +84,12 @@ impl Ready {
 
     /// The motion at a goal: robots face the marks at which they look or act.
     fn standing(&self, job: &Job, pose: &Pose, situation: &Situation) -> Motion {
-        if job.task.work != Work::Interrogate || self.ability.is_stationary() {
+        let looks = matches!(job.task.work, Work::Interrogate | Work::Neutralise);
+        if !looks || self.ability.is_stationary() {
             return Motion::default();
         }
-        let towards = pose.at.to(job.task.at());
+        let mark = job.charge_at().unwrap_or(job.task.at());
+        let towards = pose.at.to(mark);
         let off_rad = wrapped(libm::atan2(towards.y, towards.x) - pose.heading_rad);
         let max_rad_s = situation.body.max_turn_rate_rad_s;
         Motion {
@@ -122,6 +126,7 @@ impl Behaviour for Ready {
         let moment = Moment {
             percept: situation.percept,
             body: situation.body,
+            beliefs: Some(beliefs),
             map: beliefs.map.as_ref(),
             at: beliefs.pose().map(|pose| pose.at),
             elapsed_s: situation.elapsed_s,
@@ -132,8 +137,8 @@ impl Behaviour for Ready {
         assignee.report_lane(&self.ability, &moment, beliefs);
     }
 
-    fn publish(&self, assignee: &mut Box<Assignee>, outbox: &mut Vec<Message>) {
-        assignee.publish(outbox);
+    fn publish(&self, assignee: &mut Box<Assignee>, command: &mut Command) {
+        assignee.publish(command);
     }
 
     fn assignee<'m>(&self, assignee: &'m Box<Assignee>) -> Option<&'m Assignee> {

@@ -1,6 +1,6 @@
 //! What a brain knows of its body.
 
-use super::act::Tool;
+use super::act::{ActKind, Tool};
 use alloc::string::String;
 use alloc::vec::Vec;
 use base::geometry::Rectangle;
@@ -112,6 +112,12 @@ pub struct Body {
 }
 
 impl Body {
+    /// Its tool for a kind of acts.
+    #[must_use]
+    pub fn tool(&self, act: ActKind) -> Option<&Tool> {
+        self.tools.iter().find(|tool| tool.act == act)
+    }
+
     /// Whether it is the same body, except for what it knows of other robots.
     #[must_use]
     pub fn is_same_but_for_others(&self, body: &Self) -> bool {

@@ -1,18 +1,22 @@
 //! What a robot can do for goals, the same for all robots of a kind, and its state in a step.
 
 use super::lanes::Lanes;
+use crate::io::act::Tool;
 use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
-use crate::perception::beliefs::Map;
+use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
 
 /// A slower robot is stationary.
 const MIN_SPEED_M_S: f64 = 1e-3;
 
+/// An uncertain position is within this many standard deviations.
+const DEVIATIONS: f64 = 3.0;
+
 /// What a robot can do.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Ability {
     /// Speed between goals.
     pub(crate) speed_m_s: f64,
@@ -22,27 +26,67 @@ pub(crate) struct Ability {
     pub(crate) lanes: Lanes,
     /// Within this distance, it detects items in all directions.
     pub(crate) all_round_m: f64,
+    /// Range of its item detectors towards its front; 0 without any.
+    pub(crate) ahead_m: f64,
+    /// Standard deviation of its position sensor.
+    pub(crate) position_noise_m: f64,
+    /// Its tool to neutralise items, if it has one.
+    pub(crate) charge: Option<Tool>,
     pub(crate) capabilities: Vec<u8>,
     /// Kinds of participants from this number on are controllers.
     pub(crate) robot_kinds: usize,
 }
 
 impl Ability {
-    /// Why the robot can never serve a goal, if it cannot.
-    pub(crate) fn lacks(&self, task: &Task) -> Option<Reason> {
+    /// Why the robot can never serve a goal with the charges that it has left, if it cannot.
+    pub(crate) fn lacks(&self, task: &Task, charges: Option<u32>) -> Option<Reason> {
         let has = task.capability == 0 || self.capabilities.contains(&task.capability);
-        // Brains have no command to neutralise yet.
-        let can = task.work != Work::Neutralise;
+        let can = task.work != Work::Neutralise || self.charge.is_some() && charges != Some(0);
         (!has || !can).then_some(Reason::Capability)
     }
 
     /// Time that the work at a goal takes.
     pub(crate) fn work_s(&self, task: &Task) -> f64 {
-        let search_m = match task.work {
-            Work::Visit | Work::Interrogate | Work::Neutralise => 0.0,
-            Work::Search => self.lanes.length_m(task),
+        let search_m = if self.sweeps(task) {
+            self.lanes.length_m(task)
+        } else {
+            0.0
         };
-        f64::from(task.service_s) + self.travel_s(search_m)
+        let charge = self.charge.filter(|_| task.work == Work::Neutralise);
+        let charge_s = charge.map_or(0.0, |tool| tool.duration_s);
+        f64::from(task.service_s) + charge_s + self.travel_s(search_m)
+    }
+
+    /// Whether it drives lanes through the area of a goal: of a search, and of a mark whose uncertain
+    /// position it does not see from one place.
+    pub(crate) fn sweeps(&self, task: &Task) -> bool {
+        match task.work {
+            Work::Visit => false,
+            Work::Search => true,
+            Work::Interrogate | Work::Neutralise => {
+                self.ahead_m > 0.0 && self.uncertain_m(task) > self.ahead_m / 2.0
+            }
+        }
+    }
+
+    /// Distance from a mark at which it sees the whole area in which the marked item may be; without an item
+    /// detector, that of the goal.
+    pub(crate) fn look_from_m(&self, task: &Task) -> f64 {
+        if self.ahead_m <= 0.0 {
+            return task.radius_m.into();
+        }
+        (self.ahead_m - self.uncertain_m(task)).max(self.ahead_m / 2.0)
+    }
+
+    /// Distance from an item at which its charge reaches it.
+    pub(crate) fn act_from_m(&self) -> f64 {
+        let range_m = self.charge.map_or(0.0, |tool| tool.range_m);
+        (range_m - DEVIATIONS * self.position_noise_m).max(range_m / 2.0)
+    }
+
+    /// How far a marked item may be from the mark, by the errors of the mark and of its own position.
+    pub(crate) fn uncertain_m(&self, task: &Task) -> f64 {
+        libm::hypot(f64::from(task.radius_m), DEVIATIONS * self.position_noise_m)
     }
 
     /// Whether it cannot drive: it serves only goals that it [covers](Self::covers).
@@ -78,6 +122,8 @@ impl Ability {
 pub(crate) struct Moment<'s> {
     pub(crate) percept: &'s Percept,
     pub(crate) body: &'s Body,
+    /// Its beliefs, if it has any.
+    pub(crate) beliefs: Option<&'s Beliefs>,
     /// Its map, if it has one.
     pub(crate) map: Option<&'s Map>,
     /// Its position, if known.

@@ -2,6 +2,7 @@
 //! holds their leases, and reports.
 
 use super::ability::{Ability, Moment};
+use super::charges::Firing;
 use super::failures::Failures;
 use super::finished::Finished;
 use super::holder::Holder;
@@ -10,7 +11,9 @@ use super::lane_reports::LaneReports;
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
+use crate::io::act::Act;
 use crate::io::body::RobotId;
+use crate::io::command::Command;
 use crate::io::dispatch::{Award, Claim, Dispatch, Reason, Task, Work};
 use crate::io::goal_id::GoalId;
 use crate::io::message::{About, Message};
@@ -36,18 +39,21 @@ pub(crate) struct Assignee {
     pub(super) is_out_of_service: bool,
     /// The goal that it proposed last.
     pub(super) proposed: Option<GoalId>,
-    lane: LaneReports,
+    pub(super) lane: LaneReports,
     /// The goal of this step in which it has interrogated a mark.
     interrogated: Option<Task>,
+    pub(super) firing: Firing,
     pub(super) outbox: Vec<Message>,
+    pub(super) acts: Vec<Act>,
 }
 
-base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed, lane } without { outbox, interrogated });
+base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed, lane, firing } without { outbox, acts, interrogated });
 
 impl Assignee {
     /// Takes a step: messages first, then the work, then what is due.
     pub(crate) fn step(&mut self, ability: &Ability, moment: &Moment) {
         self.outbox.clear();
+        self.acts.clear();
         self.interrogated = None;
         self.proposed = self.proposed.filter(|goal| self.serves(*goal));
         self.now_s = moment
@@ -57,6 +63,8 @@ impl Assignee {
         self.schedule.advance(self.now_s);
         self.offers.expire(self.now_s);
         self.stop_before_end(moment);
+        self.take_results(moment);
+        self.aim(ability, moment);
         self.return_goals(ability, moment);
         for received in &moment.percept.inbox {
             self.receive(received, ability, moment);
@@ -77,17 +85,20 @@ impl Assignee {
             }
         }
         if let Some(task) = self.interrogated.take() {
-            self.lane.state(&task, beliefs);
+            let within_m = ability.uncertain_m(&task);
+            self.lane.state((&task, within_m), moment.body, beliefs);
         }
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
             self.send(RobotId::EVERYONE, dispatch);
         }
+        self.lane.act(&mut self.acts);
     }
 
-    /// Adds the messages of this step to those of the robot, the most urgent ones first.
-    pub(crate) fn publish(&mut self, outbox: &mut Vec<Message>) {
-        outbox.append(&mut self.outbox);
-        outbox.sort_by_key(Message::urgency);
+    /// Adds the messages of this step to those of the robot, the most urgent ones first, and its acts.
+    pub(crate) fn publish(&mut self, command: &mut Command) {
+        command.outbox.append(&mut self.outbox);
+        command.outbox.sort_by_key(Message::urgency);
+        command.acts.append(&mut self.acts);
     }
 
     /// The goal to serve now, and whether the robot is there.
@@ -355,6 +366,11 @@ impl Assignee {
         if !job.is_swept(ability) {
             job.corners += 1;
             job.visited += 1;
+        } else if job.task.work == Work::Neutralise {
+            // A charge that has gone off is part of the service that has begun.
+            if job.served_s > 0.0 || left_s > ability.work_s(&job.task) {
+                self.neutralise(goal, moment);
+            }
         } else if job.left_s() <= 0.0 {
             self.finish(goal);
         } else if job.served_s > 0.0 || left_s > job.left_s() + moment.body.period_s {
@@ -362,7 +378,7 @@ impl Assignee {
         }
     }
 
-    fn finish(&mut self, goal: GoalId) {
+    pub(super) fn finish(&mut self, goal: GoalId) {
         if let (Some(job), Some(lease)) = (self.jobs.remove(goal), self.holder.release(goal)) {
             let number = lease.number;
             self.interrogated = Some(job.task).filter(|task| task.work == Work::Interrogate);
@@ -372,7 +388,7 @@ impl Assignee {
     }
 
     /// Ends a lease by message.
-    fn release(&mut self, goal: GoalId) {
+    pub(super) fn release(&mut self, goal: GoalId) {
         self.jobs.remove(goal);
         if let Some(lease) = self.holder.release(goal) {
             let number = lease.number;

@@ -64,7 +64,7 @@ impl<'b> Bidder<'b> {
     /// The bid for an offer, or why there is none.
     pub(crate) fn estimate(&self, offer: &Offer) -> Result<Estimate, Reason> {
         let (task, ability) = (&offer.task, self.ability);
-        if let Some(reason) = ability.lacks(task) {
+        if let Some(reason) = ability.lacks(task, self.moment.percept.charges) {
             return Err(reason);
         }
         let detour = self.detour(task);
@@ -144,7 +144,6 @@ mod tests {
     use crate::perception::beliefs::Map;
     use crate::perception::beliefs::coverage_map::tests::map;
     use crate::perception::beliefs::occupancy::Ray;
-    use crate::service::lanes::Lanes;
     use base::geometry::Segment;
 
     const TASK: Task = Task {
@@ -176,15 +175,15 @@ mod tests {
         let ability = Ability {
             speed_m_s,
             max_goals: 4,
-            lanes: Lanes::default(),
             all_round_m: 3.0,
-            capabilities: Vec::new(),
             robot_kinds: 1,
+            ..Ability::default()
         };
         let (percept, body) = (Percept::default(), Body::default());
         let moment = Moment {
             percept: &percept,
             body: &body,
+            beliefs: None,
             map,
             at: Some(at),
             elapsed_s: 0.1,

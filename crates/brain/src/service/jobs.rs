@@ -1,6 +1,7 @@
 //! The goals that a robot serves, in the order in which it serves them.
 
 use super::ability::Ability;
+use super::charges::{Aim, Charges};
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
 use crate::io::dispatch::{Task, Work};
@@ -27,6 +28,9 @@ pub(crate) struct Job {
     pub(crate) verdict: Verdict,
     /// Until when others are served first, because it was impossible.
     pub(crate) rests_until_s: f64,
+    /// What it is to neutralise, once it has detected it.
+    pub(crate) aim: Option<Aim>,
+    pub(crate) charges: Charges,
 }
 
 base::hashed!(Job {
@@ -37,8 +41,9 @@ base::hashed!(Job {
     corners,
     visited,
     verdict,
-    rests_until_s
-});
+    rests_until_s,
+    charges
+} without { aim });
 
 impl Job {
     pub(crate) fn new(task: Task, owner: RobotId, due_at_s: f64) -> Self {
@@ -51,23 +56,39 @@ impl Job {
             visited: 0,
             verdict: Verdict::Approaching,
             rests_until_s: f64::NEG_INFINITY,
+            aim: None,
+            charges: Charges::default(),
         }
     }
 
     /// Where the robot has to be, and how near.
     pub(crate) fn target(&self, ability: &Ability) -> (Point, f64) {
-        let radius_m = f64::from(self.task.radius_m);
-        let corner = match self.task.work {
-            Work::Visit | Work::Interrogate | Work::Neutralise => None,
-            Work::Search => ability.lanes.corner(&self.task, self.corners),
+        if let Some(at) = self.charge_at() {
+            return (at, ability.act_from_m());
+        }
+        let corner = ability.lanes.corner(&self.task, self.corners);
+        if let Some(corner) = corner.filter(|_| ability.sweeps(&self.task)) {
+            return (corner, (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0));
+        }
+        let radius_m = match self.task.work {
+            Work::Visit | Work::Search => self.task.radius_m.into(),
+            Work::Interrogate | Work::Neutralise => ability.look_from_m(&self.task),
         };
-        let near_m = (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0);
-        corner.map_or((self.task.at(), radius_m), |corner| (corner, near_m))
+        (self.task.at(), radius_m)
+    }
+
+    /// Where it is to act with a charge, if it is: at what it has detected, or at the mark itself if it
+    /// has detected nothing and no charge has gone off there.
+    pub(crate) fn charge_at(&self) -> Option<Point> {
+        let has_looked = self.charges.has_looked && self.charges.fired == 0;
+        let aim = self.aim.map(|aim| aim.at);
+        aim.or_else(|| has_looked.then(|| self.task.at()))
     }
 
     /// Whether it remains only to be there for the time of service.
     pub(crate) fn is_swept(&self, ability: &Ability) -> bool {
-        self.task.work != Work::Search
+        !ability.sweeps(&self.task)
+            || self.charge_at().is_some()
             || ability.is_stationary()
             || ability.lanes.corner(&self.task, self.corners).is_none()
     }
@@ -161,16 +182,16 @@ mod tests {
             work: Work::Search,
             capability: 0,
         };
+        let lanes = Lanes {
+            apart_m: 4.0,
+            within: None,
+        };
         let ability = Ability {
             speed_m_s: 1.0,
             max_goals: 1,
-            lanes: Lanes {
-                apart_m: 4.0,
-                within: None,
-            },
-            all_round_m: 0.0,
-            capabilities: Vec::new(),
+            lanes,
             robot_kinds: 1,
+            ..Ability::default()
         };
         (Job::new(task, RobotId::default(), f64::INFINITY), ability)
     }

@@ -1,9 +1,13 @@
 //! The marks that a robot reports to the controllers of a lane: its tracks with own contacts.
+//!
+//! A track that this robot has only failed to detect is no mark: its looks there are part of its
+//! coverage, where the blind share of its sensors counts.
 
 use crate::io::body::RobotId;
 use crate::io::goal_id::GoalId;
 use crate::io::lane::{MARK_KINDS, Mark};
 use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::Track;
 use alloc::vec::Vec;
 
@@ -60,8 +64,9 @@ impl LaneMarks {
     /// place before this step.
     pub(super) fn update(&mut self, beliefs: &Beliefs, missed_nats: impl Fn(&Track) -> f64) {
         let deviation_m = beliefs.pose().map_or(0.0, |pose| pose.deviation_m);
+        let kinds = beliefs.items.kinds.as_deref();
         for track in &beliefs.items.tracks {
-            let Some(mut mark) = mark_of(track, beliefs.id, deviation_m) else {
+            let Some(mut mark) = mark_of((track, kinds), beliefs.id, deviation_m) else {
                 continue;
             };
             let known = self.list.iter().position(|known| known.mark.id == mark.id);
@@ -83,9 +88,9 @@ impl LaneMarks {
         }
     }
 
-    /// The marks to be sent, at most a number: new ones, then changed ones, then one again, as messages
-    /// are lost.
-    pub(super) fn due(&mut self, max: usize) -> Vec<Mark> {
+    /// The marks to be sent, at most a number, and whether each is new: new ones, then changed ones,
+    /// then one again, as messages are lost.
+    pub(super) fn due(&mut self, max: usize) -> Vec<(Mark, bool)> {
         let mut due: Vec<usize> = Vec::new();
         let new = |reported: &Reported| reported.sent.is_none();
         let changed = |reported: &Reported| reported.sent.is_some() && reported.has_changed();
@@ -106,8 +111,8 @@ impl LaneMarks {
         }
         let send = |index: usize| {
             let reported = &mut self.list[index];
-            reported.sent = Some(reported.mark);
-            reported.mark
+            let is_new = reported.sent.replace(reported.mark).is_none();
+            (reported.mark, is_new)
         };
         due.into_iter().map(send).collect()
     }
@@ -135,12 +140,24 @@ impl Mark {
 
 /// The mark of a track by own looks; `None` without an own contact.
 #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-fn mark_of(track: &Track, own: RobotId, pose_deviation_m: f64) -> Option<Mark> {
+fn mark_of(
+    (track, kinds): (&Track, Option<&KindModel>),
+    own: RobotId,
+    pose_deviation_m: f64,
+) -> Option<Mark> {
     let mut sources = track.sources[..track.count].iter();
     let source = sources.find(|source| source.provenance.observer == own)?;
-    // Kinds are reported as they are.
+    if !source.is_contact {
+        return None;
+    }
     let mut log_ratios = [EXCLUDED; MARK_KINDS];
-    *log_ratios.get_mut(usize::from(track.kind))? = source.log_ratio as f32;
+    if let Some(kinds) = kinds {
+        let of_kinds = log_ratios.iter_mut().zip(track.visible_log_ratios(kinds));
+        of_kinds.for_each(|(mark, own)| *mark = (own as f32).max(EXCLUDED));
+    } else {
+        // Kinds are reported as they are.
+        *log_ratios.get_mut(usize::from(track.kind))? = source.log_ratio as f32;
+    }
     let variance_m2 = track.variance_m2 + pose_deviation_m * pose_deviation_m;
     Some(Mark {
         id: GoalId {

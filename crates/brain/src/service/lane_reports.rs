@@ -3,6 +3,8 @@
 use super::ability::Moment;
 use super::lane_coverage::LaneCoverage;
 use super::lane_marks::LaneMarks;
+use crate::io::act::{Act, ActKind, MAX_ACTS};
+use crate::io::body::Body;
 use crate::io::dispatch::{Dispatch, Task};
 use crate::io::lane::{Lane, MarkVerdict, Statement};
 use crate::perception::beliefs::Beliefs;
@@ -34,6 +36,8 @@ pub(crate) struct LaneReports {
     /// Statements, and how often each is still sent.
     statements: Vec<(Statement, u32)>,
     next_statement_s: f64,
+    /// Acts by which it marks, confirms and rejects, not yet commanded.
+    acts: Vec<Act>,
 }
 
 /// Robots without a lane have the hash that they had before there were lanes.
@@ -44,6 +48,9 @@ impl Hashed for LaneReports {
         }
         for statement in &self.statements {
             (*statement, self.next_statement_s).add_to(hash);
+        }
+        if !self.acts.is_empty() {
+            self.acts.add_to(hash);
         }
     }
 }
@@ -82,27 +89,51 @@ impl LaneReports {
         }
     }
 
-    /// States what the robot believes of a mark that it has interrogated.
-    pub(crate) fn state(&mut self, task: &Task, beliefs: &Beliefs) {
+    /// Whether items of a kind are to be cleared: all, unless a controller has named a lane.
+    pub(super) fn is_hazard(&self, kind: u16) -> bool {
         let lane = self.work.as_ref().map(|work| work.coverage.lane());
-        let is_hazard = |kind: u16| lane.is_none_or(|lane| lane.is_hazard(kind.into()));
-        let radius_m = f64::from(task.radius_m);
-        let mut tracks = beliefs.items.tracks.iter();
-        let is_there = tracks.any(|track| {
-            let is_near = track.at.to(task.at()).length() <= radius_m;
-            is_near && is_hazard(track.kind) && probability(track.log_odds()) >= CONFIRM_ABOVE
+        lane.is_none_or(|lane| lane.is_hazard(kind.into()))
+    }
+
+    /// States what the robot believes of a mark that it has interrogated: whether one of the items that are
+    /// to be cleared is within a distance of it.
+    pub(crate) fn state(
+        &mut self,
+        (task, within_m): (&Task, f64),
+        body: &Body,
+        beliefs: &Beliefs,
+    ) {
+        let tracks = beliefs.items.tracks.iter();
+        let near = tracks.filter(|track| {
+            let is_near = track.at.to(task.at()).length() <= within_m;
+            let is_likely = probability(track.log_odds()) >= CONFIRM_ABOVE;
+            is_near && is_likely && self.is_hazard(track.kind)
         });
-        let verdict = if is_there {
-            MarkVerdict::Confirmed
-        } else {
-            MarkVerdict::Rejected
+        let item = near.max_by(|one, other| one.log_odds().total_cmp(&other.log_odds()));
+        let (verdict, kind) = match item {
+            Some(_) => (MarkVerdict::Confirmed, ActKind::Confirm),
+            None => (MarkVerdict::Rejected, ActKind::Reject),
         };
-        let statement = Statement {
+        if body.tool(kind).is_some() {
+            let at = item.map_or(task.at(), |track| track.at);
+            self.acts.push(Act { kind, at });
+        }
+        self.add(Statement {
             mark: task.id,
             at_m: task.at_m,
             verdict,
-        };
+        });
+    }
+
+    /// Sends a statement from now on.
+    pub(super) fn add(&mut self, statement: Statement) {
         self.statements.push((statement, REPEATS));
+    }
+
+    /// Commands the acts that are due, at most as many as a command can have.
+    pub(super) fn act(&mut self, acts: &mut Vec<Act>) {
+        let free = MAX_ACTS.saturating_sub(acts.len()).min(self.acts.len());
+        acts.extend(self.acts.drain(..free));
     }
 
     /// Takes the looks and tracks of a step; returns the messages that are due.
@@ -138,7 +169,14 @@ impl LaneReports {
             return Vec::new();
         }
         work.next_s = now_s + PERIOD_S;
-        let marks = work.marks.due(MAX_MARKS).into_iter();
+        let marks = work.marks.due(MAX_MARKS);
+        if moment.body.tool(ActKind::Mark).is_some() {
+            let kind = ActKind::Mark;
+            let new = marks.iter().filter(|(_, is_new)| *is_new);
+            self.acts
+                .extend(new.map(|(mark, _)| Act { kind, at: mark.at() }));
+        }
+        let marks = marks.into_iter().map(|(mark, _)| mark);
         let coverage = work.coverage.due(map, work.marks.count(), MAX_COVERAGE);
         let coverage = coverage.into_iter().map(Dispatch::Coverage);
         marks.map(Dispatch::Mark).chain(coverage).collect()

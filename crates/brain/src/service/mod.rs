@@ -11,6 +11,7 @@ pub(crate) mod ability;
 pub(crate) mod assignee;
 mod bidding;
 mod bids;
+pub(crate) mod charges;
 mod failures;
 mod finished;
 pub(crate) mod grantor;

@@ -96,6 +96,7 @@ mod tests {
         let moment = Moment {
             percept: &percept,
             body: &body,
+            beliefs: None,
             map: Some(&map),
             at: None,
             elapsed_s: 0.1,

@@ -31,4 +31,4 @@ pub(crate) use declare::Decision;
 pub use declare::LaneStatement;
 pub use picture::{BelievedMark, LanePicture};
 pub use risk::Risk;
-pub use settings::{Clearance, RobotModel, Skill};
+pub use settings::{Charge, Clearance, RobotModel, Skill};

@@ -44,6 +44,8 @@ pub struct BelievedMark {
     pub mine: f64,
     /// The last statement about it.
     pub verdict: Option<MarkVerdict>,
+    /// Number of charges that have gone off there and destroyed nothing.
+    pub failed_charges: u32,
 }
 
 impl BelievedMark {
@@ -102,6 +104,23 @@ impl LanePicture {
         }
     }
 
+    /// Notes that a robot has used a charge at a place: it destroyed nothing, unless the robot states so.
+    pub(crate) fn note_charge(&mut self, number: u32) {
+        let mut places = self.marks.places.iter_mut();
+        if let Some(place) = places.find(|place| place.number == number) {
+            place.failed_charges += u32::from(place.verdict != Some(MarkVerdict::Neutralised));
+        }
+    }
+
+    /// Whether a mark that may be a mine has no verdict.
+    pub(crate) fn has_open_marks(&self) -> bool {
+        let clearance = &self.clearance;
+        self.marks().any(|mark| {
+            let is_suspect = mark.mine > clearance.interrogate_above;
+            is_suspect && mark.verdict.is_none() && mark.may_be_in(&clearance.lane)
+        })
+    }
+
     /// Number of marks that robots report and that have not been received.
     #[must_use]
     pub fn missing_marks(&self) -> u32 {
@@ -155,14 +174,25 @@ impl LanePicture {
         let is_open = place.verdict != Some(MarkVerdict::Neutralised);
         let hazards = self.clearance.hazards().filter(|_| is_open);
         let mine: f64 = hazards.map(|(kind, _)| probabilities[kind]).sum();
+        let mine = mine.min(MAX_PROBABILITY);
+        let missed = self.missed_by_charges(place);
         BelievedMark {
             number: place.number,
             at: place.at,
             deviation_m: libm::sqrt(place.variance_m2),
             probabilities,
-            mine: mine.min(MAX_PROBABILITY),
+            mine: mine * missed / (mine * missed + 1.0 - mine),
             verdict: place.verdict,
+            failed_charges: place.failed_charges,
         }
+    }
+
+    /// Probability that all charges that have failed at a place missed an item there.
+    fn missed_by_charges(&self, place: &Place) -> f64 {
+        let deviation_m = libm::sqrt(place.variance_m2);
+        let charge = self.clearance.neutralise;
+        let missed = charge.map_or(1.0, |charge| charge.missed(deviation_m));
+        libm::pow(missed, place.failed_charges.into())
     }
 
     /// Probability of each kind of items at a place, against nothing but false alarms.

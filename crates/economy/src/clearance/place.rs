@@ -23,6 +23,8 @@ pub(super) struct Place {
     pub(super) marks: Vec<Mark>,
     /// The last statement about it; one that it has been neutralised is final.
     pub(super) verdict: Option<MarkVerdict>,
+    /// Number of charges that have gone off there and destroyed nothing.
+    pub(super) failed_charges: u32,
     /// Mean of the positions, weighted by their precision, and its variance along each axis.
     pub(super) at: Point,
     pub(super) variance_m2: f64,
@@ -32,6 +34,7 @@ base::hashed!(Place {
     number,
     marks,
     verdict,
+    failed_charges,
     at,
     variance_m2
 });
@@ -42,6 +45,7 @@ impl Place {
             number,
             marks: Vec::new(),
             verdict: None,
+            failed_charges: 0,
             at: mark.at(),
             variance_m2: variance_m2(&mark),
         };

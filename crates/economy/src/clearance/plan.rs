@@ -3,7 +3,8 @@
 //! ```text
 //! search       each tile, again in each way, while that lowers the expected number of mines
 //! interrogate  each mark without a verdict above a probability of a mine; rejected ones again
-//! neutralise   each mark that has been confirmed, or fenced off
+//! neutralise   each mark that has been confirmed, or fenced off, and those that remain above that
+//!              probability when they have been interrogated: the sensors may be blind to the mine
 //! ```
 //!
 //! The value of a goal is the expected number of mines that it finds or destroys. An auction divides
@@ -26,7 +27,10 @@ const MIN_POSSIBLE_SHARE: f64 = 0.01;
 const RADIUS_DEVIATIONS: f64 = 3.0;
 
 /// A mark is interrogated at most this many times: more looks of a blind sensor change nothing.
-pub(crate) const MAX_INTERROGATIONS: u32 = 3;
+pub(crate) const MAX_INTERROGATIONS: u32 = 2;
+
+/// A mark at which this many charges have destroyed nothing is left as it is.
+pub(crate) const MAX_FAILED_CHARGES: u32 = 3;
 
 /// What a goal is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -159,11 +163,17 @@ fn work_at(
     let (subject, work, skill) = match mark.verdict {
         Some(MarkVerdict::Confirmed | MarkVerdict::Isolated) => {
             let subject = Subject::Mine { place };
-            (subject, Work::Neutralise, clearance.neutralise?)
+            (subject, Work::Neutralise, clearance.neutralise?.skill)
         }
         None | Some(MarkVerdict::Rejected) if is_suspect && interrogations < MAX_INTERROGATIONS => {
             let subject = Subject::Suspect { place };
             (subject, Work::Interrogate, clearance.interrogate?)
+        }
+        None | Some(MarkVerdict::Rejected)
+            if is_suspect && mark.failed_charges < MAX_FAILED_CHARGES =>
+        {
+            let subject = Subject::Mine { place };
+            (subject, Work::Neutralise, clearance.neutralise?.skill)
         }
         _ => return None,
     };
@@ -171,7 +181,7 @@ fn work_at(
         subject,
         tile: u32::try_from(tiles.nearest_cell(mark.at)).ok()?,
         at: mark.at,
-        radius_m: (RADIUS_DEVIATIONS * mark.deviation_m).max(skill.range_m.into()),
+        radius_m: RADIUS_DEVIATIONS * mark.deviation_m,
         value: mark.mine,
         work,
         skill,

@@ -25,7 +25,26 @@ pub struct Clearance {
     /// How marks are interrogated; without it, no robot can.
     pub interrogate: Option<Skill>,
     /// How marks are neutralised; without it, no robot can.
-    pub neutralise: Option<Skill>,
+    pub neutralise: Option<Charge>,
+}
+
+/// A charge that neutralises marked items.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Charge {
+    /// What robots need to use it.
+    pub skill: Skill,
+    /// Probability that it destroys an item within its reach.
+    pub success_probability: f64,
+    /// Maximum distance of the item from the place where it goes off, in metres.
+    pub reach_m: f64,
+}
+
+impl Charge {
+    /// Probability that a charge at a mark misses the marked item, for the standard deviation of its position.
+    pub(crate) fn missed(&self, deviation_m: f64) -> f64 {
+        let squares = self.reach_m * self.reach_m / (deviation_m * deviation_m);
+        1.0 + self.success_probability * libm::expm1(-squares / 2.0)
+    }
 }
 
 /// What robots need for goals of a kind.
@@ -35,8 +54,6 @@ pub struct Skill {
     pub capability: u8,
     /// Time that it takes at the place.
     pub service_s: f32,
-    /// Range of the tool, in metres; unused by searches.
-    pub range_m: f32,
 }
 
 /// What is known of the item detector of a kind of robots.
@@ -67,7 +84,7 @@ impl Clearance {
     }
 
     /// The kinds that make the lane unsafe, and their expected numbers.
-    pub(crate) fn hazards(&self) -> impl Iterator<Item = (usize, f64)> {
+    pub fn hazards(&self) -> impl Iterator<Item = (usize, f64)> {
         let kinds = self.expected.iter().copied().enumerate();
         kinds.filter(|(kind, _)| self.lane.is_hazard(*kind))
     }

@@ -44,6 +44,7 @@ impl Controller {
 
     fn plan(&self, work: &mut LaneWork) -> Plan {
         work.note_done(&self.goals, self.now_s);
+        work.has_open_marks = work.picture.has_open_marks();
         let mut kinds: Vec<u8> = self.picture.present().map(|robot| robot.id.kind).collect();
         kinds.sort_unstable();
         kinds.dedup();

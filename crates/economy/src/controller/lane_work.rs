@@ -42,6 +42,8 @@ pub(super) struct LaneWork {
     pub(super) interrogated: Vec<(u32, u32)>,
     pub(super) next_plan_s: f64,
     pub(super) next_lane_s: f64,
+    /// Whether a mark that may be a mine had no verdict at the last plan.
+    pub(super) has_open_marks: bool,
 }
 
 base::hashed!(LaneWork {
@@ -51,7 +53,7 @@ base::hashed!(LaneWork {
     interrogated,
     next_plan_s,
     next_lane_s
-});
+} without { has_open_marks });
 
 /// A goal that the controller has planned.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +85,7 @@ impl Clearing {
                 interrogated: Vec::new(),
                 next_plan_s: f64::NEG_INFINITY,
                 next_lane_s: f64::NEG_INFINITY,
+                has_open_marks: false,
             })
         });
         Self { work }
@@ -119,14 +122,15 @@ impl LaneWork {
                 continue;
             }
             planned.done_s = Some(now_s);
-            if let Subject::Suspect { place } = planned.subject {
-                match self
-                    .interrogated
-                    .iter_mut()
-                    .find(|(known, _)| *known == place)
-                {
-                    Some((_, times)) => *times += 1,
-                    None => self.interrogated.push((place, 1)),
+            match planned.subject {
+                Subject::Tile { .. } => {}
+                Subject::Mine { place } => self.picture.note_charge(place),
+                Subject::Suspect { place } => {
+                    let mut known = self.interrogated.iter_mut();
+                    match known.find(|(known, _)| *known == place) {
+                        Some((_, times)) => *times += 1,
+                        None => self.interrogated.push((place, 1)),
+                    }
                 }
             }
         }

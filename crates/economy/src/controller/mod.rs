@@ -275,6 +275,13 @@ impl Controller {
         self.clearing.picture()
     }
 
+    /// Whether a mark of the lane that may be a mine had no verdict when it last planned.
+    #[must_use]
+    pub fn has_open_marks(&self) -> bool {
+        let work = self.clearing.work.as_ref();
+        work.is_some_and(|work| work.has_open_marks)
+    }
+
     /// What it has stated about the lane, if it has.
     #[must_use]
     pub fn lane_statement(&self) -> Option<LaneStatement> {

@@ -23,7 +23,6 @@ fn clearance() -> Clearance {
     let skill = Skill {
         capability: 0,
         service_s: 3.0,
-        range_m: 1.5,
     };
     Clearance {
         lane: Lane {

@@ -1,7 +1,9 @@
 //! A kind of controller, converted for runs.
 
 use super::ControllerSpec;
+use crate::clock::ClockSpec;
 use crate::radio::Radio;
+use crate::scenario::ScenarioSpec;
 use crate::sensors::Sensor;
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
@@ -33,14 +35,20 @@ pub(crate) enum ControllerBase {
 }
 
 impl ControllerKind {
-    /// The kind that `spec` describes, where robots have these kinds, and controllers this number of kinds.
-    pub(crate) fn new<'r>(
-        (name, spec): (&String, &ControllerSpec),
-        (mut robots, controllers): (impl ExactSizeIterator<Item = &'r String>, usize),
-        (step_s, max_drift): (f64, f64),
-    ) -> Self {
-        let kinds = [robots.len(), controllers].map(|kinds| u8::try_from(kinds).unwrap_or(u8::MAX));
+    /// The kind that `spec` describes in a scenario.
+    pub(crate) fn new((name, spec): (&String, &ControllerSpec), scenario: &ScenarioSpec) -> Self {
+        let ClockSpec {
+            step_s, max_drift, ..
+        } = scenario.clock;
+        let kinds = [scenario.robots.len(), scenario.controllers.len()];
+        let kinds = kinds.map(|kinds| u8::try_from(kinds).unwrap_or(u8::MAX));
+        let clearance = spec.clearance.as_ref();
+        let settings = Settings {
+            clearance: clearance.map(|clearance| Arc::new(clearance.ready(scenario))),
+            ..spec.settings(max_drift, kinds)
+        };
         let carrier = spec.aboard.as_ref();
+        let mut robots = scenario.robots.keys();
         let carrier = carrier.and_then(|kind| robots.position(|known| known == kind));
         let carrier = carrier.and_then(|number| u8::try_from(number).ok());
         let placed = || ControllerBase::Placed(spec.start.clone().unwrap_or_default());
@@ -56,7 +64,7 @@ impl ControllerKind {
             price: spec.price,
             mean_time_between_failures_s: spec.mean_time_between_failures_s,
             failed: spec.failed.clone(),
-            settings: Arc::new(spec.settings(max_drift, kinds)),
+            settings: Arc::new(settings),
         }
     }
 

@@ -1,10 +1,12 @@
 //! Controllers: agents that own goals and award them to robots. They have no body.
 
+pub(crate) mod clearance;
 pub(crate) mod kind;
 
 use crate::radio::RadioSpec;
 use crate::sensors::SensorSpec;
 use base::placement::Placement;
+use clearance::ClearanceSpec;
 use economy::{Allocation, Settings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,6 +59,8 @@ pub struct ControllerSpec {
     #[serde(default = "max_goals")]
     #[schemars(range(max = 10_000))]
     pub max_goals: u32,
+    /// A mined lane that they are to clear. Only one kind of controllers can have one.
+    pub clearance: Option<ClearanceSpec>,
 }
 
 impl ControllerSpec {

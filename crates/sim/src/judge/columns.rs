@@ -1,6 +1,7 @@
 //! The outcome columns, each defined in one place.
 
 use super::act_columns;
+use super::clearance_columns;
 use super::find_times::{find_time, find_times};
 use super::goal_columns::{self, Column};
 use super::outcome::Outcome;
@@ -12,17 +13,25 @@ use base::engine::ColumnKind::{Flag, Real, Whole};
 use base::engine::{Bounds, OutcomeColumns};
 use base::scenario::condition::{ConditionColumns, TimesUntil};
 
-/// The outcome columns of scenarios with these kinds of items, each with the largest number of items in any
+/// The outcome columns of scenarios with these kinds of robots and of items, each of these with the largest number of items in any
 /// configuration of the study: all configurations have the same columns. With kinds of goals, there are those of goals;
-/// where anything can happen to items besides detections, those of acts.
-pub(crate) fn columns(items: &[(&str, u32)], has: Features) -> OutcomeColumns<Scenario, Outcome> {
+/// where anything can happen to items besides detections, those of acts, and where controllers clear a lane, those of its
+/// clearance.
+pub(crate) fn columns(
+    items: &[(&str, u32)],
+    robots: &[&str],
+    has: Features,
+) -> OutcomeColumns<Scenario, Outcome> {
     let items = items.iter().copied().enumerate();
     let counts = items.clone().flat_map(counts_of);
     let times = items.flat_map(find_times_of);
     let columns = [time_and_team(), finds(), costs()].into_iter().flatten();
     let goals = has.goals.then(goal_columns::columns);
     let acts = has.acts.then(act_columns::columns);
-    let more = [goals, acts].into_iter().flatten().flatten();
+    let clearance = has
+        .clearance
+        .then(|| clearance_columns::columns(robots, &has));
+    let more = [goals, acts, clearance].into_iter().flatten().flatten();
     let columns = columns.chain(more);
     OutcomeColumns(columns.chain(counts).chain(times).collect())
 }
@@ -35,7 +44,9 @@ pub(crate) fn condition_columns(document: &Document) -> ConditionColumns {
         .map(|(name, count)| (name.as_str(), *count))
         .collect();
     let items = items.as_slice();
-    let names = columns(items, ScenarioSpec::features(document)).names();
+    let robots = ScenarioSpec::names(document, &["robots"]).unwrap_or_default();
+    let robots: Vec<&str> = robots.iter().map(String::as_str).collect();
+    let names = columns(items, &robots, ScenarioSpec::features(document)).names();
     let lengths = items.iter().map(|(_, count)| find_times(*count) as usize);
     let mut start = names.len() - lengths.clone().sum::<usize>();
     let mut times = Vec::new();
@@ -182,7 +193,7 @@ mod tests {
 
     #[test]
     fn merit_terms_are_summed_in_the_order_of_stored_studies() {
-        let terms = columns(&[], Features::default()).merit_terms();
+        let terms = columns(&[], &[], Features::default()).merit_terms();
         let names: Vec<&str> = terms.iter().map(|term| &*term.name).collect();
         let expected = "time robots failed price found missed collisions energy distance stopped \
                         false_alarms";

@@ -1,6 +1,7 @@
 //! When a run is over.
 
 use super::act_outcome::ActOutcome;
+use super::clearance_tally::ClearanceTally;
 use super::moment::Moment;
 use crate::bodies::body_state::Status;
 use crate::end::Count;
@@ -15,16 +16,27 @@ enum EndRule {
     TimeLimit,
     /// No robot can move.
     NoRobotActive,
+    /// The controllers have given up the lane that they were to clear.
+    GivenUp,
 }
 
 impl EndRule {
-    const ALL: [Self; 3] = [Self::Complete, Self::TimeLimit, Self::NoRobotActive];
+    const ALL: [Self; 4] = [
+        Self::Complete,
+        Self::TimeLimit,
+        Self::NoRobotActive,
+        Self::GivenUp,
+    ];
 
     fn holds(self, moment: &Moment) -> bool {
         let mut bodies = moment.body_states.iter();
         match self {
             Self::Complete => moment.tally.complete_at.is_some(),
             Self::TimeLimit => moment.tick >= moment.scenario.steps,
+            Self::GivenUp => {
+                let clearance = moment.tally.clearance.as_deref();
+                clearance.is_some_and(ClearanceTally::has_given_up)
+            }
             Self::NoRobotActive => !bodies.any(|body| body.status == Status::Active),
         }
     }
@@ -94,6 +106,10 @@ impl Moment<'_> {
             Count::Confirmed => self.acts().confirmed.into(),
             Count::Neutralised => self.acts().neutralised.into(),
             Count::RobotsLost => self.acts().robots_lost.into(),
+            Count::Declared => {
+                let clearance = tally.clearance.as_deref();
+                f64::from(u8::from(clearance.is_some_and(ClearanceTally::has_declared)))
+            }
             Count::FoundOf(kind) => tally.found[kind].into(),
             Count::MissedOf(kind) => missed(kind).into(),
         }

@@ -1,6 +1,7 @@
 //! The outcome of a run.
 
 use super::act_outcome::ActOutcome;
+use super::clearance_outcome::ClearanceOutcome;
 use super::goal_outcome::GoalOutcome;
 use super::moment::Moment;
 use crate::clock::seconds;
@@ -33,6 +34,8 @@ pub struct Outcome {
     pub goals: Option<GoalOutcome>,
     /// What robots did to items, in a scenario where they can do more than detect them, or items destroy them.
     pub acts: Option<ActOutcome>,
+    /// What controllers stated of a lane that they were to clear, and whether that was true.
+    pub clearance: Option<ClearanceOutcome>,
     /// Whether every robot has a finite pose.
     is_placed: bool,
 }
@@ -65,6 +68,10 @@ impl Outcome {
                 .as_ref()
                 .map(|goals| GoalOutcome::of(moment, goals)),
             acts: tally.acts.as_ref().map(|acts| ActOutcome::of(moment, acts)),
+            clearance: tally
+                .clearance
+                .as_ref()
+                .map(|clearance| ClearanceOutcome::of(moment, clearance)),
             is_placed: is_placed(moment),
         }
     }

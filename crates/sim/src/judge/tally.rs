@@ -1,6 +1,7 @@
 //! What is counted during a run.
 
 use super::act_tally::{ActTally, Done};
+use super::clearance_tally::ClearanceTally;
 use super::cost::Cost;
 use super::detections::{Detections, Sighting};
 use super::events::{EventKind, EventLog};
@@ -36,6 +37,8 @@ pub(crate) struct Tally {
     pub(crate) goals: Option<Box<GoalTally>>,
     /// What was done to items, in a scenario where anything can be.
     pub(crate) acts: Option<Box<ActTally>>,
+    /// What was noted of a lane, in a scenario where controllers are to clear one.
+    pub(crate) clearance: Option<Box<ClearanceTally>>,
 }
 
 impl Tally {
@@ -51,6 +54,9 @@ impl Tally {
             found: vec![0; scenario.items.len()],
             goals: scenario.goals().map(Box::new),
             acts: scenario.has_acts.then(Box::default),
+            clearance: scenario
+                .clearance()
+                .map(|_| Box::new(ClearanceTally::new(scenario))),
             ..Self::default()
         }
     }
@@ -135,6 +141,16 @@ impl Tally {
         self.records[item as usize].detected.is_some()
     }
 
+    /// Notes messages that were dropped, because a participant could not send or receive that many in a step.
+    pub(crate) fn dropped(&mut self, messages: u64) {
+        if let Some(goals) = &mut self.goals {
+            goals.messages_dropped += messages;
+        }
+        if let Some(clearance) = &mut self.clearance {
+            clearance.messages_dropped += messages;
+        }
+    }
+
     /// Notes new contacts of bodies; returns whether there are any.
     pub(crate) fn collided(&mut self, collisions: u64) -> bool {
         self.collisions += collisions;
@@ -178,6 +194,9 @@ impl Tally {
         if let Some((next, before)) = next.acts.as_mut().zip(self.acts.as_ref()) {
             **next = before.continued(kept, |id| ids.get(&id).copied());
         }
+        if let Some((next, before)) = next.clearance.as_mut().zip(self.clearance.as_ref()) {
+            **next = before.continued(scenario);
+        }
         for (kind, record) in items.kinds().zip(&next.records) {
             next.found[usize::from(kind)] += u32::from(record.detected.is_some());
         }
@@ -196,6 +215,9 @@ impl Tally {
         }
         if let Some(acts) = &self.acts {
             acts.add_to(hash);
+        }
+        if let Some(clearance) = &self.clearance {
+            clearance.add_to(hash);
         }
         if self.removed != Cost::default() {
             hash.add(self.removed.energy_j.to_bits());

@@ -34,6 +34,7 @@ impl Scenario {
         Features {
             goals: !self.goals.is_empty(),
             acts: self.has_acts,
+            clearance: self.clearance().is_some(),
         }
     }
 }
@@ -44,7 +45,15 @@ impl ScenarioSpec {
         Features {
             goals: Self::has_goals(document),
             acts: Self::has_acts(document),
+            clearance: Self::may_clear(document),
         }
+    }
+
+    /// Whether controllers are to clear a lane. Works on documents with errors, too.
+    fn may_clear(document: &Document) -> bool {
+        let names = Self::names(document, &["controllers"]).unwrap_or_default();
+        let mut names = names.iter();
+        names.any(|name| document.get(&["controllers", name, "clearance"]).is_some())
     }
 
     /// Whether anything can happen to items besides detections in any configuration of a document.

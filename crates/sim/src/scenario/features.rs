@@ -7,4 +7,6 @@ pub(crate) struct Features {
     pub(crate) goals: bool,
     /// Tools of robots, hazards, or items that are completed by more than a detection.
     pub(crate) acts: bool,
+    /// A lane that controllers are to clear.
+    pub(crate) clearance: bool,
 }

@@ -18,6 +18,7 @@ use crate::world::obstacles::Solid;
 use crate::world::static_geometry::{StaticGeometry, Wall};
 use crate::world::terrain::{Area, Terrain, TerrainFactors};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
+use economy::Clearance;
 
 /// Neighbour lists reach farther than necessary: by this fraction of the range of rays, but within
 /// these limits in metres. They stay valid until a robot has moved half of it.
@@ -176,6 +177,12 @@ impl Scenario {
         self.kinds
             .windows(2)
             .all(|pair| pair[0].layer == pair[1].layer)
+    }
+
+    /// The lane that controllers are to clear, if there is one.
+    pub(crate) fn clearance(&self) -> Option<&Clearance> {
+        let mut controllers = self.controllers.iter();
+        controllers.find_map(|kind| kind.settings.clearance.as_deref())
     }
 
     /// The largest number of targets in a run.
@@ -346,6 +353,9 @@ fn entries(spec: &ScenarioSpec, obstacles: usize) -> Vec<usize> {
 
 fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
     let Some(end) = &spec.end else {
+        if spec.has_clearance() {
+            return Some(EndCondition::declared());
+        }
         let has_targets = items.iter().any(|kind| kind.is_target && kind.count > 0);
         let has_goals = spec.goals.values().any(|kind| kind.count > 0);
         let is_plain = items.iter().all(ItemKind::is_only_found);
@@ -360,17 +370,14 @@ fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
     let has = Features {
         goals: !spec.goals.is_empty(),
         acts: true,
+        clearance: spec.has_clearance(),
     };
     EndCondition::parse(&end.when, items, has).ok()
 }
 
 fn controllers(spec: &ScenarioSpec) -> Vec<ControllerKind> {
-    let clock = (spec.clock.step_s, spec.clock.max_drift);
     let kinds = spec.controllers.iter();
-    let counted = || (spec.robots.keys(), spec.controllers.len());
-    kinds
-        .map(|kind| ControllerKind::new(kind, counted(), clock))
-        .collect()
+    kinds.map(|kind| ControllerKind::new(kind, spec)).collect()
 }
 
 fn goals(spec: &ScenarioSpec, capabilities: &[String]) -> Vec<GoalKind> {

@@ -74,6 +74,12 @@ impl ScenarioSpec {
         names.into_iter().cloned().collect()
     }
 
+    /// Whether controllers are to clear a lane.
+    pub(crate) fn has_clearance(&self) -> bool {
+        let mut controllers = self.controllers.values();
+        controllers.any(|kind| kind.clearance.is_some())
+    }
+
     /// Whether robots or controllers fail at random times.
     pub(super) fn has_failures(&self) -> bool {
         let robots = self.robots.values();

@@ -1,7 +1,10 @@
 //! The probability that a robot that drives straight past an item detects it.
 
+use super::SensorSpec;
 use super::items::{Detection, ItemsSpec};
 use super::sector::Sector;
+use crate::bodies::RobotSpec;
+use crate::schedule::Schedule;
 use base::geometry::Point;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -20,6 +23,17 @@ pub(crate) struct Path {
     pub(crate) period_s: f64,
     /// Probability that a measurement yields nothing at all.
     pub(crate) dropout_probability: f64,
+}
+
+impl Path {
+    /// Of a robot at its maximum speed with one of its sensors.
+    pub(crate) fn new(robot: &RobotSpec, sensor: &SensorSpec, step_s: f64) -> Self {
+        Self {
+            speed_m_s: robot.drive.max_speed_m_s,
+            period_s: Schedule::new(sensor.rate_hz, step_s).period_s(step_s),
+            dropout_probability: sensor.dropout_probability,
+        }
+    }
 }
 
 /// Probabilities to detect an item of one kind at least once in a pass, if it can be detected at all.

@@ -28,10 +28,8 @@ pub(crate) fn send(
     neighbours: &Neighbours,
     workers: &[WorkerScratch],
 ) {
-    if let Some(goals) = &mut state.tally.goals {
-        let unsent = workers.iter().map(|worker| worker.unsent);
-        goals.messages_dropped += unsent.sum::<u64>();
-    }
+    let unsent = workers.iter().map(|worker| worker.unsent);
+    state.tally.dropped(unsent.sum());
     if workers.iter().all(|worker| worker.outbox.is_empty()) {
         return;
     }
@@ -73,9 +71,7 @@ pub(crate) fn deliver(state: &mut State) {
             }
             dropped
         });
-        if let Some(goals) = &mut state.tally.goals {
-            goals.messages_dropped += dropped as u64;
-        }
+        state.tally.dropped(dropped as u64);
     }
     channel.reuse(arrived);
     state.channel = channel;

@@ -2,6 +2,7 @@
 
 mod act;
 mod acts;
+mod clearance;
 pub(crate) mod communicate;
 mod decide;
 mod decision_hash;

@@ -2,6 +2,7 @@
 
 use super::act::Moves;
 use super::acts;
+use super::clearance;
 use super::communicate;
 use super::decide::{StepInputs, WorkerScratch};
 use super::decision_hash::{add_decisions, add_setpoints};
@@ -92,6 +93,7 @@ impl StepScratch {
             self.sense_decide_and_plan(scenario, state, external);
             state.issue_goals(scenario);
             self.direct(scenario, state, external);
+            let is_stated = clearance::observe(scenario, state, &self.workers);
             let hashes = self.workers.iter().flat_map(|worker| &worker.decisions);
             add_decisions(state, hashes);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
@@ -99,7 +101,7 @@ impl StepScratch {
             let collisions = self.act(scenario, state);
             let is_counted = hazards::detonate(scenario, state, &self.events) | is_counted;
             let is_counted = acts::carry_out(scenario, state, &self.events) | is_counted;
-            self.judge((scenario, state), external, collisions) | is_counted
+            self.judge((scenario, state), external, collisions) | is_counted | is_stated
         };
         if scenario.has_failures {
             state.fail(scenario);

@@ -11,6 +11,7 @@ use super::others::Others;
 use super::pose::Pose;
 use super::scans::new_scans;
 use super::spec::BeliefsSpec;
+use crate::io::act::{ActKind, Acted};
 use crate::io::body::{Body, Detector, RobotId};
 use crate::io::percept::{Contact, Observation, Percept};
 use crate::perception::dead_reckoning::Odometry;
@@ -135,6 +136,7 @@ impl Beliefs {
             self.others.scan(ring, ranges_m);
         }
         self.battery.update(percept, elapsed_s);
+        self.forget_destroyed(percept, body);
         let Some(pose) = self.localisation.pose() else {
             return;
         };
@@ -143,6 +145,15 @@ impl Beliefs {
             if let Some(then) = self.localisation.pose_before(observation.age_s, body) {
                 self.update_items(observation, percept, body, then);
             }
+        }
+    }
+
+    /// Forgets what the robot has destroyed: later contacts there are of other items.
+    fn forget_destroyed(&mut self, percept: &Percept, body: &Body) {
+        let is_charge = |acted: &&Acted| acted.kind == ActKind::Neutralise && acted.is_success;
+        for acted in percept.acted.iter().filter(is_charge) {
+            let reach_m = body.tool(ActKind::Neutralise).map_or(0.0, |tool| tool.reach_m);
+            self.items.forget(acted.at, reach_m);
         }
     }
 

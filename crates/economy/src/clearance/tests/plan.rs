@@ -2,7 +2,7 @@
 
 use super::simulated::{clearance, picture};
 use crate::clearance::plan::{Circumstances, MAX_INTERROGATIONS, Plan, Subject};
-use crate::clearance::{Clearance, Decision, LanePicture, Skill};
+use crate::clearance::{Charge, Clearance, Decision, LanePicture, Skill};
 use brain::{Coverage, GoalId, Mark, MarkVerdict, RobotId, Statement};
 
 const OAV: RobotId = RobotId { kind: 0, index: 0 };
@@ -13,12 +13,15 @@ fn able() -> Clearance {
     let skill = |capability| Skill {
         capability,
         service_s: 2.0,
-        range_m: 1.0,
     };
     let mut clearance = clearance([4.0, 4.0], [0.05, 0.02]);
     clearance.searches = vec![skill(1), skill(2)];
     clearance.interrogate = Some(skill(2));
-    clearance.neutralise = Some(skill(2));
+    clearance.neutralise = Some(Charge {
+        skill: skill(2),
+        success_probability: 0.9,
+        reach_m: 1.0,
+    });
     for (robot, (capability, nats)) in clearance.robots.iter_mut().zip([(1, 2.0), (2, 1.0)]) {
         (robot.capabilities, robot.search_nats) = (vec![capability], nats);
     }

@@ -152,7 +152,7 @@ fn on_clocks(max_drift: f64) -> String {
 }
 
 /// The error of a lease, which may be the default.
-fn of_lease(lease_s: f64, allowed: String, at: &Place) -> InputError {
+pub(super) fn of_lease(lease_s: f64, allowed: String, at: &Place) -> InputError {
     let mut error = at.error(allowed);
     if error.problem == Problem::Missing {
         error.problem = Problem::NotAllowed(format!("{lease_s} (default)"));
@@ -186,7 +186,7 @@ fn of_services(name: &str, spec: &ScenarioSpec, at: &Place) -> Option<InputError
 }
 
 /// The longest time until a message of a robot is answered, and until one of another controller is.
-fn round_trips_s(kind: &ControllerSpec, spec: &ScenarioSpec) -> [f64; 2] {
+pub(super) fn round_trips_s(kind: &ControllerSpec, spec: &ScenarioSpec) -> [f64; 2] {
     let step_s = spec.clock.step_s;
     let delay_s = |radio: &RadioSpec| radio.delay_s.max(step_s);
     let of_robot_s = |robot: &RobotSpec| {

@@ -88,6 +88,7 @@ fn range(count: Count, spec: &ScenarioSpec, document: &Document) -> Range {
             let counts = kinds.map(|name| f64::from(max_count(document, "goals", name)));
             (Some(0.0), counts.sum())
         }
+        Count::Declared => (Some(0.0), 1.0),
         Count::FalseAlarms | Count::Collisions => (Some(0.0), f64::INFINITY),
         Count::RobotsStopped | Count::RobotsLost => {
             let kinds = spec.robots.keys();

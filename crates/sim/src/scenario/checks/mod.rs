@@ -1,6 +1,7 @@
 //! Checks of what the parts of a scenario mean together; one topic per file.
 
 mod brains;
+mod clearance;
 mod clock;
 mod controllers;
 mod detection;
@@ -85,6 +86,7 @@ pub(super) fn of_meaning(spec: &ScenarioSpec, document: &Document) -> Vec<InputE
     [
         brains::errors(spec, at),
         controllers::errors(spec, at),
+        clearance::errors(spec, at),
         goals::errors(spec, document),
         end::errors(spec, document),
     ]

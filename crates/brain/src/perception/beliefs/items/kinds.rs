@@ -182,6 +182,18 @@ impl Track {
         models.map(of_model).product()
     }
 
+    /// For each kind, the log likelihood ratio of all own measurements for an item that the own sensor models can
+    /// detect.
+    pub(crate) fn visible_log_ratios(&self, kinds: &KindModel) -> Vec<f64> {
+        let each = kinds.each_kind();
+        let of = |kind: usize| {
+            let models = 0..kinds.models.len();
+            let ratios = models.map(|model| self.evidence[NUMBERS * (model * kinds.kinds() + kind)]);
+            ratios.sum()
+        };
+        each.map(of).collect()
+    }
+
     /// Log likelihood ratio of all own measurements for an item of any kind.
     pub(super) fn own_log_ratio(&self, kinds: &KindModel) -> f64 {
         let each = kinds.each_kind();

@@ -110,6 +110,7 @@ impl Items {
             &mut self.last_track_id,
             ratio,
         );
+        track.note_contact(observation.observer);
         track.correct_position(at, variance_m2);
         if let Some(kinds) = kinds {
             track.update_kind(kinds, observation.observer);
@@ -312,6 +313,14 @@ impl Track {
         };
         source.log_ratio = log_ratio.max(-MAX_LOG_ODDS).min(MAX_LOG_ODDS - self.prior);
         source.provenance.observations = source.provenance.observations.saturating_add(1);
+    }
+
+    /// Notes that an own detector has detected it.
+    fn note_contact(&mut self, observer: RobotId) {
+        let mut sources = self.sources[..self.count].iter_mut();
+        if let Some(own) = sources.find(|source| source.provenance.observer == observer) {
+            own.is_contact = true;
+        }
     }
 
     /// Log likelihood ratio of a miss, if the item was in view with a probability.

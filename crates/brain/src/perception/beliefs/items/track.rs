@@ -78,6 +78,8 @@ pub(crate) struct Source {
     pub(crate) sent_confidence: f32,
     /// Whether own observations have confirmed or refuted it; each source is judged once.
     pub(crate) is_judged: bool,
+    /// Whether it is this robot, and a detector of it has detected the item.
+    pub(crate) is_contact: bool,
     /// The kind that a report named, and its probability given that there is an item, if kinds are uncertain.
     pub(crate) kind: u16,
     pub(crate) kind_share: f32,
@@ -90,7 +92,7 @@ base::hashed!(Source {
     log_ratio,
     sent_confidence,
     is_judged
-} without { kind, kind_share });
+} without { is_contact, kind, kind_share });
 
 impl Track {
     /// A track without sources.

@@ -112,6 +112,17 @@ impl Items {
         index
     }
 
+    /// Forgets the tracks within a distance of a place: what was there is destroyed.
+    pub(crate) fn forget(&mut self, at: Point, radius_m: f64) {
+        let count = self.tracks.len();
+        self.tracks
+            .retain(|track| track.at.to(at).length() > radius_m);
+        if self.tracks.len() < count {
+            // Indices have changed.
+            self.mark_changed(&TrackSet::first(self.max_tracks));
+        }
+    }
+
     /// Renumbers the robots, and drops the sources for which `keep` returns false.
     pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
         for track in &mut self.tracks {

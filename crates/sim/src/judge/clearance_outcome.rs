@@ -1,0 +1,60 @@
+//! The outcome of a lane that controllers were to clear.
+
+use super::clearance_tally::{ClearanceTally, Stated};
+use super::moment::Moment;
+use crate::clock::seconds;
+
+/// What controllers stated of a lane, and whether that was true.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClearanceOutcome {
+    /// Whether it was declared clear.
+    pub is_declared: bool,
+    /// Whether it was declared clear and no mine was left in it.
+    pub is_clear: bool,
+    /// The risk that was stated when it was declared clear or given up; 1 if it was neither.
+    pub stated_risk: f64,
+    /// Time until it was declared clear; the time limit if it was not.
+    pub declared_s: f64,
+    /// Time until all marks that may be mines had a verdict; the time limit if some had none at the end.
+    pub interrogated_s: f64,
+    /// Mean time for which robots of each kind were active.
+    pub on_station_s: Vec<f64>,
+    /// Messages sent.
+    pub messages_sent: u64,
+    /// Messages that a participant could not send or receive, because there were too many in a step.
+    pub messages_dropped: u64,
+    /// Goals awarded to robots.
+    pub awards: u64,
+    /// Awards of a goal to another robot than before.
+    pub reallocations: u64,
+}
+
+impl ClearanceOutcome {
+    pub(super) fn of(moment: &Moment, tally: &ClearanceTally) -> Self {
+        let scenario = moment.scenario;
+        let time_s = |at: Option<u64>| {
+            let time_s = at.map(|tick| seconds(tick, scenario.step_s));
+            time_s.map_or(scenario.time_limit_s, |time_s| {
+                time_s.min(scenario.time_limit_s)
+            })
+        };
+        let declared: Option<Stated> = tally.stated.filter(|stated| stated.is_clear);
+        let kinds = scenario.kinds.iter().zip(&tally.on_station);
+        Self {
+            is_declared: declared.is_some(),
+            is_clear: declared.is_some_and(|stated| stated.left == 0),
+            stated_risk: tally.stated.map_or(1.0, |stated| stated.risk),
+            declared_s: time_s(declared.map(|stated| stated.at)),
+            interrogated_s: time_s(tally.interrogated_at),
+            on_station_s: kinds
+                .map(|(kind, steps)| {
+                    seconds(*steps, scenario.step_s) / f64::from(kind.count.max(1))
+                })
+                .collect(),
+            messages_sent: tally.messages_sent,
+            messages_dropped: tally.messages_dropped,
+            awards: tally.awards,
+            reallocations: tally.reallocations,
+        }
+    }
+}

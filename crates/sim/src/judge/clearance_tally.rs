@@ -1,0 +1,138 @@
+//! What was noted of a lane that controllers are to clear.
+
+use crate::scenario::Scenario;
+use base::hash::Hash;
+use base::hashed::Hashed;
+use brain::{About, Dispatch, GoalId, Message, RobotId};
+use economy::LaneStatement;
+use std::collections::BTreeMap;
+
+/// How far a controller has come with the lane.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Progress {
+    pub(crate) statement: Option<LaneStatement>,
+    /// Whether a mark that may be a mine has no verdict.
+    pub(crate) has_open_marks: bool,
+}
+
+/// The first declaration that the lane is clear, or the last of the controllers that gave it up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stated {
+    /// The step.
+    pub(super) at: u64,
+    pub(super) is_clear: bool,
+    /// The risk that the controller stated.
+    pub(super) risk: f64,
+    /// Mines that were left then.
+    pub(super) left: u32,
+}
+
+/// What was noted of a lane.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct ClearanceTally {
+    pub(super) stated: Option<Stated>,
+    /// Since which step no mark waits for a verdict.
+    pub(super) interrogated_at: Option<u64>,
+    /// Steps in which robots of each kind were active, summed over its robots.
+    pub(super) on_station: Vec<u64>,
+    pub(super) messages_sent: u64,
+    pub(super) messages_dropped: u64,
+    pub(super) awards: u64,
+    /// Awards of a goal to another robot than before.
+    pub(super) reallocations: u64,
+    /// The robot to which each goal was last awarded.
+    awarded: BTreeMap<GoalId, RobotId>,
+}
+
+impl ClearanceTally {
+    pub(super) fn new(scenario: &Scenario) -> Self {
+        Self {
+            on_station: vec![0; scenario.kinds.len()],
+            ..Self::default()
+        }
+    }
+
+    /// Whether a controller has declared the lane clear.
+    pub(super) fn has_declared(&self) -> bool {
+        self.stated.is_some_and(|stated| stated.is_clear)
+    }
+
+    /// Whether all controllers have given it up.
+    pub(super) fn has_given_up(&self) -> bool {
+        self.stated.is_some_and(|stated| !stated.is_clear)
+    }
+
+    /// Notes a message that a participant sends.
+    pub(crate) fn sent(&mut self, message: &Message) {
+        self.messages_sent += 1;
+        if let About::Dispatch(Dispatch::Award(award)) = message.about {
+            self.awards += 1;
+            let before = self.awarded.insert(award.goal, message.to);
+            self.reallocations += u64::from(before.is_some_and(|before| before != message.to));
+        }
+    }
+
+    /// Notes that a robot of a kind is active in a step.
+    pub(crate) fn on_station(&mut self, kind: u8) {
+        if let Some(steps) = self.on_station.get_mut(usize::from(kind)) {
+            *steps += 1;
+        }
+    }
+
+    /// Notes how far the controllers that work have come; returns whether they have stated something. The lane is
+    /// declared clear by the first of them that declares it, and given up when all have given it up.
+    pub(crate) fn observe(
+        &mut self,
+        tick: u64,
+        controllers: impl Iterator<Item = Progress>,
+        left: impl Fn() -> u32,
+    ) -> bool {
+        let (mut has_open_marks, mut is_undecided) = (false, false);
+        let mut last: Option<LaneStatement> = None;
+        for controller in controllers {
+            has_open_marks |= controller.has_open_marks;
+            is_undecided |= controller.statement.is_none();
+            let is_declared = last.is_some_and(|last| last.is_clear);
+            last = controller.statement.filter(|_| !is_declared).or(last);
+        }
+        self.interrogated_at = if has_open_marks {
+            None
+        } else {
+            self.interrogated_at.or(Some(tick))
+        };
+        let stated = last.filter(|last| last.is_clear || !is_undecided);
+        let Some(stated) = stated.filter(|_| self.stated.is_none()) else {
+            return false;
+        };
+        self.stated = Some(Stated {
+            at: tick,
+            is_clear: stated.is_clear,
+            risk: stated.risk,
+            left: left(),
+        });
+        true
+    }
+
+    /// The tally of the run as it continues with another scenario.
+    pub(super) fn continued(&self, scenario: &Scenario) -> Self {
+        let mut next = self.clone();
+        next.on_station.resize(scenario.kinds.len(), 0);
+        next
+    }
+
+    /// Adds everything observable to the hash of a run.
+    pub(super) fn add_to(&self, hash: &mut Hash) {
+        let stated = self.stated.map(|stated| (stated.at, stated.risk.to_bits()));
+        stated.add_to(hash);
+        self.interrogated_at.add_to(hash);
+        self.on_station.add_to(hash);
+        for count in [
+            self.messages_sent,
+            self.messages_dropped,
+            self.awards,
+            self.reallocations,
+        ] {
+            hash.add(count);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! What the judge notes of a lane that controllers are to clear: what they state, and what was sent.
+
+use super::decide::WorkerScratch;
+use crate::bodies::body_state::Status;
+use crate::judge::clearance_tally::Progress;
+use crate::run::state::State;
+use crate::scenario::Scenario;
+
+/// Reports a step to the judge, before messages are sent; returns whether anything was counted.
+pub(super) fn observe(scenario: &Scenario, state: &mut State, workers: &[WorkerScratch]) -> bool {
+    let Some(mut tally) = state.tally.clearance.take() else {
+        return false;
+    };
+    for outgoing in workers.iter().flat_map(|worker| &worker.outbox) {
+        tally.sent(&outgoing.message);
+    }
+    let bodies = state.ids.iter().zip(&state.body_states);
+    let active = bodies.filter(|(_, body)| body.status == Status::Active);
+    active.for_each(|(id, _)| tally.on_station(id.kind));
+    let controllers = state.controllers.iter();
+    let working = controllers.filter(|agent| agent.participant.is_working(&state.body_states));
+    let with_lane = working.filter(|agent| agent.controller.lane().is_some());
+    let controllers = with_lane.map(|agent| Progress {
+        statement: agent.controller.lane_statement(),
+        has_open_marks: agent.controller.has_open_marks(),
+    });
+    let left = || state.mines_left(scenario);
+    let is_counted = tally.observe(state.tick, controllers, left);
+    state.tally.clearance = Some(tally);
+    is_counted
+}
+
+impl State {
+    /// Number of targets in the lane that are not destroyed.
+    fn mines_left(&self, scenario: &Scenario) -> u32 {
+        let Some(clearance) = scenario.clearance() else {
+            return 0;
+        };
+        let lane = clearance.lane.area();
+        let kinds = (0..).zip(self.items.kinds());
+        let left = kinds.filter(|(item, kind)| {
+            scenario.items[usize::from(*kind)].is_target
+                && !self.items.is_gone(*item)
+                && lane.contains(self.items.place(*item))
+        });
+        u32::try_from(left.count()).unwrap_or(u32::MAX)
+    }
+}
