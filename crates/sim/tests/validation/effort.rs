@@ -31,8 +31,11 @@ const CLEAR: f64 = 0.6;
 const AT_RANDOM_RUNS: u64 = 80;
 const IN_LANES_RUNS: u64 = 40;
 
-/// Passes in lanes to which a random search is compared, and the parts of a pass.
-const WHOLE: [u32; 2] = [1, 2];
+/// Numbers of passes in lanes with which a random search is compared.
+const COMPARED: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+
+/// Passes in lanes, and the parts of each.
+const PASSES: usize = 2;
 const PARTS: u32 = 4;
 
 /// The field of the random search, and its robots and items.
@@ -62,8 +65,8 @@ fn pass(detection: f64) -> f64 {
 }
 
 /// Effort of a random search that finds as much as a number of passes in lanes.
-fn random_effort(passes: u32, pass: f64) -> f64 {
-    f64::from(passes) * -(1.0 - pass).ln() / pass
+fn random_effort(passes: f64, pass: f64) -> f64 {
+    passes * -(1.0 - pass).ln() / pass
 }
 
 /// Share that straight paths of a length find, also by the measurement at the start.
@@ -75,7 +78,7 @@ fn by_paths(length_m: f64, detection: f64) -> f64 {
 /// A random search, at the efforts that find as much as whole passes in lanes.
 fn at_random(series: &str, detection: f64, expected: f64) -> Vec<Row> {
     let scenario = scenario(AT_RANDOM, &[(DETECTION, Value::Float(detection))]);
-    let steps = WHOLE.map(|passes| {
+    let steps = COMPARED.map(|passes| {
         let effort = random_effort(passes, pass(expected));
         let length_m = effort * FIELD_M2 / (2.0 * RANGE_M * SEARCHERS);
         let is_enough = |step: &u32| f64::from(*step) * APART_M >= length_m;
@@ -91,7 +94,8 @@ fn at_random(series: &str, detection: f64, expected: f64) -> Vec<Row> {
             f64::from(found(&simulation)) / SCATTERED
         })
     };
-    let searches: Vec<[f64; 2]> = (0..AT_RANDOM_RUNS).into_par_iter().map(search).collect();
+    let searches: Vec<[f64; COMPARED.len()]> =
+        (0..AT_RANDOM_RUNS).into_par_iter().map(search).collect();
     let row = |place: usize| {
         let length_m = f64::from(steps[place]) * APART_M;
         let effort = 2.0 * RANGE_M * length_m * SEARCHERS / FIELD_M2;
@@ -99,7 +103,7 @@ fn at_random(series: &str, detection: f64, expected: f64) -> Vec<Row> {
         let expected = by_paths(length_m, expected);
         Row::mean(series, effort, &shares, Some(expected))
     };
-    (0..WHOLE.len()).map(row).collect()
+    (0..COMPARED.len()).map(row).collect()
 }
 
 /// A formation of robots side by side.
@@ -198,7 +202,7 @@ impl Formation {
 fn in_lanes(series: &str, detection: f64, law: impl Fn(f64) -> f64) -> Vec<Row> {
     let search = |number| {
         let mut formation = Formation::new(detection, number);
-        WHOLE.map(|_| {
+        [(); PASSES].map(|()| {
             let parts = formation.pass();
             formation.turn_back();
             parts
@@ -206,7 +210,7 @@ fn in_lanes(series: &str, detection: f64, law: impl Fn(f64) -> f64) -> Vec<Row> 
     };
     let searches: Vec<_> = (0..IN_LANES_RUNS).into_par_iter().map(search).collect();
     let row = |pass: usize, part: usize| {
-        let done = f64::from(WHOLE[pass] - 1);
+        let done = [0.0, 1.0][pass];
         let each = searches.iter().map(|search| search[pass][part]);
         let (efforts, shares): (Vec<f64>, Vec<f64>) =
             each.map(|[covered, found]| (done + covered, found)).unzip();
@@ -214,7 +218,7 @@ fn in_lanes(series: &str, detection: f64, law: impl Fn(f64) -> f64) -> Vec<Row> 
         Row::mean(series, effort, &shares, Some(law(effort)))
     };
     let parts = |pass| (0..PARTS as usize).map(move |part| row(pass, part));
-    (0..WHOLE.len()).flat_map(parts).collect()
+    (0..PASSES).flat_map(parts).collect()
 }
 
 /// 1 - (1 - p)^S at whole passes, linear between them.
@@ -238,9 +242,9 @@ fn random_search_and_lanes_find_as_much_at_efforts_in_the_ratio_of_gage() {
     let all = all.concat();
     assert_published("search-effort.csv", &all);
     assert_right(&all);
-    for (passes, pass) in [(1, pass(FAINT)), (2, pass(CLEAR))] {
+    for (passes, pass) in [(1.0, pass(FAINT)), (2.0, pass(CLEAR))] {
         let at_random = 1.0 - (-pass * random_effort(passes, pass)).exp();
-        assert!((at_random - lanes(f64::from(passes), pass)).abs() < 1e-12);
+        assert!((at_random - lanes(passes, pass)).abs() < 1e-12);
     }
 }
 
