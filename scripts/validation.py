@@ -35,6 +35,9 @@ from plots import (
 
 PAGE = Page("validation")
 
+MEAN_LEFT, CLEARANCE = "mean number left", 0.675
+"""A series of the check of mines left, and the share of mines that its search finds."""
+
 
 def main() -> None:
     """Write charts and page, or check them."""
@@ -118,6 +121,10 @@ def overview() -> str:
         ["lanes: min(1, w v t / A)", *deviation("lanes")],
         ["scans until detection: geometric", *deviation("scans")],
         ["false alarms per scan: Poisson", *deviation("false-alarms")],
+        ["search effort at random / in lanes: -ln(1 - p) / p", *deviation("search-effort")],
+        ["blind sensors: at most 1 - b is found", *deviation("blind-share")],
+        ["items left: Poisson, whatever was found", *deviation("mines-left")],
+        ["nothing found in n samples: (1 - θ)^n", *deviation("samples")],
         ["arcs: circles", f"{largest('arcs'):.0e} m off after 100,000 steps", "exact"],
         ["stopping: v² / 2a", f"relative error below {relative('stopping'):.0e}", "exact"],
         [
@@ -203,6 +210,14 @@ def specifications() -> dict[str, Spec]:
         "placement": placement(),
         "sense": sense(),
         "calibration": calibration(),
+        "uncertain-kinds": uncertain_kinds(),
+        "search-effort": simple(
+            "search-effort", "effort: swept area / area", "fraction of items found"
+        ),
+        "blind-share": simple(
+            "blind-share", "looks of each robot", "fraction of items found", Axes(x="log")
+        ),
+        "mines-left": mines_left(),
     }
 
 
@@ -337,18 +352,58 @@ def calibration() -> Spec:
     panels = []
     for title, radio in (("alone", "alone"), ("with radio", "radio")):
         some = [row for row in rows("calibration") if radio in row.series]
-        right = [{"x": 0, "y": 0}, {"x": 1, "y": 1}]
-        diagonal = {
-            "data": {"values": right},
-            "mark": {"type": "line", "color": INK, "strokeWidth": 1},
-            "encoding": plain(),
-        }
-        axes = Axes(x_ticks=(0, 0.2, 0.4, 0.6, 0.8, 1), y_domain=(0, 1))
-        x = f"confidence, {title}"
-        panels.append(
-            panel([diagonal, *points(some)], x, "fraction true", width=WIDTH // 2, axes=axes)
-        )
+        panels.append(reliability(some, f"confidence, {title}", width=WIDTH // 2))
     return page_of(side_by_side(*panels))
+
+
+def uncertain_kinds() -> Spec:
+    """Return the fraction of true beliefs in uncertain kinds by confidence."""
+    return page_of(reliability(list(rows("uncertain-kinds")), "confidence"))
+
+
+def reliability(some: list[Row], x: str, width: int = WIDTH) -> Spec:
+    """Return the fraction of true beliefs by confidence, and the diagonal."""
+    right = [{"x": 0, "y": 0}, {"x": 1, "y": 1}]
+    diagonal = {
+        "data": {"values": right},
+        "mark": {"type": "line", "color": INK, "strokeWidth": 1},
+        "encoding": plain(),
+    }
+    axes = Axes(x_ticks=(0, 0.2, 0.4, 0.6, 0.8, 1), y_domain=(0, 1))
+    return panel([diagonal, *points(some)], x, "fraction true", width=width, axes=axes)
+
+
+def mines_left() -> Spec:
+    """Return the fraction of runs by the mines left, and the mean number left by those found."""
+    left = [row for row in rows("mines-left") if row.series != MEAN_LEFT]
+    mean = [row for row in rows("mines-left") if row.series == MEAN_LEFT]
+    flat = [{"x": row.x, "y": (row.x + 1) * (1 - CLEARANCE) / CLEARANCE} for row in mean]
+    label = {"x": 7.5, "y": 4.7, "text": "flat prior"}
+    dashed = {"type": "line", "color": GREY, "strokeDash": [4, 4]}
+    right = [
+        {"data": {"values": flat}, "mark": dashed, "encoding": plain()},
+        {
+            "data": {"values": [label]},
+            "mark": {"type": "text", "align": "right", "color": GREY},
+            "encoding": {**plain(), "text": {"field": "text"}},
+        },
+        *curves(mean),
+        *points(mean, legend=False),
+    ]
+    return page_of(
+        side_by_side(
+            panel(
+                [*curves(left), *points(left)],
+                "mines left",
+                "fraction of runs",
+                width=WIDTH // 2,
+                axes=Axes(whole=True),
+            ),
+            panel(
+                right, "mines found", "mean number left", width=WIDTH // 2, axes=Axes(whole=True)
+            ),
+        )
+    )
 
 
 def together(series: str, column: int, some: list[Row]) -> Row:

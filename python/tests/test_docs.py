@@ -1,5 +1,6 @@
 """Documents agree with the program."""
 
+import math
 import re
 import shlex
 import subprocess
@@ -71,6 +72,15 @@ def test_the_requirements_page_shows_the_requirement_of_the_warehouse() -> None:
     shown = tomllib.loads(page.split("```toml\n")[1].split("```")[0])
     bundled = tomllib.loads((ROOT / "scenarios/warehouse.toml").read_text())
     assert shown == {key: bundled[key] for key in ("end", "require", "study")}
+
+
+def test_the_floors_of_the_mines_page_follow_from_the_formula() -> None:
+    page = (ROOT / "docs/mines.md").read_text()
+    rows = re.findall(r"^\| (\d+) \| (0\.\d+)[^|]* \| ([\d.]+)% \|$", page, re.MULTILINE)
+    assert len(rows) == 4
+    for mines, blind, floor in rows:
+        digits = len(floor.partition(".")[2])
+        assert floor == f"{100 * (1 - math.exp(-float(mines) * float(blind))):.{digits}f}"
 
 
 def run_blocks(page: str) -> None:

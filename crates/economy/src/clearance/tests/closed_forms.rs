@@ -45,10 +45,15 @@ fn before_any_look_the_risk_is_that_of_the_prior() {
     assert!((risk.probability - (1.0 - (-3.0_f64).exp())).abs() < 1e-9);
 }
 
-/// The floor of the risk with 8 mines and a joint blind share of 2% is 15%, with 12 mines and 5% 45%.
+/// The floor of the risk with 8 mines and a joint blind share of 2% is 15%, with 12 mines and 5% 45%, and with 8 mines
+/// and 0.3% 2.4%.
 #[test]
 fn the_risk_never_falls_below_the_floor_of_joint_blindness() {
-    for (expected, blind, floor) in [(8.0, [0.02, 1.0], 0.148), (12.0, [0.25, 0.2], 0.451)] {
+    for (expected, blind, floor) in [
+        (8.0, [0.02, 1.0], 0.148),
+        (12.0, [0.25, 0.2], 0.451),
+        (8.0, [0.06, 0.05], 0.0237),
+    ] {
         let clearance = clearance([expected, 0.0], blind);
         assert!((clearance.floor() - floor).abs() < 1e-3);
         let risk = searched(&clearance, &[0, 1], |_| 40).risk().probability;
