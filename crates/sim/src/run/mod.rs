@@ -9,6 +9,7 @@ mod economy;
 mod failing;
 mod fixed;
 mod goals;
+mod lane;
 pub(crate) mod participant;
 pub(crate) mod placing;
 mod service;
@@ -18,6 +19,7 @@ mod state_hash;
 
 pub use crate::bodies::body_state::Status;
 pub use economy::{Controller, Goal};
+pub use lane::BelievedLane;
 pub use placing::NoRoom;
 pub use snapshot::{Item, Robot};
 pub use state::State;

@@ -29,20 +29,3 @@ pub(super) fn observe(scenario: &Scenario, state: &mut State, workers: &[WorkerS
     state.tally.clearance = Some(tally);
     is_counted
 }
-
-impl State {
-    /// Number of targets in the lane that are not destroyed.
-    fn mines_left(&self, scenario: &Scenario) -> u32 {
-        let Some(clearance) = scenario.clearance() else {
-            return 0;
-        };
-        let lane = clearance.lane.area();
-        let kinds = (0..).zip(self.items.kinds());
-        let left = kinds.filter(|(item, kind)| {
-            scenario.items[usize::from(*kind)].is_target
-                && !self.items.is_gone(*item)
-                && lane.contains(self.items.place(*item))
-        });
-        u32::try_from(left.count()).unwrap_or(u32::MAX)
-    }
-}
