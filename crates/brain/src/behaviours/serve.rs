@@ -15,6 +15,7 @@ use crate::service::assignee::Assignee;
 use crate::service::jobs::Job;
 use crate::service::lanes::Lanes;
 use crate::situation::Situation;
+use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use base::geometry::{Point, Rectangle};
 use base::trig::wrapped;
@@ -75,11 +76,22 @@ impl Ready {
                 ahead_m: ahead_m(body),
                 position_noise_m: body.position_noise_m,
                 charge: body.tool(ActKind::Neutralise).copied(),
-                capabilities: body.capabilities.clone(),
+                capabilities: body.capabilities.as_slice().into(),
                 robot_kinds: body.others.len(),
             },
             value: spec.value,
         }
+    }
+
+    /// What the robot can do, in the lane that a controller has named, if one has.
+    fn ability(&self, assignee: &Assignee) -> Cow<'_, Ability> {
+        let Some(lane) = assignee.lane_area() else {
+            return Cow::Borrowed(&self.ability);
+        };
+        Cow::Owned(Ability {
+            lanes: self.ability.lanes.in_lane(lane),
+            ..self.ability.clone()
+        })
     }
 
     /// The motion at a goal: robots face the marks at which they look or act.
@@ -133,8 +145,9 @@ impl Behaviour for Ready {
             battery_s: beliefs.battery_s(),
             charge: beliefs.battery_charge(),
         };
-        assignee.step(&self.ability, &moment);
-        assignee.report_lane(&self.ability, &moment, beliefs);
+        let ability = self.ability(assignee);
+        assignee.step(&ability, &moment);
+        assignee.report_lane(&ability, &moment, beliefs);
     }
 
     fn publish(&self, assignee: &mut Box<Assignee>, command: &mut Command) {
@@ -151,22 +164,24 @@ impl Behaviour for Ready {
 
     fn triggered(&self, assignee: &mut Box<Assignee>, situation: &Situation) -> Option<Proposal> {
         let pose = situation.beliefs.and_then(Beliefs::pose)?;
-        let (job, is_there) = assignee.current(&self.ability, pose.at)?;
+        let ability = self.ability(assignee);
+        let (job, is_there) = assignee.current(&ability, pose.at)?;
         if is_there {
             return Some(self.standing(&job, &pose, situation).into());
         }
-        let (at, near_m) = job.target(&self.ability);
+        let (at, near_m) = job.target(&ability);
         Some(Proposal::Destination(Destination {
             id: job.task.id,
             at,
-            tolerance_m: near_m,
-            max_speed_m_s: self.ability.speed_m_s,
+            tolerance_m: near_m * job.approach(),
+            max_speed_m_s: ability.speed_m_s,
             value: self.value * f64::from(job.task.value),
         }))
     }
 
     fn judged(&self, assignee: &mut Box<Assignee>, verdict: Verdict) {
-        assignee.judged(&self.ability, verdict);
+        let ability = self.ability(assignee);
+        assignee.judged(&ability, verdict);
     }
 
     fn held(&self) -> Motion {

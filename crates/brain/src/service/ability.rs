@@ -6,7 +6,7 @@ use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
 use crate::perception::beliefs::{Beliefs, Map};
-use alloc::vec::Vec;
+use alloc::sync::Arc;
 use base::geometry::Point;
 
 /// A slower robot is stationary.
@@ -32,7 +32,7 @@ pub(crate) struct Ability {
     pub(crate) position_noise_m: f64,
     /// Its tool to neutralise items, if it has one.
     pub(crate) charge: Option<Tool>,
-    pub(crate) capabilities: Vec<u8>,
+    pub(crate) capabilities: Arc<[u8]>,
     /// Kinds of participants from this number on are controllers.
     pub(crate) robot_kinds: usize,
 }

@@ -21,7 +21,7 @@ use crate::io::percept::ReceivedMessage;
 use crate::io::verdict::Verdict;
 use crate::perception::beliefs::Beliefs;
 use alloc::vec::Vec;
-use base::geometry::Point;
+use base::geometry::{Point, Rectangle};
 
 /// A robot as the assignee of goals.
 #[derive(Debug, Clone, Default)]
@@ -92,6 +92,11 @@ impl Assignee {
             self.send(RobotId::EVERYONE, dispatch);
         }
         self.lane.act(&mut self.acts);
+    }
+
+    /// The area of the lane that a controller has named.
+    pub(crate) fn lane_area(&self) -> Option<Rectangle> {
+        self.lane.area()
     }
 
     /// Adds the messages of this step to those of the robot, the most urgent ones first, and its acts.
@@ -355,6 +360,7 @@ impl Assignee {
             // A service that was interrupted begins again.
             if let Some(job) = self.jobs.get_mut(goal) {
                 job.served_s = 0.0;
+                job.charges.is_firing = false;
             }
             return;
         }
@@ -407,5 +413,10 @@ fn is_there(job: &Job, ability: &Ability, at: Point) -> bool {
         return ability.covers(&job.task, at);
     }
     let (target, near_m) = job.target(ability);
+    let near_m = if job.has_begun() {
+        near_m
+    } else {
+        near_m * job.approach()
+    };
     at.to(target).length() <= near_m
 }

@@ -36,6 +36,8 @@ pub(crate) struct Charges {
     is_success: bool,
     /// Whether it has looked for the time of the service, and has detected nothing.
     pub(crate) has_looked: bool,
+    /// Whether one has been commanded and its result is not known.
+    pub(crate) is_firing: bool,
 }
 
 /// Goals without charges have the hash that they had before there were charges.
@@ -43,7 +45,7 @@ impl Hashed for Charges {
     fn add_to(&self, hash: &mut Hash) {
         if *self != Self::default() {
             self.fired.add_to(hash);
-            [self.is_success, self.has_looked].add_to(hash);
+            [self.is_success, self.has_looked, self.is_firing].add_to(hash);
         }
     }
 }
@@ -115,6 +117,7 @@ impl Assignee {
                 continue;
             };
             job.charges.fired = job.charges.fired.saturating_add(1);
+            job.charges.is_firing = false;
             if acted.is_success {
                 // It looks again: there may be another item.
                 job.charges.is_success = true;
@@ -144,6 +147,7 @@ impl Assignee {
                 self.release(goal);
                 return;
             }
+            job.charges.is_firing = true;
             self.firing = Firing(Some((goal, job.aim.map(|aim| aim.mark))));
             let kind = ActKind::Neutralise;
             self.acts.push(Act { kind, at });

@@ -13,6 +13,9 @@ use base::geometry::Point;
 /// Times in messages have the precision of 32-bit floats.
 const ROUNDING_S: f64 = 1e-6;
 
+/// Robots that look or act drive this part of the permitted distance to the place.
+const APPROACH: f64 = 0.8;
+
 /// A goal that a robot serves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Job {
@@ -75,6 +78,19 @@ impl Job {
             Work::Interrogate | Work::Neutralise => ability.look_from_m(&self.task),
         };
         (self.task.at(), radius_m)
+    }
+
+    /// Whether the service has begun: looks or a charge, which end if the robot drives on.
+    pub(crate) fn has_begun(&self) -> bool {
+        self.served_s > 0.0 || self.charges.is_firing
+    }
+
+    /// How near the robot drives, relative to how near it has to be: estimated positions move while it looks.
+    pub(crate) fn approach(&self) -> f64 {
+        match self.task.work {
+            Work::Visit | Work::Search => 1.0,
+            Work::Interrogate | Work::Neutralise => APPROACH,
+        }
     }
 
     /// Where it is to act with a charge, if it is: at what it has detected, or at the mark itself if it

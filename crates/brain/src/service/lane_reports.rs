@@ -11,6 +11,7 @@ use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::track::probability;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use base::geometry::Rectangle;
 use base::hash::Hash;
 use base::hashed::Hashed;
 
@@ -87,6 +88,12 @@ impl LaneReports {
                 }));
             }
         }
+    }
+
+    /// The area of the lane.
+    pub(super) fn area(&self) -> Option<Rectangle> {
+        let work = self.work.as_ref()?;
+        Some(work.coverage.lane().area())
     }
 
     /// Whether items of a kind are to be cleared: all, unless a controller has named a lane.

@@ -17,6 +17,21 @@ pub(crate) struct Lanes {
 }
 
 impl Lanes {
+    /// The path of searches in a lane: what is beyond it is not searched.
+    pub(crate) fn in_lane(self, lane: Rectangle) -> Self {
+        let in_field = |corner: Point| {
+            self.within.map_or(corner, |field| Point {
+                x: corner.x.clamp(field.min().x, field.max().x),
+                y: corner.y.clamp(field.min().y, field.max().y),
+            })
+        };
+        let within = Rectangle::spanned(in_field(lane.min()), in_field(lane.max()));
+        Self {
+            within: Some(within),
+            ..self
+        }
+    }
+
     /// The corner of a number; `None` after the last.
     pub(crate) fn corner(&self, task: &Task, number: u32) -> Option<Point> {
         let (at, radius_m) = (task.at(), f64::from(task.radius_m));
