@@ -81,8 +81,8 @@ impl Hazards {
     pub(crate) fn are_clear_between(&self, from: Point, to: Point) -> bool {
         let line = Segment { from, to };
         self.discs.iter().all(|disc| {
-            let least_m = disc.radius_m.min(disc.centre.to(from).length());
-            line.distance_m(disc.centre) >= least_m - ROUNDING_M
+            let min_m = disc.radius_m.min(disc.centre.to(from).length());
+            line.distance_m(disc.centre) >= min_m - ROUNDING_M
         })
     }
 

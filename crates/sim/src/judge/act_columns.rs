@@ -22,7 +22,7 @@ pub(super) fn columns() -> Vec<Column> {
             |acts| acts.robots_lost,
             28,
         ),
-        targets("missed_from_air", |acts| acts.missed_from_air, 29),
+        targets("unmarked_from_air", |acts| acts.unmarked_from_air, 29),
         targets("met_unmarked", |acts| acts.met_unmarked, 30),
     ]
 }

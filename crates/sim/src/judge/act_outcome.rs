@@ -23,7 +23,7 @@ pub struct ActOutcome {
     /// Robots that items destroyed, including those that were removed.
     pub robots_lost: u32,
     /// Targets that no flying robot has marked.
-    pub missed_from_air: u32,
+    pub unmarked_from_air: u32,
     /// Of these, the targets that a ground robot has detected or come too near to.
     pub met_unmarked: u32,
 }
@@ -44,7 +44,7 @@ impl ActOutcome {
             outcome.marked += is_done(ActKind::Mark);
             outcome.confirmed += is_done(ActKind::Confirm);
             outcome.neutralised += is_done(ActKind::Neutralise);
-            outcome.missed_from_air += u32::from(!acts.is_marked_from_air);
+            outcome.unmarked_from_air += u32::from(!acts.is_marked_from_air);
             outcome.met_unmarked += u32::from(!acts.is_marked_from_air && acts.is_met);
         }
         outcome

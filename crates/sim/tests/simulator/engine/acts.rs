@@ -193,7 +193,7 @@ fn statements_are_about_the_nearest_item_within_two_metres_and_count_once() {
     let acts = simulation.outcome().acts.unwrap();
     // 14 and 13 m are one place, 2.9 m another one.
     assert_eq!((acts.marked, acts.false_marks), (1, 2));
-    assert_eq!((acts.missed_from_air, acts.met_unmarked), (0, 0));
+    assert_eq!((acts.unmarked_from_air, acts.met_unmarked), (0, 0));
     for _ in 0..3 {
         step_with(&mut simulation, [(UGV, act(ActKind::Confirm, SCRAP))]);
         step_with(&mut simulation, [(UGV, act(ActKind::Reject, MINE))]);
@@ -214,7 +214,7 @@ fn a_target_that_only_the_ground_has_marked_and_met_was_missed_from_the_air() {
     step_with(&mut simulation, [(UGV, act(ActKind::Mark, MINE))]);
     let acts = simulation.outcome().acts.unwrap();
     assert_eq!(
-        (acts.marked, acts.missed_from_air, acts.met_unmarked),
+        (acts.marked, acts.unmarked_from_air, acts.met_unmarked),
         (1, 1, 1)
     );
     let blind = replaced(
@@ -227,7 +227,7 @@ fn a_target_that_only_the_ground_has_marked_and_met_was_missed_from_the_air() {
     let mut simulation = start(&blind);
     step_with(&mut simulation, []);
     let acts = simulation.outcome().acts.unwrap();
-    assert_eq!((acts.missed_from_air, acts.met_unmarked), (1, 0));
+    assert_eq!((acts.unmarked_from_air, acts.met_unmarked), (1, 0));
 }
 
 /// Of 600 independent attempts with probability 0.3, the number of successes is within 4 standard deviations of 180

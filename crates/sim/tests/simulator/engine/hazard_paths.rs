@@ -31,7 +31,7 @@ const MINE: Point = Point { x: 10.0, y: 5.0 };
 /// The distance of the mine at which a robot of 0.3 m may be destroyed.
 const DANGER_M: f64 = 0.6;
 
-/// How a run went: the status of its robot, where it is, and how near it came to a place.
+/// How a run went: the status of its robot, where it is, and its smallest distance from a place.
 struct Ran {
     status: Status,
     at: Point,
@@ -53,7 +53,7 @@ fn run(text: &str, place: Point) -> Ran {
     }
 }
 
-/// The lane with one of its texts replaced.
+/// The lane with a string replaced.
 fn lane(from: &str, to: &str) -> String {
     replaced(LANE, &[(from, to)])
 }

@@ -127,7 +127,7 @@ fn columns_of_acts_exist_only_where_anything_can_happen_to_items_and_are_bounded
         ("neutralised", 1.0),
         ("left", 1.0),
         ("robots_lost", 2.0),
-        ("missed_from_air", 1.0),
+        ("unmarked_from_air", 1.0),
         ("met_unmarked", 1.0),
         ("false_marks", 4800.0),
         ("false_confirmations", 4800.0),
