@@ -97,7 +97,7 @@ def run_blocks(page: str) -> None:
             assert given.returncode == 0, given.stderr
 
 
-@pytest.mark.parametrize(("name", "prints"), [("simulation", 3), ("brains", 3)])
+@pytest.mark.parametrize(("name", "prints"), [("simulation", 3), ("brains", 4)])
 def test_the_examples_of_a_page_run_and_print_the_stated_output(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,

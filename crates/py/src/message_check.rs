@@ -1,7 +1,7 @@
 //! Rejects messages, and ids of robots, that no brain could use: brains would ignore them unseen.
 
 use base::error::InputError;
-use brain::{About, Act, Body, Command, Message, RobotId, Tool};
+use brain::{About, Act, Body, Command, MAX_ACTS, Message, RobotId, Tool};
 use sim::scenario::Scenario;
 
 /// The kinds that messages can be about.
@@ -73,7 +73,8 @@ impl Kinds {
         unknown.or_else(|| self.robot(&format!("{at}.provenance.observer"), provenance.observer))
     }
 
-    /// `command`, if all of its messages are allowed, and if all of its acts have a tool; `at` is its path.
+    /// `command`, if all of its messages are allowed, and if it has a tool for each of its acts and not too many of
+    /// them; `at` is its path.
     pub(crate) fn command(
         &self,
         at: &str,
@@ -83,6 +84,7 @@ impl Kinds {
         let mut messages = command.outbox.iter().enumerate();
         let error = messages
             .find_map(|(number, message)| self.message(&format!("{at}.outbox[{number}]"), message));
+        let error = error.or_else(|| too_many(at, &command.acts));
         let error = error.or_else(|| without_tool(at, tools, &command.acts));
         error.map_or(Ok(command), Err)
     }
@@ -92,6 +94,13 @@ impl Kinds {
 pub(crate) fn tools_of(scenario: &Scenario, kind: u8) -> &[Tool] {
     let brain = scenario.brain(kind);
     brain.map_or(&[], |brain| brain.body().tools.as_slice())
+}
+
+/// An error of more acts than are carried out.
+fn too_many(at: &str, acts: &[Act]) -> Option<InputError> {
+    let given = Some(format!("{} acts", acts.len()));
+    let allowed = format!("at most {MAX_ACTS} acts");
+    (acts.len() > MAX_ACTS).then(|| InputError::new(format!("{at}.acts"), given, allowed))
 }
 
 /// An error of the first act for which there is no tool.

@@ -745,6 +745,8 @@ class Body(TypedDict):
         neighbour_noise_m: Standard deviation of the measured positions of other robots, along
             each axis.
         item_kinds: Names of all kinds of items.
+        hazards_m: For each kind of item, the distance from its footprint at which an item may
+            destroy it; `null` for kinds that do not. Empty if no kind does.
         others: Bodies of all kinds of robots, in the order in which ids count them.
         capabilities: Numbers of its capabilities, from 1; goals require them by number.
         tools: Its tools for acts, one for each kind of act that it can do.
@@ -764,6 +766,7 @@ class Body(TypedDict):
     heading_noise_rad: NotRequired[float]
     neighbour_noise_m: NotRequired[float]
     item_kinds: NotRequired[Sequence[str]]
+    hazards_m: NotRequired[Sequence[float | None]]
     others: NotRequired[Sequence[Other]]
     capabilities: NotRequired[Sequence[int]]
     tools: NotRequired[Sequence[Tool]]

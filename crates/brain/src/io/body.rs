@@ -98,6 +98,11 @@ pub struct Body {
     /// Names of all kinds of items.
     #[serde(default)]
     pub item_kinds: Vec<String>,
+    /// For each kind of item, the distance from its footprint at which an item may destroy it; `null` for kinds that
+    /// do not. Empty if no kind does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(inner(range(min = 0.0)))]
+    pub hazards_m: Vec<Option<f64>>,
     /// Bodies of all kinds of robots, in the order in which ids count them.
     #[serde(default)]
     pub others: Vec<Other>,

@@ -4,8 +4,12 @@
 //! step. Of the [headings](super::reachable) around the robot, the navigator takes the one that
 //! gets it nearest to the target, and [gives way](super::shunting) if the robot is blocked. Keeping
 //! clear of [other robots](super::traffic) comes last.
+//!
+//! Both the path and the headings keep clear of [hazards](super::hazards). A path to a goal inside a
+//! hazard ends outside, within the tolerance of the goal; without such an end, there is no path.
 
-use super::path::Wavefront;
+use super::hazards::Hazards;
+use super::path::{Wavefront, is_connected};
 use super::reachable::{Reachable, approach_speed_m_s};
 use super::shunting::{Shunting, Step};
 use super::traffic::Traffic;
@@ -19,6 +23,8 @@ use crate::perception::rays::Ray;
 use crate::situation::Situation;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use core::f64::consts::FRAC_PI_3;
 
 /// A plan is renewed after this time, in seconds.
@@ -38,6 +44,7 @@ pub(crate) struct Navigator {
     pub(crate) traffic: Traffic,
     shunting: Shunting,
     hits: Vec<Ray>,
+    hazards: Hazards,
     wavefront: Wavefront,
     plan: Option<Plan>,
     is_lengthened: bool,
@@ -47,11 +54,13 @@ pub(crate) struct Navigator {
 }
 
 // The others are the scratch memory of one step.
-base::hashed!(Navigator { reachable, traffic, shunting, plan, is_lengthened, target } without { hits, wavefront });
+base::hashed!(Navigator { reachable, traffic, shunting, plan, is_lengthened, target } without { hits, hazards, wavefront });
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {
     goal: GoalPlace,
+    /// Where the path ends: the goal, or a place near it if the goal is in a hazard.
+    end: Point,
     /// The next waypoint; `None` if there is no path.
     waypoint: Option<Point>,
     /// Length of the path beyond the waypoint.
@@ -64,14 +73,25 @@ struct Plan {
     ever_occupied: u32,
 }
 
-base::hashed!(Plan {
-    goal,
-    waypoint,
-    beyond_m,
-    age_s,
-    map_changes,
-    ever_occupied
-});
+impl Hashed for Plan {
+    fn add_to(&self, hash: &mut Hash) {
+        let Self {
+            goal,
+            end,
+            waypoint,
+            beyond_m,
+            age_s,
+            map_changes,
+            ever_occupied,
+        } = self;
+        (*goal, *waypoint).add_to(hash);
+        [*beyond_m, *age_s].add_to(hash);
+        [*map_changes, *ever_occupied].add_to(hash);
+        if *end != goal.at {
+            end.add_to(hash);
+        }
+    }
+}
 
 impl Plan {
     /// Length of the path from a position; the straight line if no path is known.
@@ -90,7 +110,7 @@ impl Plan {
     }
 
     fn is_straight(&self) -> bool {
-        self.waypoint == Some(self.goal.at)
+        self.waypoint == Some(self.end)
     }
 
     /// Whether the next waypoint has to be determined again.
@@ -101,11 +121,9 @@ impl Plan {
     }
 }
 
-/// Where the next waypoint comes from.
+/// Where the next waypoint of a new plan comes from.
 enum Source {
-    /// The current plan.
-    Plan(Plan),
-    /// No known obstacle lies before the goal: the goal is the waypoint.
+    /// No known obstacle lies before the end of the path, which is the waypoint.
     StraightLine,
     /// The distances of the last search, which are still valid.
     LastSearch,
@@ -124,9 +142,10 @@ impl Navigator {
         let Some(pose) = beliefs.pose() else {
             return Motion::default();
         };
+        self.hazards.update(beliefs, situation.body);
         let goal = destination.goal();
         let waypoint = match &beliefs.map {
-            Some(map) => self.next_waypoint(goal, &pose, map, situation),
+            Some(map) => self.next_waypoint(destination, &pose, map, situation),
             None => Some(goal.at),
         };
         let Some(waypoint) = waypoint else {
@@ -149,7 +168,7 @@ impl Navigator {
             movers: &beliefs.others.movers,
         };
         let target = self.shunting.redirect(&step, situation.random_words());
-        let stop_within_m = step.remaining_m - destination.tolerance_m / 2.0;
+        let stop_within_m = step.remaining_m - self.end_tolerance_m(destination) / 2.0;
         let max_m_s = if self.shunting.is_yielding() {
             destination.max_speed_m_s
         } else {
@@ -157,7 +176,16 @@ impl Navigator {
                 .max_speed_m_s
                 .min(stopping_speed_m_s(stop_within_m, situation))
         };
-        self.steer(target, max_m_s, situation, beliefs)
+        self.steer(target, max_m_s, situation, (beliefs, &pose))
+    }
+
+    /// Distance to the end of the path within which the goal is reached.
+    fn end_tolerance_m(&self, destination: &Destination) -> f64 {
+        let goal = destination.goal();
+        let plan = self.plan.filter(|plan| plan.goal == goal);
+        plan.map_or(destination.tolerance_m, |plan| {
+            destination.tolerance_m - goal.at.to(plan.end).length()
+        })
     }
 
     /// The goal of the current plan if no path to it is known.
@@ -182,25 +210,31 @@ impl Navigator {
         self.plan = None;
     }
 
-    /// The next waypoint on the path: the goal itself if no known obstacle lies before it.
+    /// The next waypoint on the path: its end if no known obstacle or hazard lies before it.
     fn next_waypoint(
         &mut self,
-        goal: GoalPlace,
+        destination: &Destination,
         pose: &Pose,
         map: &Map,
         situation: &Situation,
     ) -> Option<Point> {
-        let body = situation.body;
-        let waypoint = match self.waypoint_source(goal, pose.at, map) {
-            Source::Plan(plan) => return self.keep(plan, situation.elapsed_s),
-            Source::StraightLine => Some(goal.at),
+        let goal = destination.goal();
+        let plan = self.plan.filter(|plan| plan.goal == goal);
+        if let Some(plan) = plan.filter(|plan| !plan.is_due(pose.at, map.field.cell_m)) {
+            return self.keep(plan, situation.elapsed_s);
+        }
+        let end = self.end(destination, plan, pose.at, map);
+        let waypoint = end.and_then(|end| match self.waypoint_source(end, plan, pose.at, map) {
+            Source::StraightLine => Some(end),
             Source::LastSearch => self.wavefront.waypoint(&map.field, &map.occupancy, pose.at),
-            Source::NewSearch => self.search(goal.at, pose.at, map, body.radius_m),
-        };
+            Source::NewSearch => self.search(end, pose.at, map, situation.body.radius_m),
+        });
+        let end = end.unwrap_or(goal.at);
         let plan = Plan {
             goal,
+            end,
             waypoint,
-            beyond_m: self.beyond_m(waypoint, goal.at, map),
+            beyond_m: self.beyond_m(waypoint, end, map),
             age_s: 0.0,
             map_changes: map.occupancy.changes,
             ever_occupied: map.occupancy.ever_occupied,
@@ -211,17 +245,41 @@ impl Navigator {
         waypoint
     }
 
-    fn waypoint_source(&self, goal: GoalPlace, at: Point, map: &Map) -> Source {
-        let plan = self.plan.filter(|plan| plan.goal == goal);
-        if let Some(plan) = plan.filter(|plan| !plan.is_due(at, map.field.cell_m)) {
-            return Source::Plan(plan);
+    /// Where a path ends: at its goal, or outside of hazards within the tolerance of the goal. An end that still is
+    /// outside is kept.
+    fn end(
+        &self,
+        destination: &Destination,
+        plan: Option<Plan>,
+        at: Point,
+        map: &Map,
+    ) -> Option<Point> {
+        let goal = destination.at;
+        if !self.hazards.contain(goal) {
+            return Some(goal);
         }
-        if map.occupancy.is_free_between(&map.field, at, goal.at) {
+        let moved = plan.filter(|plan| plan.waypoint.is_some() && plan.end != goal);
+        let kept = moved.map(|plan| plan.end);
+        let kept = kept.filter(|end| !self.hazards.contain(*end));
+        let is_open = |end: Point| {
+            let cell = map.field.cell(end);
+            cell.is_some_and(|cell| !map.occupancy.is_occupied(cell))
+                && is_connected(&map.field, &map.occupancy, end, goal)
+        };
+        let (near, hazards) = ((goal, destination.tolerance_m), &self.hazards);
+        kept.or_else(|| hazards.end(near, at, is_open))
+    }
+
+    fn waypoint_source(&self, end: Point, plan: Option<Plan>, at: Point, map: &Map) -> Source {
+        let is_clear = self.hazards.are_clear_between(at, end);
+        if is_clear && map.occupancy.is_free_between(&map.field, at, end) {
             return Source::StraightLine;
         }
-        let is_valid = plan
-            .is_some_and(|plan| plan.map_changes == map.occupancy.changes && !plan.is_straight());
-        if is_valid && self.wavefront.covers(&map.field, at) {
+        let is_valid = plan.is_some_and(|plan| {
+            plan.map_changes == map.occupancy.changes && plan.end == end && !plan.is_straight()
+        });
+        let has_same = is_valid && self.wavefront.avoids(&self.hazards);
+        if has_same && self.wavefront.covers(&map.field, at) {
             Source::LastSearch
         } else {
             Source::NewSearch
@@ -242,11 +300,12 @@ impl Navigator {
         let cell_m = map.field.cell_m;
         let here = map.field.nearest_cell(at);
         let clearances_m = [
-            radius_m + CLEARANCE * cell_m,
-            (radius_m - TIGHT_CLEARANCE * cell_m).max(0.0),
+            (radius_m + CLEARANCE * cell_m, true),
+            ((radius_m - TIGHT_CLEARANCE * cell_m).max(0.0), false),
         ];
-        clearances_m.into_iter().find_map(|clearance_m| {
+        clearances_m.into_iter().find_map(|(clearance_m, is_wide)| {
             let known = (&map.field, &map.occupancy);
+            self.wavefront.avoid(&self.hazards, is_wide);
             self.wavefront
                 .expand(known, goal, clearance_m, |cell, _| cell != here);
             self.wavefront.waypoint(&map.field, &map.occupancy, at)
@@ -272,13 +331,14 @@ impl Navigator {
         target: Point,
         max_m_s: f64,
         situation: &Situation,
-        beliefs: &Beliefs,
+        (beliefs, pose): (&Beliefs, &Pose),
     ) -> Motion {
         let body = situation.body;
         let speed_m_s = body.max_speed_m_s.min(max_m_s.max(0.1));
         let movers = &beliefs.others.movers;
         self.reachable
             .update(&self.hits, movers, (body.radius_m, speed_m_s));
+        self.hazards.limit(&mut self.reachable, pose);
         let (bearing_rad, distance_m) = (libm::atan2(target.y, target.x), target.length());
         self.target = Some([bearing_rad, distance_m]);
         let choice = self.reachable.best(bearing_rad, distance_m);

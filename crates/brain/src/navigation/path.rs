@@ -6,8 +6,10 @@
 //! straight line is free. Unknown cells count as free.
 //!
 //! A start or goal where the robot does not fit, such as one close to a wall, is connected by
-//! straight lines to the nearest cells where it does, unless an obstacle lies between.
+//! straight lines to the nearest cells where it does, unless an obstacle lies between. The same holds
+//! for a start near a [hazard](super::hazards); no path leads into one.
 
+use super::hazards::Hazards;
 use crate::perception::beliefs::field::Field;
 use crate::perception::beliefs::occupancy::Occupancy;
 use alloc::vec::Vec;
@@ -37,7 +39,10 @@ pub(crate) struct Wavefront {
     costs: Vec<u16>,
     /// Offset from a cell to the one above it.
     stride: usize,
-    /// Obstacles are inflated by less than this number of cells.
+    hazards: Hazards,
+    /// Whether the lines between neighbouring cells keep clear of hazards, not only their centres.
+    is_wide: bool,
+    /// Obstacles and hazards reach less than this number of cells.
     inflation: i32,
     /// Open cells, by their cost modulo 8.
     buckets: [Vec<u32>; 8],
@@ -45,6 +50,17 @@ pub(crate) struct Wavefront {
 }
 
 impl Wavefront {
+    /// Keeps clear of hazards in later expansions.
+    pub(crate) fn avoid(&mut self, hazards: &Hazards, is_wide: bool) {
+        self.hazards.clone_from(hazards);
+        self.is_wide = is_wide;
+    }
+
+    /// Whether the last expansion kept clear of the same hazards.
+    pub(crate) fn avoids(&self, hazards: &Hazards) -> bool {
+        self.hazards == *hazards
+    }
+
     /// Expands the wavefront from `origin` for a robot that needs `clearance_m` on all sides.
     ///
     /// `visit` receives each cell that is reached with its distance, the nearest first; the
@@ -60,6 +76,7 @@ impl Wavefront {
         self.stride = field.columns + 1;
         self.clear(field);
         self.block_obstacles(field, map, clearance_m);
+        self.block_hazards(field);
         self.start(field, map);
         self.is_complete = self.propagate(field, visit);
     }
@@ -102,6 +119,20 @@ impl Wavefront {
         }
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "limited to the field")]
+    fn block_hazards(&mut self, field: &Field) {
+        for cell in self.hazards.cells(field, self.is_wide) {
+            // As in `index`, which borrows all of `self`.
+            let (column, row) = (cell % field.columns, cell / field.columns);
+            self.costs[(row + 1) * self.stride + column + 1] = BLOCKED;
+        }
+        let reach = (self.hazards.max_radius_m() / field.cell_m) as i32;
+        let max_cells = i32::try_from(field.columns.max(field.rows)).unwrap_or(i32::MAX);
+        if reach > 0 {
+            self.inflation = self.inflation.max(reach.min(max_cells) + 2);
+        }
+    }
+
     fn start(&mut self, field: &Field, map: &Occupancy) {
         self.buckets.iter_mut().for_each(Vec::clear);
         let origin_cell = field.nearest_cell(self.origin);
@@ -113,7 +144,9 @@ impl Wavefront {
         let origin = self.origin;
         for cell in field.around(origin_cell, self.inflation + 1) {
             let is_open = !self.is_blocked(field, cell);
-            if is_open && is_connected(field, map, field.centre(cell), origin) {
+            let centre = field.centre(cell);
+            let is_clear = self.hazards.are_clear_between(origin, centre);
+            if is_open && is_clear && is_connected(field, map, centre, origin) {
                 let index = self.index(field, cell);
                 self.reach(index, START);
             }
@@ -211,9 +244,15 @@ impl Wavefront {
         let distances = cells.filter_map(|cell| {
             let centre = field.centre(cell);
             let path_m = self.cell_distance_m(field, cell)? + centre.to(at).length();
-            is_connected(field, map, centre, at).then_some((cell, path_m))
+            let enters = !self.hazards.are_clear_between(at, centre);
+            is_connected(field, map, centre, at).then_some((enters, path_m, cell))
         });
-        distances.min_by(|one, other| one.1.total_cmp(&other.1))
+        // A robot among several hazards may have no way that enters none.
+        let order = |one: &(bool, f64, usize), other: &(bool, f64, usize)| {
+            one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+        };
+        let (_, path_m, cell) = distances.min_by(order)?;
+        Some((cell, path_m))
     }
 
     /// The next cell on the path from a cell to the origin; `None` at the origin.
@@ -264,7 +303,11 @@ impl Wavefront {
         let mut farthest = None;
         while let Some(next) = self.next(field, cell) {
             let centre = field.centre(next);
-            if farthest.is_some() && !self.is_open_between(field, at, centre) {
+            let is_free = || {
+                self.is_open_between(field, at, centre)
+                    && self.hazards.are_clear_between(at, centre)
+            };
+            if farthest.is_some() && !is_free() {
                 break;
             }
             (farthest, cell) = (Some(centre), next);
@@ -290,7 +333,7 @@ fn distance_m(field: &Field, cost: u16) -> f64 {
 }
 
 /// Whether no obstacle lies between an open cell and a point near it, which may be occupied itself.
-fn is_connected(field: &Field, map: &Occupancy, open: Point, at: Point) -> bool {
+pub(crate) fn is_connected(field: &Field, map: &Occupancy, open: Point, at: Point) -> bool {
     if map.is_occupied(field.nearest_cell(at)) {
         map.is_visible(field, open, at, 0.0)
     } else {

@@ -129,6 +129,13 @@ impl Reachable {
         }
     }
 
+    /// Limits the headings that enter a disc around a point, relative to the robot; from inside the disc, those that
+    /// lead nearer to the point.
+    pub(crate) fn limit_by_disc(&mut self, at: Point, radius_m: f64) {
+        let centre = Ray::new(libm::atan2(at.y, at.x), at.length());
+        self.limit_by_obstacle(&centre, radius_m);
+    }
+
     /// Limits the headings that come nearer than `contact_m` to a mover that keeps its velocity.
     fn limit_by_mover(&mut self, mover: &Mover, contact_m: f64, speed_m_s: f64) {
         let clear_m2 = mover.at.length_squared() - contact_m * contact_m;

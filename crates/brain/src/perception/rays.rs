@@ -54,7 +54,6 @@ pub(crate) struct Ray {
 }
 
 impl Ray {
-    #[cfg(test)]
     pub(crate) fn new(bearing_rad: f64, range_m: f64) -> Self {
         Self {
             bearing_rad,

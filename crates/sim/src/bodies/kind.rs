@@ -101,6 +101,8 @@ impl Flocking {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct KindContext<'a> {
     pub(crate) item_kinds: &'a [String],
+    /// The distance from the footprint of a robot on the ground at which an item of each kind may destroy it.
+    pub(crate) hazards_m: &'a [Option<f64>],
     pub(crate) robots: &'a BTreeMap<String, RobotSpec>,
     /// Names of all capabilities, sorted.
     pub(crate) capabilities: &'a [String],
@@ -148,6 +150,7 @@ impl Kind {
                 _ => None,
             }),
             item_kinds: item_kinds.to_vec(),
+            hazards_m: hazards_m(spec.layer, context),
             others: others(spec.layer, context),
             capabilities: capabilities(spec, context.capabilities),
             tools: tools.iter().map(|tool| tool.known).collect(),
@@ -298,6 +301,16 @@ fn ring(sensor: &Sensor, step_s: f64) -> Option<RangeRing> {
 fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
     let noises = sensors.iter().filter_map(|sensor| of(&sensor.measure));
     noises.fold(0.0, f64::max)
+}
+
+/// The dangers of items for robots in a layer: in the air, there are none.
+fn hazards_m(layer: Layer, context: &KindContext) -> Vec<Option<f64>> {
+    let has_any = context.hazards_m.iter().any(Option::is_some);
+    if layer == Layer::Ground && has_any {
+        context.hazards_m.to_vec()
+    } else {
+        Vec::new()
+    }
 }
 
 fn others(layer: Layer, context: &KindContext) -> Vec<Other> {

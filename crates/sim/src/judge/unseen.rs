@@ -1,4 +1,5 @@
-//! What the runs of a scenario cannot show, because they end at a number of finds or of served goals.
+//! What the runs of a scenario cannot show, because they end at a number of finds, of served goals, of acts on items
+//! or of lost robots.
 
 use super::find_times::{find_time, find_times};
 use crate::end::{Count, EndCondition};
@@ -6,11 +7,15 @@ use crate::scenario::ScenarioSpec;
 use base::document::{Document, Value};
 use base::scenario::condition::{Operator, Unseen};
 
-/// A kind of items: its name, the largest number of them in a run, and whether all runs have as many.
+/// A kind of items.
 struct Kind {
     name: String,
+    /// The largest number of them in a run.
     count: u32,
+    /// Whether all runs have as many.
     is_fixed: bool,
+    /// Whether they are targets; `None` if the configurations of a study differ.
+    is_target: Option<bool>,
 }
 
 /// The counts and times that are unknown after the end of a document with these columns. Works on documents with
@@ -28,10 +33,8 @@ pub(crate) fn unseen(document: &Document, columns: &[String]) -> Vec<Unseen> {
     };
     let ranges = match finds(&end, &kinds) {
         Some((of, last)) => ranges(&kinds, of, last),
-        None => served(&end)
-            .map(|last| ("served".to_owned(), (0.0, last)))
-            .into_iter()
-            .collect(),
+        None if end.count == Count::Left => left(&end, &kinds),
+        None => rising(&end).into_iter().collect(),
     };
     let place = |name: String| columns.iter().position(|known| *known == name);
     let seen = |(name, seen): (String, (f64, f64))| {
@@ -52,6 +55,7 @@ fn kinds(document: &Document) -> Vec<Kind> {
         Kind {
             is_fixed: document.get(&["study", "vary", &factor]).is_none()
                 && !ScenarioSpec::may_draw_number(document, &name),
+            is_target: is_target(document, &name),
             count,
             name,
         }
@@ -78,9 +82,52 @@ fn finds(end: &EndCondition, kinds: &[Kind]) -> Option<(Option<usize>, f64)> {
     }
 }
 
-/// At which number of served goals a run ends.
-fn served(end: &EndCondition) -> Option<f64> {
-    reached(end).filter(|_| end.count == Count::Served)
+fn is_target(document: &Document, kind: &str) -> Option<bool> {
+    let factor = format!("items.{kind}.target");
+    let is_varied = document.get(&["study", "vary", &factor]).is_some();
+    let node = document.get(&["items", kind, "target"]);
+    let value = node.is_none_or(|node| node.value != Value::Bool(false));
+    (!is_varied).then_some(value)
+}
+
+/// The count at a number of which a run ends, and what is known of it: of counts that only rise.
+fn rising(end: &EndCondition) -> Option<(String, (f64, f64))> {
+    let name = match end.count {
+        Count::Served => "served",
+        Count::Marked => "marked",
+        Count::Confirmed => "confirmed",
+        Count::Neutralised => "neutralised",
+        Count::RobotsLost => "robots_lost",
+        _ => return None,
+    };
+    Some((name.to_owned(), (0.0, reached(end)?)))
+}
+
+/// What is known of the targets that are left, and of those that charges destroyed, if a run ends at a number of targets
+/// that are left. Nothing is unknown if runs differ in their number of targets: some may begin with fewer.
+fn left(end: &EndCondition, kinds: &[Kind]) -> Vec<(String, (f64, f64))> {
+    let number = end.comparison.number;
+    let least = match end.comparison.operator {
+        Operator::AtMost | Operator::Equal => number.floor(),
+        Operator::Below => number.ceil() - 1.0,
+        _ => return Vec::new(),
+    };
+    let targets = kinds.iter().filter(|kind| kind.is_target != Some(false));
+    let all = targets
+        .clone()
+        .map(|kind| f64::from(kind.count))
+        .sum::<f64>();
+    let is_fixed = targets
+        .clone()
+        .all(|kind| kind.is_fixed && kind.is_target.is_some());
+    if !is_fixed || least < 0.0 {
+        return Vec::new();
+    }
+    let least = least.min(all);
+    vec![
+        ("left".to_owned(), (least, f64::INFINITY)),
+        ("neutralised".to_owned(), (0.0, all - least)),
+    ]
 }
 
 /// The smallest number of which a condition holds that a rising count meets.

@@ -82,10 +82,12 @@ impl Scenario {
         };
         let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
         let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
+        let hazards_m: Vec<Option<f64>> = items.iter().map(ItemKind::hazard_m).collect();
         let world = Rectangle::spanned(Point::default(), size_m);
         let capabilities = spec.capabilities();
         let context = KindContext {
             item_kinds: &names,
+            hazards_m: &hazards_m,
             robots: &spec.robots,
             capabilities: &capabilities,
             field: world,

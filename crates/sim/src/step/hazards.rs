@@ -55,7 +55,9 @@ impl State {
         if !is_active || share(words[0]) >= hazard.destroy_probability {
             return false;
         }
-        self.body_states[robot].status = Status::Broken;
+        let body_state = &mut self.body_states[robot];
+        body_state.status = Status::Broken;
+        (body_state.speed_m_s, body_state.turn_rate_rad_s) = (0.0, 0.0);
         self.tally
             .lost((self.ids[robot], item), (self.tick, &self.items), events);
         if hazard.detonates {

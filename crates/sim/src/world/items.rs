@@ -127,6 +127,14 @@ impl ItemKind {
         self.number.max(self.count)
     }
 
+    /// The distance from the footprint of a robot on the ground at which it may destroy the robot.
+    pub(crate) fn hazard_m(&self) -> Option<f64> {
+        let hazard = self
+            .hazard
+            .filter(|hazard| hazard.destroy_probability > 0.0);
+        hazard.map(|hazard| hazard.radius_m)
+    }
+
     /// Whether nothing happens to these items but that robots find them.
     pub(crate) fn is_only_found(&self) -> bool {
         self.completed_by == CompletedBy::Detected && self.hazard.is_none()

@@ -4,7 +4,8 @@
 //!
 //! Memory is bounded: with its goals and paths, a brain needs at most 51 kB, plus 20 bytes for each
 //! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray, plus 14 kB if
-//! readings are late. A test measures this.
+//! readings are late, plus 48 bytes per track if items may destroy the robot. A test measures this,
+//! without such items.
 
 mod battery;
 pub(crate) mod coverage_map;

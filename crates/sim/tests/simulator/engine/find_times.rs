@@ -203,6 +203,61 @@ fn a_run_that_ends_at_a_find_shows_nothing_of_later_ones() {
     assert!(!is_unseen("collisions >= 1", "found_mine >= 4"));
 }
 
+/// The field, where robots can do more to mines than detect them.
+fn field_with_acts() -> String {
+    let acts = "[items.mine]\ncompleted_by = \"confirmed\"\nhazard = { radius_m = 0.1 }";
+    field().replace("[items.mine]", acts)
+}
+
+#[test]
+fn a_run_that_ends_at_an_act_or_a_lost_robot_shows_nothing_of_later_ones() {
+    for count in ["marked", "confirmed", "neutralised", "robots_lost"] {
+        for (end, number) in [(">= 2", 2), ("> 1", 2), ("== 2", 2)] {
+            let end = format!("{count} {end}");
+            let unseen = |condition: &str| is_unseen_in(&field_with_acts(), &end, condition);
+            let [same, more] = [0, 1].map(|more| format!("{count} >= {}", number + more));
+            assert!(unseen(&more) && !unseen(&same), "{end}");
+            assert!(
+                !unseen(&format!("{count} <= 1")) && !unseen("found_mine >= 4"),
+                "{end}"
+            );
+        }
+        let end = format!("{count} <= 3");
+        assert!(
+            !is_unseen_in(&field_with_acts(), &end, &format!("{count} >= 3")),
+            "{end}"
+        );
+    }
+}
+
+/// Four mines are targets, and the scrap is not.
+#[test]
+fn a_run_that_ends_at_a_number_of_targets_that_are_left_shows_nothing_of_fewer() {
+    for end in ["left <= 2", "left < 3", "left == 2"] {
+        let unseen = |condition: &str| is_unseen_in(&field_with_acts(), end, condition);
+        for condition in ["left <= 1", "left == 0", "left < 2", "neutralised >= 3"] {
+            assert!(unseen(condition), "{end}: {condition}");
+        }
+        for condition in [
+            "left <= 2",
+            "left >= 3",
+            "neutralised >= 2",
+            "marked >= 4",
+            "found_mine >= 4",
+        ] {
+            assert!(!unseen(condition), "{end}: {condition}");
+        }
+    }
+    let drawn = field_with_acts().replace("[items.mine]", "[items.mine]\nnumber = \"poisson\"");
+    let varied = format!(
+        "{}[study]\nvary = {{ \"items.scrap.target\" = \"false,true\" }}\n",
+        field_with_acts()
+    );
+    for field in [drawn, varied] {
+        assert!(!is_unseen_in(&field, "left <= 2", "left <= 1"));
+    }
+}
+
 #[test]
 fn a_run_that_ends_at_a_served_goal_shows_nothing_of_later_ones() {
     let field = format!("{}\n[goals.spot]\ncount = 6\n", field());

@@ -23,6 +23,7 @@ mod flocks;
 mod footprints;
 mod goals;
 mod golden;
+mod hazard_paths;
 mod hazards;
 mod identification;
 mod inspect;

@@ -5,6 +5,8 @@ use crate::common::Random;
 /// The document of a scenario, which may contain errors.
 pub(crate) fn text(seed: u64) -> String {
     let random = &mut Random::new(seed);
+    // Of its own, so that acts change nothing else in a scenario.
+    let acts = &mut Random::new(!seed);
     let step_s = random.one_of(&[0.02, 0.1, 0.1, 0.25, 1.0]);
     let time_limit_s = f64::from(random.below(200)) * step_s * random.one_of(&[1.0, 0.99]);
     let [wide, high] = [random.between(4.0, 30.0), random.between(4.0, 30.0)];
@@ -25,12 +27,53 @@ pub(crate) fn text(seed: u64) -> String {
         text += &format!(
             "[items.{name}]\ncount = {count}\ntarget = {is_target}\nplacement = {placement}\n"
         );
+        text += &item_acts(acts);
     }
     for name in ["alpha", "beta", "gamma"]
         .iter()
         .take(1 + random.below(3) as usize)
     {
         text += &robot(random, name, &items, step_s, (wide, high));
+        text += &tools(acts, name);
+    }
+    text
+}
+
+/// What completes an item, and its hazard.
+fn item_acts(random: &mut Random) -> String {
+    let completed_by = random.one_of(&["", "detected", "confirmed", "neutralised"]);
+    let mut text = match completed_by {
+        "" => String::new(),
+        act => format!("completed_by = \"{act}\"\n"),
+    };
+    if random.below(2) == 0 {
+        let radius_m = random.one_of(&[0.0, 0.3, 2.0, 1000.0]);
+        let probability = random.one_of(&[0.0, 0.5, 1.0]);
+        let detonates = random.below(2) == 0;
+        text += &format!(
+            "hazard = {{ radius_m = {radius_m}, destroy_probability = {probability}, detonates = {detonates} }}\n"
+        );
+    }
+    text
+}
+
+/// Any of the tools.
+fn tools(random: &mut Random, robot: &str) -> String {
+    let mut text = String::new();
+    for tool in ["mark", "confirm", "isolate", "neutralise"] {
+        if random.below(2) == 0 {
+            continue;
+        }
+        text += &format!("[robots.{robot}.tools.{tool}]\n");
+        text += &one_of(random, "range_m", &[0.0, 1.0, 5.0, 10_000.0]);
+        if ["isolate", "neutralise"].contains(&tool) {
+            text += &one_of(random, "reach_m", &[0.0, 0.5, 1000.0]);
+            text += &one_of(random, "duration_s", &[0.0, 0.03, 2.0, 1e6]);
+        }
+        if tool == "neutralise" {
+            text += &one_of(random, "success_probability", &[0.0, 0.5, 1.0]);
+            text += &format!("charges = {}\n", 1 + random.below(3));
+        }
     }
     text
 }

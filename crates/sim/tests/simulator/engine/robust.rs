@@ -54,14 +54,34 @@ fn command(random: &mut Random) -> Command {
         sensor: u16::try_from(random.below(40)).unwrap(),
         on: random.below(2) == 0,
     };
-    let kind = random.one_of(&[ActKind::Mark, ActKind::Isolate, ActKind::Neutralise]);
-    let act = Act { kind, at };
+    let acts = (0..random.below(6)).map(|_| act(random)).collect();
     Command {
         motion: motion(random.one_of(&values), random.one_of(&values)),
         heading_rad: Some(random.one_of(&values)),
         requests: vec![request],
         outbox: vec![message; random.below(4) as usize],
-        acts: vec![act; random.below(6) as usize],
+        acts,
+    }
+}
+
+/// Any act, at a place in the world or at an absurd one.
+fn act(random: &mut Random) -> Act {
+    let kinds = [
+        ActKind::Mark,
+        ActKind::Confirm,
+        ActKind::Reject,
+        ActKind::Isolate,
+        ActKind::Neutralise,
+    ];
+    let absurd = [-1.0, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    let along = |random: &mut Random| match random.below(4) {
+        0 => random.one_of(&absurd),
+        _ => random.between(0.0, 20.0),
+    };
+    let [x, y] = [along(random), along(random)];
+    Act {
+        kind: random.one_of(&kinds),
+        at: Point { x, y },
     }
 }
 
@@ -84,7 +104,7 @@ fn assert_sane(simulation: &Simulation, seed: u64) {
 
 #[test]
 fn no_scenario_without_errors_makes_a_run_panic() {
-    let mut stepped = 0;
+    let (mut stepped, mut done, mut lost) = (0, 0, 0);
     for (seed, scenario) in scenarios(150) {
         let Ok(mut simulation) = Simulation::new(scenario, seed, 0) else {
             continue;
@@ -105,9 +125,15 @@ fn no_scenario_without_errors_makes_a_run_panic() {
             assert_sane(&simulation, seed);
             stepped += ids.len();
         }
-        assert!(simulation.outcome().is_finite(), "{seed}");
+        let outcome = simulation.outcome();
+        assert!(outcome.is_finite(), "{seed}");
+        if let Some(acts) = outcome.acts {
+            done += acts.marked + acts.false_marks + acts.confirmed + acts.neutralised;
+            lost += acts.robots_lost;
+        }
     }
     assert!(stepped > 60_000, "{stepped}");
+    assert!(done > 200 && lost > 10, "{done} acts, {lost} robots lost");
 }
 
 #[test]
