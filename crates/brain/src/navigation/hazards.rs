@@ -21,7 +21,10 @@ use core::f64::consts::TAU;
 
 /// Items of lower probability have no disc: a detour costs little beside a robot, but false alarms must not close
 /// the field.
-const MIN_PROBABILITY: f64 = 0.2;
+const MIN_PROBABILITY: f64 = 0.1;
+
+/// A track whose most probable kind is harmless has a disc if the other kinds together have this probability.
+const MIN_OTHERS: f64 = 0.02;
 
 /// Standard deviations of the position of an item that its disc covers.
 const DEVIATIONS: f64 = 2.0;
@@ -40,6 +43,19 @@ const ENDS: u8 = 24;
 const END_MARGIN_M: f64 = 0.25;
 const MIN_END_MARGIN_M: f64 = 0.02;
 
+/// The distance of the danger of a track; `None` if it has none. Of uncertain kinds, that of the most dangerous one,
+/// unless the most probable kind is harmless and nearly certain.
+fn hazard_m(track: &Track, beliefs: &Beliefs, body: &Body) -> Option<f64> {
+    let of_kind = body.hazards_m.get(usize::from(track.kind)).copied();
+    let of_kind = of_kind.flatten();
+    let Some(kinds) = beliefs.items.kinds.as_deref().filter(|_| of_kind.is_none()) else {
+        return of_kind;
+    };
+    let (_, share, _) = track.kind_and_agreement(kinds, beliefs.id, &|_| Some(1.0));
+    let others = body.hazards_m.iter().copied().flatten();
+    others.reduce(f64::max).filter(|_| 1.0 - share >= MIN_OTHERS)
+}
+
 /// The discs around the items that a robot believes in.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Hazards {
@@ -55,11 +71,11 @@ impl Hazards {
         }
         let least = log_odds(MIN_PROBABILITY);
         let disc = |track: &Track| {
-            let hazard_m = *body.hazards_m.get(usize::from(track.kind))?;
+            let hazard_m = hazard_m(track, beliefs, body)?;
             let margin_m = DEVIATIONS * libm::sqrt(track.variance_m2.max(0.0));
             Some(Disc {
                 centre: track.at,
-                radius_m: hazard_m? + body.radius_m + margin_m.min(MAX_MARGIN_M),
+                radius_m: hazard_m + body.radius_m + margin_m.min(MAX_MARGIN_M),
             })
         };
         let tracks = beliefs.items.tracks.iter();

@@ -22,6 +22,10 @@ const EXCLUDED: f32 = -50.0;
 const CHANGE_NATS: f32 = 0.25;
 const CHANGE_DEVIATIONS: f32 = 0.5;
 
+/// The pose has an error of at least this part of the noise of a position reading: it changes slowly, so that all looks
+/// at an item have the same one.
+const MIN_POSE_ERROR: f64 = 0.5;
+
 /// All marks of a robot.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LaneMarks {
@@ -62,8 +66,13 @@ impl LaneMarks {
     /// Updates the marks by the tracks of a robot; that of a track that no longer exists remains as it
     /// was. `missed_nats` are those of all of its looks at a
     /// place before this step.
-    pub(super) fn update(&mut self, beliefs: &Beliefs, missed_nats: impl Fn(&Track) -> f64) {
+    pub(super) fn update(
+        &mut self,
+        (beliefs, position_noise_m): (&Beliefs, f64),
+        missed_nats: impl Fn(&Track) -> f64,
+    ) {
         let deviation_m = beliefs.pose().map_or(0.0, |pose| pose.deviation_m);
+        let deviation_m = deviation_m.max(MIN_POSE_ERROR * position_noise_m);
         let kinds = beliefs.items.kinds.as_deref();
         for track in &beliefs.items.tracks {
             let Some(mut mark) = mark_of((track, kinds), beliefs.id, deviation_m) else {

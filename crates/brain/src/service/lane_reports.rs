@@ -170,7 +170,7 @@ impl LaneReports {
         };
         let coverage = &work.coverage;
         work.marks
-            .update(beliefs, |track| coverage.nats_at(map, track.at));
+            .update((beliefs, moment.body.position_noise_m), |track| coverage.nats_at(map, track.at));
         work.coverage.update(moment, beliefs);
         if now_s < work.next_s || now_s >= work.named_s + SILENCE_S {
             return Vec::new();

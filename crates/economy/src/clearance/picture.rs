@@ -16,6 +16,9 @@ const MAX_PROBABILITY: f64 = 1.0 - 1e-9;
 /// A mark that is farther from the lane than this, in deviations of its position, is not in it.
 const BORDER_DEVIATIONS: f64 = 3.0;
 
+/// Probability that an item that has been marked is gone without a statement: a vehicle has set it off.
+const GONE: f64 = 0.01;
+
 /// What a controller believes of a lane.
 #[derive(Debug, Clone)]
 pub struct LanePicture {
@@ -198,10 +201,28 @@ impl LanePicture {
     /// Probability of each kind of items at a place, against nothing but false alarms.
     fn probabilities(&self, place: &Place) -> [f64; MARK_KINDS] {
         let log_odds: [f64; MARK_KINDS] = core::array::from_fn(|kind| self.log_odds(place, kind));
-        let highest = log_odds.into_iter().fold(0.0, f64::max);
+        let contradiction = self.contradiction(place);
+        let highest = log_odds.into_iter().fold(0.0, f64::max) + contradiction;
         let odds = log_odds.map(|odds| libm::exp(odds - highest));
-        let total = libm::exp(-highest) + odds.into_iter().sum::<f64>();
+        // It has been there, but is gone: what contradicts an item that is still there does not count.
+        let gone = GONE * libm::exp(contradiction) * odds.into_iter().sum::<f64>();
+        let is_contradicted = contradiction > 0.0;
+        let gone = if is_contradicted { gone } else { 0.0 };
+        let total = libm::exp(-highest) + gone + odds.into_iter().sum::<f64>();
         odds.map(|odds| odds / total)
+    }
+
+    /// How often looks of robots without a mark miss an item that a robot of the same model has detected, in nats.
+    fn contradiction(&self, place: &Place) -> f64 {
+        let robots = place.robots();
+        let cell = self.clearance.lane.nearest_cell(place.at);
+        let models = 0..self.blind.len();
+        let marked = models.filter(|model| {
+            let mut robots = robots.iter();
+            robots.any(|robot| self.model_of(*robot) == Some(*model))
+        });
+        let nats = marked.map(|model| self.searched.nats_without(model, cell, &robots));
+        nats.sum()
     }
 
     /// Log odds of a kind of items at a place, against nothing but false alarms.

@@ -74,18 +74,13 @@ impl Controller {
         proposals
             .retain(|proposal| proposal.tile % turns == turn && !work.is_planned(proposal.subject));
         proposals.sort_by(|one, other| other.value.total_cmp(&one.value));
-        let open = work
-            .planned
-            .iter()
-            .filter(|planned| planned.is_open_search());
-        let robots = self.picture.present().count().max(1);
-        let mut free = (SEARCHES_PER_ROBOT * robots).saturating_sub(open.count());
+        let mut free = self.free_searches(work);
         for proposal in proposals {
-            if matches!(proposal.subject, Subject::Tile { .. }) {
-                if free == 0 {
+            if let Subject::Tile { search, .. } = proposal.subject {
+                let Some(free) = free.get_mut(usize::from(search)).filter(|free| **free > 0) else {
                     continue;
-                }
-                free -= 1;
+                };
+                *free -= 1;
             }
             let issuer = self.own;
             let number = self.numbers.next(percept);
@@ -97,6 +92,21 @@ impl Controller {
                 done_s: None,
             });
         }
+    }
+
+    /// For each way to search, how many more tiles can be on offer, by the robots in range that search so.
+    fn free_searches(&self, work: &LaneWork) -> Vec<usize> {
+        let clearance = work.picture.clearance();
+        let ways = (0..).zip(&clearance.searches);
+        let free = ways.map(|(way, skill)| {
+            let able = self.picture.present().filter(|robot| {
+                let model = clearance.robots.get(usize::from(robot.id.kind));
+                model.is_some_and(|model| model.has(skill))
+            });
+            let open = work.planned.iter().filter(|planned| planned.is_open_search(way));
+            (SEARCHES_PER_ROBOT * able.count()).saturating_sub(open.count())
+        });
+        free.collect()
     }
 
     /// Cancels the goals without an assignee whose subject is not proposed.

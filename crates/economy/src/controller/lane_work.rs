@@ -147,8 +147,10 @@ impl LaneWork {
 }
 
 impl Planned {
-    pub(super) fn is_open_search(&self) -> bool {
-        self.done_s.is_none() && matches!(self.subject, Subject::Tile { .. })
+    /// Whether it is a search in a way that has not been served.
+    pub(super) fn is_open_search(&self, way: u8) -> bool {
+        let is_search = matches!(self.subject, Subject::Tile { search, .. } if search == way);
+        self.done_s.is_none() && is_search
     }
 }
 

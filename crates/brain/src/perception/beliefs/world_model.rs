@@ -13,6 +13,9 @@ use super::scans::new_scans;
 use super::spec::BeliefsSpec;
 use crate::io::act::{ActKind, Acted};
 use crate::io::body::{Body, Detector, RobotId};
+use crate::io::dispatch::Dispatch;
+use crate::io::lane::MarkVerdict;
+use crate::io::message::About;
 use crate::io::percept::{Contact, Observation, Percept};
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::rays::Ring;
@@ -21,6 +24,10 @@ use base::geometry::Point;
 
 /// Rounding tolerance between the ages of an observation and of its contacts.
 const AGE_TOLERANCE_S: f64 = 1e-6;
+
+/// Tracks within this distance of what another robot has destroyed are forgotten: the reach of a charge, and the errors of
+/// both poses.
+const STATED_WITHIN_M: f64 = 1.0;
 
 /// The beliefs of one robot.
 #[derive(Debug, Clone)]
@@ -148,8 +155,16 @@ impl Beliefs {
         }
     }
 
-    /// Forgets what the robot has destroyed: later contacts there are of other items.
+    /// Forgets what this robot, or another by its statement, has destroyed: later contacts there are of other items.
     fn forget_destroyed(&mut self, percept: &Percept, body: &Body) {
+        for received in &percept.inbox {
+            if let About::Dispatch(Dispatch::Statement(statement)) = received.message.about {
+                if statement.verdict == MarkVerdict::Neutralised {
+                    let at = Point::from(statement.at_m.map(f64::from));
+                    self.items.forget(at, STATED_WITHIN_M);
+                }
+            }
+        }
         let is_charge = |acted: &&Acted| acted.kind == ActKind::Neutralise && acted.is_success;
         for acted in percept.acted.iter().filter(is_charge) {
             let reach_m = body.tool(ActKind::Neutralise).map_or(0.0, |tool| tool.reach_m);

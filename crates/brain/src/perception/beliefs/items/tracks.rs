@@ -8,8 +8,10 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// Association gate, in standard deviations.
+/// Association gate, in standard deviations: one contact of an item in ninety is beyond it, and begins a second
+/// track. Uncertain kinds, where the number of items matters, have the wider one: one in 3,000.
 const GATE: f64 = 3.0;
+const GATE_OF_UNCERTAIN_KINDS: f64 = 4.0;
 
 /// All item tracks of a robot.
 #[derive(Debug, Clone)]
@@ -66,12 +68,17 @@ impl Items {
         taken: &TrackSet,
     ) -> Option<usize> {
         let is_same = |track: &Track| self.kinds.is_some() || track.kind == kind;
+        let gate = if self.kinds.is_some() {
+            GATE_OF_UNCERTAIN_KINDS
+        } else {
+            GATE
+        };
         let tracks = self.tracks.iter().enumerate();
         let same = tracks.filter(|(number, track)| is_same(track) && !taken.contains(*number));
         let near = same.filter_map(|(number, track)| {
             let square = track.at.to(at).length_squared();
             let all_m2 = variance_m2 + track.variance_m2;
-            (square <= GATE * GATE * all_m2).then_some((square, number))
+            (square <= gate * gate * all_m2).then_some((square, number))
         });
         let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
         nearest.map(|(_, number)| number)
@@ -115,8 +122,9 @@ impl Items {
     /// Forgets the tracks within a distance of a place: what was there is destroyed.
     pub(crate) fn forget(&mut self, at: Point, radius_m: f64) {
         let count = self.tracks.len();
-        self.tracks
-            .retain(|track| track.at.to(at).length() > radius_m);
+        // Nothing is within a distance of a place that is no number.
+        let is_there = |track: &Track| track.at.to(at).length() <= radius_m;
+        self.tracks.retain(|track| !is_there(track));
         if self.tracks.len() < count {
             // Indices have changed.
             self.mark_changed(&TrackSet::first(self.max_tracks));
