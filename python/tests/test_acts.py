@@ -121,9 +121,9 @@ STANDING_STEPS = 12
 
 def test_the_page_shows_an_item_that_was_destroyed_and_a_robot_that_it_destroyed() -> None:
     simulation = Simulation(Scenario.loads(LANE))
-    frames = [_core.frame(simulation._run)]  # noqa: SLF001  (ours)
+    frames = [_core.frame(simulation._run)]
     simulation.finish()
-    frames.append(_core.frame(simulation._run))  # noqa: SLF001  (ours)
+    frames.append(_core.frame(simulation._run))
     # Four 32-bit floats of the robot, the last its state; then a byte for the item.
     shown = [struct.unpack("<4fB", frame)[3:] for frame in frames]
     hidden, found, destroyed, clear, broken = 0, 1, 3, 0.0, 4.0
