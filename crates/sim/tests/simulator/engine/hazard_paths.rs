@@ -203,6 +203,34 @@ fn a_mine_that_another_robot_reports_is_avoided() {
     assert!(ugv.at.x > 17.0, "{:?}", ugv.at);
 }
 
+/// A controller awards a goal at the mine to the robot, which serves it from outside and stands still there.
+#[test]
+fn a_goal_of_a_controller_at_a_mine_is_served_from_outside() {
+    let goal = |within_m: f64| {
+        let text = lane(
+            "kind = \"navigate\", waypoints_m = [[18, 5]], within_m = 0.5",
+            "kind = \"serve\"",
+        );
+        let text = text.replace("sensors.place", "radio = { range_m = 50 }\nsensors.place");
+        format!(
+            "{text}[goals.spot]\ncount = 1\nwithin_m = {within_m}\nservice_s = 2\n\
+             placement = {{ kind = \"fixed\", at_m = [[10, 5]] }}\n\
+             [controllers.base]\ncount = 1\nstart = {{ kind = \"fixed\", at_m = [[1, 9]] }}\nradio = {{ range_m = 50 }}\n"
+        )
+    };
+    for (within_m, served) in [(1.5, 1), (0.5, 0)] {
+        let mut simulation = start(&goal(within_m));
+        let mut nearest_m = f64::INFINITY;
+        for _ in 0..590 {
+            simulation.step();
+            nearest_m = nearest_m.min(first(&simulation).at.to(MINE).length());
+        }
+        let goals = simulation.outcome().goals.unwrap();
+        assert_eq!(goals.served, served, "{within_m}");
+        assert!(nearest_m > DANGER_M, "{within_m}: {nearest_m}");
+    }
+}
+
 /// Of 20 robots that cross a field of 40 mines, nearly all reach the other side. A blind one drives straight: with the
 /// mines evenly spread, it meets 40 x 36 x 1.2 / 680 = 2.5 mines on average, and none with a probability of 0.08, so
 /// that more than 6 of 20 cross with a probability below 1e-3. The seeds are fixed.
