@@ -1,10 +1,13 @@
 //! Discs that the paths of a robot keep clear of, around items that may destroy it.
 //!
-//! An item that the robot believes in with a probability of at least [`MIN_PROBABILITY`] has a disc with the radius
+//! An item has a disc with the radius
 //!
 //! ```text
 //! distance of the danger + radius of the robot + 2 standard deviations of its position, at most MAX_MARGIN_M
 //! ```
+//!
+//! The distance is the largest at which the item is a danger with a probability of at least [`MIN_PROBABILITY`]: that
+//! there is an item, of one of the kinds that are a danger at that distance.
 //!
 //! A robot inside a disc leaves it: it does not come nearer to the item, but may move away from it.
 
@@ -12,7 +15,7 @@ use super::reachable::Reachable;
 use crate::io::body::Body;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::field::Field;
-use crate::perception::beliefs::items::track::{Track, log_odds};
+use crate::perception::beliefs::items::track::{Track, probability};
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
@@ -41,9 +44,11 @@ const END_MARGIN_M: f64 = 0.25;
 const MIN_END_MARGIN_M: f64 = 0.02;
 
 /// The discs around the items that a robot believes in.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Hazards {
     discs: Vec<Disc>,
+    /// Kept between steps to reuse its allocation.
+    shares: Vec<f64>,
 }
 
 impl Hazards {
@@ -53,18 +58,38 @@ impl Hazards {
         if body.hazards_m.is_empty() {
             return;
         }
-        let least = log_odds(MIN_PROBABILITY);
-        let disc = |track: &Track| {
-            let hazard_m = *body.hazards_m.get(usize::from(track.kind))?;
+        for track in &beliefs.items.tracks {
+            let exists = probability(track.log_odds());
+            // Most tracks of false alarms end here.
+            if exists < MIN_PROBABILITY {
+                continue;
+            }
+            self.write_shares(track, beliefs, body.hazards_m.len());
             let margin_m = DEVIATIONS * libm::sqrt(track.variance_m2.max(0.0));
-            Some(Disc {
-                centre: track.at,
-                radius_m: hazard_m? + body.radius_m + margin_m.min(MAX_MARGIN_M),
-            })
-        };
-        let tracks = beliefs.items.tracks.iter();
-        let likely = tracks.filter(|track| track.log_odds() >= least);
-        self.discs.extend(likely.filter_map(disc));
+            if let Some(danger_m) = danger_m(&body.hazards_m, &self.shares, exists) {
+                self.discs.push(Disc {
+                    centre: track.at,
+                    radius_m: danger_m + body.radius_m + margin_m.min(MAX_MARGIN_M),
+                });
+            }
+        }
+    }
+
+    /// Writes the probability of each kind, given that there is an item.
+    fn write_shares(&mut self, track: &Track, beliefs: &Beliefs, kinds: usize) {
+        if let Some(model) = &beliefs.items.kinds {
+            track.write_kind_shares(model, beliefs.id, &mut self.shares);
+        } else {
+            let is_its = |kind: usize| kind == usize::from(track.kind);
+            let shares = (0..kinds).map(|kind| f64::from(u8::from(is_its(kind))));
+            self.shares.clear();
+            self.shares.extend(shares);
+        }
+    }
+
+    /// Whether the discs are the same.
+    pub(crate) fn are_same(&self, other: &Self) -> bool {
+        self.discs == other.discs
     }
 
     /// Whether a point is inside a disc.
@@ -168,6 +193,18 @@ impl Hazards {
             reachable.limit_by_disc(pose.in_own_frame(disc.centre), disc.radius_m);
         }
     }
+}
+
+/// The largest distance at which an item is a danger with the minimum probability, by the danger and the share of each
+/// kind, and the probability that there is an item.
+fn danger_m(hazards_m: &[Option<f64>], shares: &[f64], exists: f64) -> Option<f64> {
+    let dangers = || hazards_m.iter().zip(shares);
+    let is_likely = |danger_m: &f64| {
+        let wide = dangers().filter(|(hazard_m, _)| hazard_m.is_some_and(|m| m >= *danger_m));
+        exists * wide.map(|(_, share)| share).sum::<f64>() >= MIN_PROBABILITY
+    };
+    let distances = dangers().filter_map(|(hazard_m, _)| *hazard_m);
+    distances.filter(is_likely).max_by(f64::total_cmp)
 }
 
 /// How far from a goal a direction leaves a disc.

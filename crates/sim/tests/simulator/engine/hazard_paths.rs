@@ -203,6 +203,33 @@ fn a_mine_that_another_robot_reports_is_avoided() {
     assert!(ugv.at.x > 17.0, "{:?}", ugv.at);
 }
 
+/// The detector reports the same kinds of mines as of scrap: how probable a mine is follows from the numbers expected.
+#[test]
+fn an_item_of_uncertain_kind_is_avoided_if_a_mine_is_likely_enough() {
+    for (scrap, status) in [(3, Status::Active), (19, Status::Broken)] {
+        let scrap_kind = "[items.scrap]\ncount = 1\ntarget = false\n\
+                          placement = { kind = \"fixed\", at_m = [[3, 9]] }\n[robots.ugv]";
+        let confused = "confusion = { mine = { mine = 0.5, scrap = 0.5 }, scrap = { mine = 0.5, scrap = 0.5 } }";
+        let text = replaced(
+            LANE,
+            &[
+                ("[robots.ugv]", scrap_kind),
+                (
+                    "{ mine = 0.9 }",
+                    &format!("{{ mine = 0.9, scrap = 0.9 }}, {confused}"),
+                ),
+                (
+                    "[robots.ugv.brain]",
+                    &format!(
+                        "[robots.ugv.brain]\nbeliefs.prior_count = {{ mine = 1, scrap = {scrap} }}"
+                    ),
+                ),
+            ],
+        );
+        assert_eq!(run(&text, MINE).status, status, "{scrap}");
+    }
+}
+
 /// A controller awards a goal at the mine to the robot, which serves it from outside and stands still there.
 #[test]
 fn a_goal_of_a_controller_at_a_mine_is_served_from_outside() {
