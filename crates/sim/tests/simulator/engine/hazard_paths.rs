@@ -230,7 +230,7 @@ fn an_item_of_uncertain_kind_is_avoided_if_a_mine_is_likely_enough() {
     }
 }
 
-/// A controller awards a goal at the mine to the robot, which serves it from outside and stands still there.
+/// A controller awards a goal at the mine to the robot, which serves it from outside and is stationary there.
 #[test]
 fn a_goal_of_a_controller_at_a_mine_is_served_from_outside() {
     let goal = |within_m: f64| {
