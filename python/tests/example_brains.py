@@ -83,6 +83,7 @@ class Talker(Ahead):
             "heading_rad": None,
             "requests": [{"sensor": 1, "on": self.steps % 5 != 0}],
             "outbox": [{"about": about, "confidence": 0.5} for _ in percept["contacts"]],
+            "acts": [],
         }
 
 

@@ -1,6 +1,7 @@
 """Acts of robots on items: their errors, lines in recordings, and columns of outcomes."""
 
 import json
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ from command_line import succeed
 from recorded import contents
 
 import agent_economy as ae
-from agent_economy import InputError, Scenario, Simulation
+from agent_economy import InputError, Scenario, Simulation, _core
 from agent_economy.runs.brain import Body, Command, Percept
 
 LANE = """
@@ -116,6 +117,18 @@ def test_a_python_brain_neutralises_a_mine_and_perceives_the_result() -> None:
 
 
 STANDING_STEPS = 12
+
+
+def test_the_page_shows_an_item_that_was_destroyed_and_a_robot_that_it_destroyed() -> None:
+    simulation = Simulation(Scenario.loads(LANE))
+    frames = [_core.frame(simulation._run)]
+    simulation.finish()
+    frames.append(_core.frame(simulation._run))
+    # Four 32-bit floats of the robot, the last its state; then a byte for the item.
+    shown = [struct.unpack("<4fB", frame)[3:] for frame in frames]
+    hidden, found, destroyed, clear, broken = 0, 1, 3, 0.0, 4.0
+    assert shown[0] in {(clear, hidden), (clear, found)}
+    assert shown[1] == (broken, destroyed)
 
 
 def test_acts_and_lost_robots_are_in_the_log_of_a_recording(mcap: Path) -> None:

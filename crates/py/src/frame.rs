@@ -11,7 +11,7 @@ use sim::simulation::Simulation as Run;
 ///
 /// The floats of a robot are x and y in metres, its heading in radians, and its display state: 0 clear, 1
 /// close to a collision, 2 stopped by a contact, 3 empty, 4 broken. The byte of an item is 0 if it has not
-/// been found, 1 if it has, and 2 if it was missed because the run is over.
+/// been found, 1 if it has, 2 if it was missed because the run is over, and 3 if it was destroyed.
 #[pyfunction]
 pub(crate) fn frame<'py>(
     py: Python<'py>,
@@ -37,6 +37,7 @@ fn drawn(run: &mut Run) -> Vec<u8> {
     }
     let is_over = state.is_over(scenario);
     bytes.extend(state.each_item(scenario).map(|item| match item.found_s {
+        _ if item.is_destroyed => 3,
         Some(_) => 1,
         None if is_over => 2,
         None => 0,

@@ -14,6 +14,7 @@ export enum ItemState {
   Hidden,
   Found,
   Missed,
+  Destroyed,
 }
 
 export interface Frame {

@@ -108,7 +108,7 @@ export class Drawing {
     }
   }
 
-  /** Items belong to the still layers; their state changes only when they are found. */
+  /** Items belong to the still layers; their state changes only when they are found or destroyed. */
   private checkItems(frame: Frame | null): void {
     const items = frame?.items.join("") ?? "";
     if (items !== this.items) this.isStale = true;

@@ -1,10 +1,13 @@
 //! Discs that the paths of a robot keep clear of, around items that may destroy it.
 //!
-//! An item that the robot believes in with a probability of at least [`MIN_PROBABILITY`] has a disc with the radius
+//! An item has a disc with the radius
 //!
 //! ```text
 //! distance of the danger + radius of the robot + 2 standard deviations of its position, at most MAX_MARGIN_M
 //! ```
+//!
+//! The distance is the largest at which the item is a danger with a probability of at least [`MIN_PROBABILITY`]: that
+//! there is an item, of one of the kinds that are a danger at that distance.
 //!
 //! A robot inside a disc leaves it: it does not come nearer to the item, but may move away from it.
 
@@ -12,7 +15,7 @@ use super::reachable::Reachable;
 use crate::io::body::Body;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::field::Field;
-use crate::perception::beliefs::items::track::{Track, log_odds};
+use crate::perception::beliefs::items::track::{Track, probability};
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
@@ -22,9 +25,6 @@ use core::f64::consts::TAU;
 /// Items of lower probability have no disc: a detour costs little beside a robot, but false alarms must not close
 /// the field.
 const MIN_PROBABILITY: f64 = 0.1;
-
-/// A track whose most probable kind is harmless has a disc if the other kinds together have this probability.
-const MIN_OTHERS: f64 = 0.02;
 
 /// Standard deviations of the position of an item that its disc covers.
 const DEVIATIONS: f64 = 2.0;
@@ -43,23 +43,12 @@ const ENDS: u8 = 24;
 const END_MARGIN_M: f64 = 0.25;
 const MIN_END_MARGIN_M: f64 = 0.02;
 
-/// The distance of the danger of a track; `None` if it has none. Of uncertain kinds, that of the most dangerous one,
-/// unless the most probable kind is harmless and nearly certain.
-fn hazard_m(track: &Track, beliefs: &Beliefs, body: &Body) -> Option<f64> {
-    let of_kind = body.hazards_m.get(usize::from(track.kind)).copied();
-    let of_kind = of_kind.flatten();
-    let Some(kinds) = beliefs.items.kinds.as_deref().filter(|_| of_kind.is_none()) else {
-        return of_kind;
-    };
-    let (_, share, _) = track.kind_and_agreement(kinds, beliefs.id, &|_| Some(1.0));
-    let others = body.hazards_m.iter().copied().flatten();
-    others.reduce(f64::max).filter(|_| 1.0 - share >= MIN_OTHERS)
-}
-
 /// The discs around the items that a robot believes in.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Hazards {
     discs: Vec<Disc>,
+    /// Kept between steps to reuse its allocation.
+    shares: Vec<f64>,
 }
 
 impl Hazards {
@@ -69,18 +58,38 @@ impl Hazards {
         if body.hazards_m.is_empty() {
             return;
         }
-        let least = log_odds(MIN_PROBABILITY);
-        let disc = |track: &Track| {
-            let hazard_m = hazard_m(track, beliefs, body)?;
+        for track in &beliefs.items.tracks {
+            let exists = probability(track.log_odds());
+            // Most tracks of false alarms end here.
+            if exists < MIN_PROBABILITY {
+                continue;
+            }
+            self.write_shares(track, beliefs, body.hazards_m.len());
             let margin_m = DEVIATIONS * libm::sqrt(track.variance_m2.max(0.0));
-            Some(Disc {
-                centre: track.at,
-                radius_m: hazard_m + body.radius_m + margin_m.min(MAX_MARGIN_M),
-            })
-        };
-        let tracks = beliefs.items.tracks.iter();
-        let likely = tracks.filter(|track| track.log_odds() >= least);
-        self.discs.extend(likely.filter_map(disc));
+            if let Some(danger_m) = danger_m(&body.hazards_m, &self.shares, exists) {
+                self.discs.push(Disc {
+                    centre: track.at,
+                    radius_m: danger_m + body.radius_m + margin_m.min(MAX_MARGIN_M),
+                });
+            }
+        }
+    }
+
+    /// Writes the probability of each kind, given that there is an item.
+    fn write_shares(&mut self, track: &Track, beliefs: &Beliefs, kinds: usize) {
+        if let Some(model) = &beliefs.items.kinds {
+            track.write_kind_shares(model, beliefs.id, &mut self.shares);
+        } else {
+            let is_its = |kind: usize| kind == usize::from(track.kind);
+            let shares = (0..kinds).map(|kind| f64::from(u8::from(is_its(kind))));
+            self.shares.clear();
+            self.shares.extend(shares);
+        }
+    }
+
+    /// Whether the discs are the same.
+    pub(crate) fn are_same(&self, other: &Self) -> bool {
+        self.discs == other.discs
     }
 
     /// Whether a point is inside a disc.
@@ -184,6 +193,18 @@ impl Hazards {
             reachable.limit_by_disc(pose.in_own_frame(disc.centre), disc.radius_m);
         }
     }
+}
+
+/// The largest distance at which an item is a danger with the minimum probability, by the danger and the share of each
+/// kind, and the probability that there is an item.
+fn danger_m(hazards_m: &[Option<f64>], shares: &[f64], exists: f64) -> Option<f64> {
+    let dangers = || hazards_m.iter().zip(shares);
+    let is_likely = |danger_m: &f64| {
+        let wide = dangers().filter(|(hazard_m, _)| hazard_m.is_some_and(|m| m >= *danger_m));
+        exists * wide.map(|(_, share)| share).sum::<f64>() >= MIN_PROBABILITY
+    };
+    let distances = dangers().filter_map(|(hazard_m, _)| *hazard_m);
+    distances.filter(is_likely).max_by(f64::total_cmp)
 }
 
 /// How far from a goal a direction leaves a disc.

@@ -58,7 +58,7 @@ impl Wavefront {
 
     /// Whether the last expansion kept clear of the same hazards.
     pub(crate) fn avoids(&self, hazards: &Hazards) -> bool {
-        self.hazards == *hazards
+        self.hazards.are_same(hazards)
     }
 
     /// Expands the wavefront from `origin` for a robot that needs `clearance_m` on all sides.

@@ -52,6 +52,8 @@ pub struct Item {
     pub found_s: Option<f64>,
     /// The robot that detected it first; `None` if none did, or if the robot was removed.
     pub found_by: Option<RobotId>,
+    /// Whether it was destroyed: by a charge, or with a robot.
+    pub is_destroyed: bool,
 }
 
 impl State {
@@ -122,12 +124,13 @@ impl State {
     /// All items, in the order of their kinds and indices.
     pub fn each_item(&self, scenario: &Scenario) -> impl Iterator<Item = Item> {
         let items = self.items.kinds().zip(self.items.places());
-        let items = items.zip(self.tally.records());
-        items.map(|((kind, at), record)| Item {
+        let items = (0..).zip(items.zip(self.tally.records()));
+        items.map(|(number, ((kind, at), record))| Item {
             kind,
             at,
             found_s: record.found_at().map(|tick| seconds(tick, scenario.step_s)),
             found_by: record.detected.and_then(|detection| detection.by),
+            is_destroyed: self.items.is_gone(number),
         })
     }
 }

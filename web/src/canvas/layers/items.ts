@@ -5,7 +5,10 @@ import type { Layer, Pen } from "./layer";
 
 const half_px = 6;
 
-/** Items: a hollow diamond until found, then a disc with a tick; a crossed diamond if missed; clutter is a plus. */
+/**
+ * Items: a hollow diamond until found, then a disc with a tick; a crossed diamond if missed; clutter is a plus, and an
+ * item that was destroyed a cross.
+ */
 export const items: Layer = {
   id: "items",
   switch: { label: "Items", on: true },
@@ -16,7 +19,8 @@ export const items: Layer = {
     setting.items.forEach(({ at, target }, i) => {
       const [x, y] = toScreen(pen.camera, ...at);
       pen.context.globalAlpha = preview ? 0.6 : 1;
-      if (!target) plus(pen, x, y);
+      if (states?.[i] === ItemState.Destroyed) cross(pen, x, y);
+      else if (!target) plus(pen, x, y);
       else if (states?.[i] === ItemState.Found) found(pen, x, y);
       else diamond(pen, x, y, states?.[i] === ItemState.Missed);
     });
@@ -61,6 +65,17 @@ function plus({ context, colours }: Pen, x: number, y: number): void {
   stroke(context, colours["item-clutter"], 1.5, [
     [x, y - 4],
     [x, y + 4],
+  ]);
+}
+
+function cross({ context, colours }: Pen, x: number, y: number): void {
+  stroke(context, colours["item-clutter"], 1.5, [
+    [x - 4, y - 4],
+    [x + 4, y + 4],
+  ]);
+  stroke(context, colours["item-clutter"], 1.5, [
+    [x - 4, y + 4],
+    [x + 4, y - 4],
   ]);
 }
 

@@ -3,6 +3,7 @@ use crate::navigation::path::Wavefront;
 use crate::navigation::reachable::HEADINGS;
 use crate::perception::beliefs::BeliefsSpec;
 use crate::perception::beliefs::coverage_map::tests::map;
+use crate::perception::beliefs::items::track::log_odds;
 use crate::perception::beliefs::occupancy::Occupancy;
 use base::geometry::Rectangle;
 use proptest::prelude::*;
@@ -16,6 +17,7 @@ fn hazards(discs: &[(f64, f64, f64)]) -> Hazards {
     };
     Hazards {
         discs: discs.iter().map(disc).collect(),
+        shares: Vec::new(),
     }
 }
 
@@ -69,27 +71,41 @@ fn believed(kind: u16, log_ratio: f64, variance_m2: f64) -> Hazards {
     hazards
 }
 
+fn disc(radius_m: f64) -> Vec<Disc> {
+    hazards(&[(3.0, 4.0, radius_m)]).discs
+}
+
 #[test]
 fn an_item_has_a_disc_if_its_kind_is_a_danger_and_it_is_likely_enough() {
     let likely = log_odds(MIN_PROBABILITY + 0.01);
-    assert_eq!(
-        believed(1, likely, 0.04),
-        hazards(&[(3.0, 4.0, 0.5 + 0.25 + 0.4)])
-    );
-    assert_eq!(believed(0, likely, 0.04), Hazards::default());
-    assert_eq!(
-        believed(1, log_odds(MIN_PROBABILITY - 0.01), 0.04),
-        Hazards::default()
-    );
+    assert_eq!(believed(1, likely, 0.04).discs, disc(0.5 + 0.25 + 0.4));
+    assert_eq!(believed(0, likely, 0.04).discs, []);
+    let unlikely = log_odds(MIN_PROBABILITY - 0.01);
+    assert_eq!(believed(1, unlikely, 0.04).discs, []);
 }
 
 #[test]
 fn the_margin_of_a_disc_is_limited() {
     for variance_m2 in [100.0, f64::INFINITY] {
         assert_eq!(
-            believed(1, 3.0, variance_m2),
-            hazards(&[(3.0, 4.0, 0.75 + MAX_MARGIN_M)])
+            believed(1, 3.0, variance_m2).discs,
+            disc(0.75 + MAX_MARGIN_M)
         );
+    }
+}
+
+#[test]
+fn an_item_of_uncertain_kind_is_a_danger_by_all_kinds_that_it_may_be() {
+    let hazards_m = [None, Some(0.5), Some(3.0)];
+    for (shares, danger) in [
+        ([0.7, 0.3, 0.0], Some(0.5)),
+        // More probably scrap than any of the mines.
+        ([0.7, 0.15, 0.15], Some(0.5)),
+        ([0.7, 0.0, 0.3], Some(3.0)),
+        ([0.9, 0.05, 0.05], None),
+    ] {
+        assert_eq!(danger_m(&hazards_m, &shares, 0.9), danger, "{shares:?}");
+        assert_eq!(danger_m(&hazards_m, &shares, 0.2), None, "{shares:?}");
     }
 }
 

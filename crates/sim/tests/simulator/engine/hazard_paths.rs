@@ -203,6 +203,61 @@ fn a_mine_that_another_robot_reports_is_avoided() {
     assert!(ugv.at.x > 17.0, "{:?}", ugv.at);
 }
 
+/// The detector reports the same kinds of mines as of scrap: how probable a mine is follows from the numbers expected.
+#[test]
+fn an_item_of_uncertain_kind_is_avoided_if_a_mine_is_likely_enough() {
+    for (scrap, status) in [(3, Status::Active), (19, Status::Broken)] {
+        let scrap_kind = "[items.scrap]\ncount = 1\ntarget = false\n\
+                          placement = { kind = \"fixed\", at_m = [[3, 9]] }\n[robots.ugv]";
+        let confused = "confusion = { mine = { mine = 0.5, scrap = 0.5 }, scrap = { mine = 0.5, scrap = 0.5 } }";
+        let text = replaced(
+            LANE,
+            &[
+                ("[robots.ugv]", scrap_kind),
+                (
+                    "{ mine = 0.9 }",
+                    &format!("{{ mine = 0.9, scrap = 0.9 }}, {confused}"),
+                ),
+                (
+                    "[robots.ugv.brain]",
+                    &format!(
+                        "[robots.ugv.brain]\nbeliefs.prior_count = {{ mine = 1, scrap = {scrap} }}"
+                    ),
+                ),
+            ],
+        );
+        assert_eq!(run(&text, MINE).status, status, "{scrap}");
+    }
+}
+
+/// A controller awards a goal at the mine to the robot, which serves it from outside and is stationary there.
+#[test]
+fn a_goal_of_a_controller_at_a_mine_is_served_from_outside() {
+    let goal = |within_m: f64| {
+        let text = lane(
+            "kind = \"navigate\", waypoints_m = [[18, 5]], within_m = 0.5",
+            "kind = \"serve\"",
+        );
+        let text = text.replace("sensors.place", "radio = { range_m = 50 }\nsensors.place");
+        format!(
+            "{text}[goals.spot]\ncount = 1\nwithin_m = {within_m}\nservice_s = 2\n\
+             placement = {{ kind = \"fixed\", at_m = [[10, 5]] }}\n\
+             [controllers.base]\ncount = 1\nstart = {{ kind = \"fixed\", at_m = [[1, 9]] }}\nradio = {{ range_m = 50 }}\n"
+        )
+    };
+    for (within_m, served) in [(1.5, 1), (0.5, 0)] {
+        let mut simulation = start(&goal(within_m));
+        let mut nearest_m = f64::INFINITY;
+        for _ in 0..590 {
+            simulation.step();
+            nearest_m = nearest_m.min(first(&simulation).at.to(MINE).length());
+        }
+        let goals = simulation.outcome().goals.unwrap();
+        assert_eq!(goals.served, served, "{within_m}");
+        assert!(nearest_m > DANGER_M, "{within_m}: {nearest_m}");
+    }
+}
+
 /// Of 20 robots that cross a field of 40 mines, nearly all reach the other side. A blind one drives straight: with the
 /// mines evenly spread, it meets 40 x 36 x 1.2 / 680 = 2.5 mines on average, and none with a probability of 0.08, so
 /// that more than 6 of 20 cross with a probability below 1e-3. The seeds are fixed.

@@ -212,6 +212,43 @@ impl Track {
         self.kind = self.kind_and_agreement(kinds, own, &all).0;
     }
 
+    /// Writes the probability of each kind, given that there is an item, by own measurements and all reports.
+    pub(crate) fn write_kind_shares(&self, kinds: &KindModel, own: RobotId, into: &mut Vec<f64>) {
+        let by_reports = self.report_likelihood(kinds, own, &|_| Some(1.0));
+        let weight =
+            |kind| kinds.shares[kind] * self.own_likelihood(kinds, kind) * by_reports(kind);
+        into.clear();
+        into.extend(kinds.each_kind().map(weight));
+        let total: f64 = into.iter().sum();
+        for share in into {
+            *share /= total.max(f64::MIN_POSITIVE);
+        }
+    }
+
+    /// Likelihood ratio of the reports of other robots for an item of a kind, against one of any kind.
+    fn report_likelihood(
+        &self,
+        kinds: &KindModel,
+        own: RobotId,
+        trust: &impl Fn(&Source) -> Option<f64>,
+    ) -> impl Fn(usize) -> f64 {
+        let mut trusts = [None; SOURCES];
+        let sources = &self.sources[..self.count];
+        for (place, source) in sources.iter().enumerate() {
+            if source.provenance.observer != own {
+                trusts[place] = trust(source);
+            }
+        }
+        move |kind: usize| {
+            let share = kinds.shares[kind].max(1e-9);
+            let each = sources.iter().zip(&trusts);
+            let counted = each.filter_map(|(source, trust)| Some((source, (*trust)?)));
+            counted.fold(1.0, |product, (source, trust)| {
+                product * kinds.by_report(source, kind, trust) / share
+            })
+        }
+    }
+
     /// The most probable kind, its probability given that there is an item, and the factors on the odds of an item
     /// by the agreement of the kinds: of all sources, and of reports alone. Sources count with a trust, or not at
     /// all.
@@ -224,21 +261,7 @@ impl Track {
         own: RobotId,
         trust: &impl Fn(&Source) -> Option<f64>,
     ) -> (u16, f64, [f64; 2]) {
-        let mut trusts = [None; SOURCES];
-        let sources = &self.sources[..self.count];
-        for (place, source) in sources.iter().enumerate() {
-            if source.provenance.observer != own {
-                trusts[place] = trust(source);
-            }
-        }
-        let by_reports = |kind: usize| {
-            let share = kinds.shares[kind].max(1e-9);
-            let each = sources.iter().zip(&trusts);
-            let counted = each.filter_map(|(source, trust)| Some((source, (*trust)?)));
-            counted.fold(1.0, |product, (source, trust)| {
-                product * kinds.by_report(source, kind, trust) / share
-            })
-        };
+        let by_reports = self.report_likelihood(kinds, own, trust);
         let own_total = libm::exp(self.own_log_ratio(kinds));
         let sum = |of: &dyn Fn(usize) -> f64| -> f64 {
             kinds
