@@ -30,6 +30,9 @@ const NUMBERS: usize = 2;
 /// The highest part of what a report leaves open that counts for other kinds.
 const MAX_OTHER: f64 = 0.5;
 
+/// The highest probability of the named kind of a report: a report contradicts many own measurements only so far.
+const MAX_NAMED: f64 = 0.99;
+
 /// What a robot knows of the kinds of items and of its sensor models.
 #[derive(Debug, Clone)]
 pub(crate) struct KindModel {
@@ -107,7 +110,7 @@ impl KindModel {
 
     /// Probability of a kind, given that there is an item, by a report with a trust.
     fn by_report(&self, source: &Source, kind: usize, trust: f64) -> f64 {
-        let named = f64::from(source.kind_share);
+        let named = f64::from(source.kind_share).min(MAX_NAMED);
         let by_report = if usize::from(source.kind) == kind {
             named
         } else {
@@ -235,7 +238,8 @@ impl Track {
         let mut trusts = [None; SOURCES];
         let sources = &self.sources[..self.count];
         for (place, source) in sources.iter().enumerate() {
-            if source.provenance.observer != own {
+            // Looks that have only missed say nothing about kinds.
+            if source.provenance.observer != own && source.log_ratio > 0.0 {
                 trusts[place] = trust(source);
             }
         }
