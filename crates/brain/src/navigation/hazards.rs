@@ -3,7 +3,8 @@
 //! An item has a disc with the radius
 //!
 //! ```text
-//! distance of the danger + radius of the robot + 2 standard deviations of its position, at most MAX_MARGIN_M
+//! distance of the danger + radius of the robot + margin
+//! margin = 0.4 m for control + 2 standard deviations of its position, at most MAX_MARGIN_M
 //! ```
 //!
 //! The distance is the largest at which the item is a danger with a probability of at least [`MIN_PROBABILITY`]: that
@@ -29,7 +30,10 @@ const MIN_PROBABILITY: f64 = 0.1;
 /// Standard deviations of the position of an item that its disc covers.
 const DEVIATIONS: f64 = 2.0;
 
-/// The highest margin for the error of a position, in metres: items reported with large errors must not close the
+/// Margin for turns and brakes: bodies do not follow paths exactly, in metres.
+const CONTROL_M: f64 = 0.4;
+
+/// The highest margin for the error of a position and for control, in metres: items reported with large errors must not close the
 /// field.
 const MAX_MARGIN_M: f64 = 2.0;
 
@@ -65,7 +69,7 @@ impl Hazards {
                 continue;
             }
             self.write_shares(track, beliefs, body.hazards_m.len());
-            let margin_m = DEVIATIONS * libm::sqrt(track.variance_m2.max(0.0));
+            let margin_m = CONTROL_M + DEVIATIONS * libm::sqrt(track.variance_m2.max(0.0));
             if let Some(danger_m) = danger_m(&body.hazards_m, &self.shares, exists) {
                 self.discs.push(Disc {
                     centre: track.at,
