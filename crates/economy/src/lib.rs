@@ -20,6 +20,8 @@ mod settings;
 
 pub use allocation::optimal::assignment;
 pub use allocation::{Allocation, Market, Offer, Pair};
-pub use clearance::{BelievedMark, Charge, Clearance, LanePicture, LaneStatement, Risk, RobotModel, Skill};
+pub use clearance::{
+    BelievedMark, Charge, Clearance, LanePicture, LaneStatement, Risk, RobotModel, Skill,
+};
 pub use controller::{Controller, OwnedGoal, RENEWAL_RETRY_S};
 pub use settings::Settings;

@@ -85,8 +85,8 @@ impl Aim {
 /// The id of the robot's mark of a track that it has detected itself.
 fn own_mark(track: &Track, beliefs: &Beliefs) -> Option<GoalId> {
     let mut sources = track.sources[..track.count].iter();
-    let own = sources
-        .find(|source| source.provenance.observer == beliefs.id && source.is_contact)?;
+    let own =
+        sources.find(|source| source.provenance.observer == beliefs.id && source.is_contact)?;
     Some(GoalId {
         issuer: beliefs.id,
         number: own.provenance.track_id,

@@ -21,6 +21,9 @@ pub(super) struct LaneCoverage {
     /// The steps that were sent last, and the next block of cells.
     sent: Vec<u8>,
     next_block: usize,
+    /// The steps of each cell, computed again for the blocks in view of a look since.
+    steps: Vec<u8>,
+    is_stale: Vec<bool>,
 }
 
 base::hashed!(LaneCoverage {
@@ -28,7 +31,7 @@ base::hashed!(LaneCoverage {
     own,
     sent,
     next_block
-});
+} without { steps, is_stale });
 
 impl LaneCoverage {
     pub(super) fn new(lane: Lane, map: &Map) -> Self {
@@ -38,6 +41,8 @@ impl LaneCoverage {
             own: CoverageMap::new(map.field.cells()),
             sent: vec![0; blocks * CELLS_PER_MESSAGE],
             next_block: 0,
+            steps: vec![0; blocks * CELLS_PER_MESSAGE],
+            is_stale: vec![false; blocks],
         }
     }
 
@@ -64,6 +69,33 @@ impl LaneCoverage {
                     blur_m: pose.blur_m(),
                 };
                 self.own.update(&map.field, &map.occupancy, &scan);
+                self.note_look(pose.at, detector.range_m + map.field.cell_m);
+            }
+        }
+    }
+
+    /// Notes that cells within a distance may have changed.
+    fn note_look(&mut self, at: Point, within_m: f64) {
+        let reach = Point {
+            x: within_m,
+            y: within_m,
+        };
+        let [low, high] = [reach.to(at), at.plus(reach)];
+        let [columns, _] = self.lane.columns_and_rows();
+        let [first, last] = [low, high].map(|corner| self.lane.nearest_cell(corner));
+        for row in first / columns..=last / columns {
+            let [from, to] = [first, last].map(|cell| row * columns + cell % columns);
+            self.is_stale[from / CELLS_PER_MESSAGE..=to / CELLS_PER_MESSAGE].fill(true);
+        }
+    }
+
+    /// Computes the steps of the cells that may have changed.
+    fn refresh(&mut self, map: &Map) {
+        for block in 0..self.is_stale.len() {
+            if core::mem::take(&mut self.is_stale[block]) {
+                let steps = self.block(map, block);
+                self.steps[block * CELLS_PER_MESSAGE..][..CELLS_PER_MESSAGE]
+                    .copy_from_slice(&steps);
             }
         }
     }
@@ -80,19 +112,21 @@ impl LaneCoverage {
     /// The messages to be sent, at most a number: changed blocks of cells, then others again, as
     /// messages are lost. `marks` is the number of marks so far.
     pub(super) fn due(&mut self, map: &Map, marks: u32, max: usize) -> Vec<Coverage> {
+        self.refresh(map);
         let blocks = self.sent.len() / CELLS_PER_MESSAGE;
         let order = (0..blocks).map(|index| (self.next_block + index) % blocks);
-        let all = order.map(|block| (block, self.block(map, block)));
-        let (mut due, same): (Vec<_>, Vec<_>) = all.partition(|(block, missed)| {
-            self.sent[block * CELLS_PER_MESSAGE..][..CELLS_PER_MESSAGE] != *missed
+        let (mut due, same): (Vec<usize>, Vec<usize>) = order.partition(|block| {
+            let cells = block * CELLS_PER_MESSAGE..(block + 1) * CELLS_PER_MESSAGE;
+            self.sent[cells.clone()] != self.steps[cells]
         });
         due.truncate(max.saturating_sub(1));
         due.extend(same.into_iter().take(max - due.len()));
-        if let Some((block, _)) = due.last() {
+        if let Some(block) = due.last() {
             self.next_block = (block + 1) % blocks;
         }
-        let send = |(block, missed): (usize, [u8; CELLS_PER_MESSAGE])| {
+        let send = |block: usize| {
             let first = block * CELLS_PER_MESSAGE;
+            let missed = core::array::from_fn(|index| self.steps[first + index]);
             self.sent[first..first + CELLS_PER_MESSAGE].copy_from_slice(&missed);
             Coverage {
                 first: u32::try_from(first).unwrap_or(u32::MAX),

@@ -104,12 +104,7 @@ impl LaneReports {
 
     /// States what the robot believes of a mark that it has interrogated: whether one of the items that are
     /// to be cleared is within a distance of it.
-    pub(crate) fn state(
-        &mut self,
-        (task, within_m): (&Task, f64),
-        body: &Body,
-        beliefs: &Beliefs,
-    ) {
+    pub(crate) fn state(&mut self, (task, within_m): (&Task, f64), body: &Body, beliefs: &Beliefs) {
         let tracks = beliefs.items.tracks.iter();
         let near = tracks.filter(|track| {
             let is_near = track.at.to(task.at()).length() <= within_m;
@@ -170,7 +165,9 @@ impl LaneReports {
         };
         let coverage = &work.coverage;
         work.marks
-            .update((beliefs, moment.body.position_noise_m), |track| coverage.nats_at(map, track.at));
+            .update((beliefs, moment.body.position_noise_m), |track| {
+                coverage.nats_at(map, track.at)
+            });
         work.coverage.update(moment, beliefs);
         if now_s < work.next_s || now_s >= work.named_s + SILENCE_S {
             return Vec::new();
@@ -180,8 +177,10 @@ impl LaneReports {
         if moment.body.tool(ActKind::Mark).is_some() {
             let kind = ActKind::Mark;
             let new = marks.iter().filter(|(_, is_new)| *is_new);
-            self.acts
-                .extend(new.map(|(mark, _)| Act { kind, at: mark.at() }));
+            self.acts.extend(new.map(|(mark, _)| Act {
+                kind,
+                at: mark.at(),
+            }));
         }
         let marks = marks.into_iter().map(|(mark, _)| mark);
         let coverage = work.coverage.due(map, work.marks.count(), MAX_COVERAGE);

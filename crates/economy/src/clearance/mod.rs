@@ -2,7 +2,7 @@
 //!
 //! * [`settings`]: what it knows before: the lane, the prior, and the sensors of robots;
 //! * [`coverage`]: what robots have searched; [`marks`]: what they have detected, fused by [`place`];
-//! * [`picture`]: both together; [`risk`]: the probability that at least one mine is left;
+//! * [`picture`]: both together; [`remaining`]: what follows for each cell; [`risk`]: the probability that at least one mine is left;
 //! * [`plan`]: the goals that follow; [`declare`]: whether the lane is declared clear or given up.
 //!
 //! ```text
@@ -22,6 +22,7 @@ mod marks;
 mod picture;
 mod place;
 pub(crate) mod plan;
+mod remaining;
 mod risk;
 mod settings;
 #[cfg(test)]

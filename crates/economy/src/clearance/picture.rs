@@ -3,12 +3,15 @@
 use super::coverage::Searched;
 use super::marks::Marks;
 use super::place::Place;
+use super::remaining::Remaining;
 use super::risk::Risk;
 use super::settings::Clearance;
 use alloc::sync::Arc;
+use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use brain::{Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use brain::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use core::ops::Range;
 
 /// Probabilities of a mine are at most this: no mark is certain.
 const MAX_PROBABILITY: f64 = 1.0 - 1e-9;
@@ -28,9 +31,11 @@ pub struct LanePicture {
     model_of_kind: Vec<usize>,
     searched: Searched,
     marks: Marks,
+    /// What follows for each cell.
+    remaining: Remaining,
 }
 
-base::hashed!(LanePicture { searched, marks } without { clearance, blind, model_of_kind });
+base::hashed!(LanePicture { searched, marks } without { clearance, blind, model_of_kind, remaining });
 
 /// A place that robots have marked, as a controller believes it to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,13 +71,23 @@ impl LanePicture {
         let shares = models
             .iter()
             .map(|robot| core::array::from_fn(|kind| robot.blind_share_of(kind)));
-        Self {
+        let cells = clearance.lane.cells();
+        let mut picture = Self {
             blind: shares.collect(),
-            searched: Searched::new(models.len(), clearance.lane.cells()),
+            searched: Searched::new(models.len(), cells),
             marks: Marks::default(),
+            remaining: Remaining::new(&clearance),
             model_of_kind: clearance.model_of_kind(),
             clearance,
-        }
+        };
+        picture.refresh(0..cells);
+        picture
+    }
+
+    /// Computes the expected numbers of mines of some cells again.
+    fn refresh(&mut self, cells: Range<usize>) {
+        let known = (self.blind.as_slice(), &self.searched);
+        self.remaining.refresh(cells, &self.clearance, known);
     }
 
     /// What is known of the lane and the robots.
@@ -89,6 +104,8 @@ impl LanePicture {
         };
         if self.marks.note_reported(robot, coverage.marks) {
             self.searched.take(robot, model, coverage);
+            let first = usize::try_from(coverage.first).unwrap_or(usize::MAX);
+            self.refresh(first..first.saturating_add(CELLS_PER_MESSAGE));
         }
     }
 
@@ -138,32 +155,30 @@ impl LanePicture {
     /// Expected number of mines in a cell without a mark.
     #[must_use]
     pub fn unmarked(&self, cell: usize) -> f64 {
-        self.unmarked_after(cell, &[])
+        self.remaining.now[cell]
     }
 
-    /// The same after further looks, in nats for each sensor model; 0 for those that are missing.
-    pub(crate) fn unmarked_after(&self, cell: usize, more_nats: &[f64]) -> f64 {
-        let lane = &self.clearance.lane;
-        let share = lane.cell_area(cell).area_m2() / lane.area().area_m2();
-        let left = self.clearance.hazards().map(|(kind, expected)| {
-            let missed = (0..self.blind.len()).map(|model| {
-                let nats = self.searched.nats_without(model, cell, &[]);
-                let more_nats = more_nats.get(model).copied().unwrap_or_default();
-                missed_share(self.blind[model][kind], nats + more_nats)
-            });
-            expected * share * missed.product::<f64>()
-        });
-        left.sum()
+    /// For each of a number of tiles, the expected number of mines without a mark that one more search in a way finds.
+    pub(crate) fn gains(&self, way: u8, tiles: usize) -> Vec<f64> {
+        let mut gains = vec![0.0; tiles];
+        let remaining = &self.remaining;
+        let after = remaining.after.get(usize::from(way));
+        let each = remaining.now.iter().zip(after.into_iter().flatten());
+        for ((now, after), tile) in each.zip(&remaining.tiles) {
+            if let Some(gain) = gains.get_mut(*tile as usize) {
+                *gain += now - after;
+            }
+        }
+        gains
     }
 
     /// The probability that at least one mine is left in the lane.
     #[must_use]
     pub fn risk(&self) -> Risk {
         let lane = self.clearance.lane;
-        let cells = 0..lane.cells();
         let inside = self.marks().filter(|mark| mark.may_be_in(&lane));
         Risk::new(
-            cells.map(|cell| self.unmarked(cell)).sum(),
+            self.remaining.now.iter().sum(),
             inside.map(|mark| mark.mine),
         )
     }
@@ -257,6 +272,6 @@ impl LanePicture {
 }
 
 /// Share of items that all looks of a model miss.
-fn missed_share(blind: f64, nats: f64) -> f64 {
+pub(super) fn missed_share(blind: f64, nats: f64) -> f64 {
     blind + (1.0 - blind) * libm::exp(-nats)
 }

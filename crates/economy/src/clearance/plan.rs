@@ -12,7 +12,6 @@
 
 use super::picture::{BelievedMark, LanePicture};
 use super::settings::{Clearance, Skill};
-use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use brain::{Lane, MarkVerdict, Work};
@@ -76,10 +75,7 @@ pub(crate) struct Circumstances<'c> {
 impl Plan {
     pub(crate) fn new(picture: &LanePicture, circumstances: &Circumstances) -> Self {
         let clearance = picture.clearance();
-        let tiles = Lane {
-            cell_m: clearance.tile_m,
-            ..clearance.lane
-        };
+        let tiles = clearance.tiles();
         let mut proposals = Vec::new();
         for (search, skill) in (0..).zip(&clearance.searches) {
             proposals.extend(searches(picture, &tiles, search, *skill));
@@ -114,15 +110,7 @@ impl Circumstances<'_> {
 
 /// One more search of each tile.
 fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Vec<Proposal> {
-    let nats = nats_of(picture.clearance(), &skill);
-    let lane = picture.clearance().lane;
-    let mut gains = vec![0.0; tiles.cells()];
-    for cell in 0..lane.cells() {
-        let gain = picture.unmarked(cell) - picture.unmarked_after(cell, &nats);
-        if let Some(tile) = tiles.cell_at(lane.centre(cell)) {
-            gains[tile] += gain;
-        }
-    }
+    let gains = picture.gains(search, tiles.cells());
     let each = (0..).zip(gains).map(|(tile, value)| {
         let area = tiles.cell_area(tile as usize);
         Proposal {
@@ -136,19 +124,6 @@ fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Ve
         }
     });
     each.collect()
-}
-
-/// For each sensor model, the looks of one search by the best robots that have the skill.
-fn nats_of(clearance: &Clearance, skill: &Skill) -> Vec<f64> {
-    let models = clearance.models();
-    let mut nats = vec![0.0; models.len()];
-    let able = clearance.robots.iter().filter(|robot| robot.has(skill));
-    let best = able.max_by(|one, other| one.search_nats.total_cmp(&other.search_nats));
-    if let Some(best) = best {
-        let index = models.iter().position(|robot| robot.model == best.model);
-        nats[index.unwrap_or_default()] = best.search_nats;
-    }
-    nats
 }
 
 /// What is to be done at a mark, if anything.

@@ -103,7 +103,10 @@ impl Controller {
                 let model = clearance.robots.get(usize::from(robot.id.kind));
                 model.is_some_and(|model| model.has(skill))
             });
-            let open = work.planned.iter().filter(|planned| planned.is_open_search(way));
+            let open = work
+                .planned
+                .iter()
+                .filter(|planned| planned.is_open_search(way));
             (SEARCHES_PER_ROBOT * able.count()).saturating_sub(open.count())
         });
         free.collect()

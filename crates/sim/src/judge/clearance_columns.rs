@@ -56,16 +56,22 @@ fn counts() -> Vec<Column> {
     let count = |_: &Scenario| Bounds::NOT_NEGATIVE;
     vec![
         column("awards", Whole, count, |of| number(of.awards)).with_capped_term("awards", 36, 1e4),
-        column("reallocations", Whole, count, |of| number(of.reallocations))
-            .with_capped_term("reallocations", 37, 1e4),
+        column("reallocations", Whole, count, |of| number(of.reallocations)).with_capped_term(
+            "reallocations",
+            37,
+            1e4,
+        ),
     ]
 }
 
 fn messages() -> Vec<Column> {
     let count = |_: &Scenario| Bounds::NOT_NEGATIVE;
     vec![
-        column("messages_sent", Whole, count, |of| number(of.messages_sent))
-            .with_capped_term("messages_sent", 18, 1e6),
+        column("messages_sent", Whole, count, |of| number(of.messages_sent)).with_capped_term(
+            "messages_sent",
+            18,
+            1e6,
+        ),
         column("messages_dropped", Whole, count, |of| {
             number(of.messages_dropped)
         })

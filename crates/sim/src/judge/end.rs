@@ -108,7 +108,9 @@ impl Moment<'_> {
             Count::RobotsLost => self.acts().robots_lost.into(),
             Count::Declared => {
                 let clearance = tally.clearance.as_deref();
-                f64::from(u8::from(clearance.is_some_and(ClearanceTally::has_declared)))
+                f64::from(u8::from(
+                    clearance.is_some_and(ClearanceTally::has_declared),
+                ))
             }
             Count::FoundOf(kind) => tally.found[kind].into(),
             Count::MissedOf(kind) => missed(kind).into(),

@@ -31,7 +31,9 @@ impl State {
             Some(BelievedLane {
                 controller: agent.participant.id,
                 lane,
-                unmarked: (0..lane.cells()).map(|cell| picture.unmarked(cell)).collect(),
+                unmarked: (0..lane.cells())
+                    .map(|cell| picture.unmarked(cell))
+                    .collect(),
                 marks: picture.marks().collect(),
                 risk: picture.risk(),
                 statement: agent.controller.lane_statement(),

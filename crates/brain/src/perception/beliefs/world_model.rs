@@ -167,7 +167,9 @@ impl Beliefs {
         }
         let is_charge = |acted: &&Acted| acted.kind == ActKind::Neutralise && acted.is_success;
         for acted in percept.acted.iter().filter(is_charge) {
-            let reach_m = body.tool(ActKind::Neutralise).map_or(0.0, |tool| tool.reach_m);
+            let reach_m = body
+                .tool(ActKind::Neutralise)
+                .map_or(0.0, |tool| tool.reach_m);
             self.items.forget(acted.at, reach_m);
         }
     }

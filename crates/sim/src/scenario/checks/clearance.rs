@@ -133,7 +133,9 @@ fn of_leases(
 ) -> Option<InputError> {
     let kind = spec.controllers.get(name)?;
     let looks = clearance.searches.iter();
-    let looks = looks.chain(&clearance.interrogate).chain(&clearance.neutralise);
+    let looks = looks
+        .chain(&clearance.interrogate)
+        .chain(&clearance.neutralise);
     let longest_s = looks.map(|skill| skill.service_s).fold(0.0, f64::max);
     let tools = spec.robots.values();
     let tools = tools.filter_map(|robot| robot.tools.neutralise.as_ref());
@@ -157,9 +159,8 @@ fn of_floor(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Optio
         floor * ABOVE_FLOOR
     );
     let at = at.key("declare_below");
-    (clearance.declare_below < floor * ABOVE_FLOOR).then(|| {
-        super::controllers::of_lease(clearance.declare_below, allowed, &at)
-    })
+    (clearance.declare_below < floor * ABOVE_FLOOR)
+        .then(|| super::controllers::of_lease(clearance.declare_below, allowed, &at))
 }
 
 /// Worlds, items and sensors with which a lane cannot be cleared.

@@ -191,7 +191,8 @@ impl Track {
         let each = kinds.each_kind();
         let of = |kind: usize| {
             let models = 0..kinds.models.len();
-            let ratios = models.map(|model| self.evidence[NUMBERS * (model * kinds.kinds() + kind)]);
+            let ratios =
+                models.map(|model| self.evidence[NUMBERS * (model * kinds.kinds() + kind)]);
             ratios.sum()
         };
         each.map(of).collect()
