@@ -32,6 +32,10 @@ pub enum ActKind {
     Isolate,
     /// Destroys the item with a charge.
     Neutralise,
+    /// Declares the lane clear; only of a controller that is to clear one. The place has no meaning.
+    DeclareClear,
+    /// Gives the lane up; only of a controller that is to clear one. The place has no meaning.
+    GiveUp,
 }
 
 base::hashed!(enum ActKind);
@@ -85,6 +89,8 @@ impl ActKind {
             Self::Reject => "reject",
             Self::Isolate => "isolate",
             Self::Neutralise => "neutralise",
+            Self::DeclareClear => "declare_clear",
+            Self::GiveUp => "give_up",
         }
     }
 }

@@ -2,8 +2,10 @@
 
 use super::picture::LanePicture;
 use super::plan::Plan;
+use base::geometry::Point;
 use base::hash::Hash;
 use base::hashed::Hashed;
+use brain::{Act, ActKind};
 
 /// A lane is given up when no goal has lowered the risk for this time, in seconds: robots out of range
 /// may come back.
@@ -18,6 +20,19 @@ pub struct LaneStatement {
     pub risk: f64,
     /// That time, on its clock.
     pub at_s: f64,
+}
+
+impl LaneStatement {
+    /// The act by which a controller states it.
+    pub(crate) fn act(&self) -> Act {
+        let kind = if self.is_clear {
+            ActKind::DeclareClear
+        } else {
+            ActKind::GiveUp
+        };
+        let at = Point::default();
+        Act { kind, at }
+    }
 }
 
 base::hashed!(LaneStatement {

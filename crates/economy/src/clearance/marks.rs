@@ -86,6 +86,16 @@ impl Marks {
         }
     }
 
+    /// The robots that have marked something within a distance of a position.
+    pub(super) fn robots_near(&self, at: Point, within_m: f64) -> Vec<RobotId> {
+        let all = self.places.iter().flat_map(|place| &place.marks);
+        let near = all.filter(|mark| mark.at().to(at).length() <= within_m);
+        let mut robots: Vec<RobotId> = near.map(|mark| mark.id.issuer).collect();
+        robots.sort_unstable();
+        robots.dedup();
+        robots
+    }
+
     /// Notes how many marks a robot has; returns whether all of them have been received.
     pub(super) fn note_reported(&mut self, robot: RobotId, reported: u32) -> bool {
         let count = self.count(robot);

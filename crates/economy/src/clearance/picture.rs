@@ -19,6 +19,9 @@ const MAX_PROBABILITY: f64 = 1.0 - 1e-9;
 /// A mark that is farther from the lane than this, in deviations of its position, is not in it.
 const BORDER_DEVIATIONS: f64 = 3.0;
 
+/// Two marks of one item are at most this far apart, in metres, even if they are two places.
+const NEAR_M: f64 = 1.5;
+
 /// Probability that an item that has been marked is gone without a statement: a vehicle has set it off.
 const GONE: f64 = 0.01;
 
@@ -229,14 +232,11 @@ impl LanePicture {
 
     /// How often looks of robots without a mark miss an item that a robot of the same model has detected, in nats.
     fn contradiction(&self, place: &Place) -> f64 {
-        let robots = place.robots();
+        let robots = self.robots_in_agreement(place);
         let cell = self.clearance.lane.nearest_cell(place.at);
-        let models = 0..self.blind.len();
-        let marked = models.filter(|model| {
-            let mut robots = robots.iter();
-            robots.any(|robot| self.model_of(*robot) == Some(*model))
-        });
-        let nats = marked.map(|model| self.searched.nats_without(model, cell, &robots));
+        let marked = self.marked_models(place).into_iter().enumerate();
+        let marked = marked.filter(|(_, is_marked)| *is_marked);
+        let nats = marked.map(|(model, _)| self.searched.nats_without(model, cell, &robots));
         nats.sum()
     }
 
@@ -250,24 +250,52 @@ impl LanePicture {
         let Some(expected) = expected.filter(|expected| *expected > 0.0) else {
             return f64::NEG_INFINITY;
         };
+        let marked = self.marked_models(place);
         let robots = place.robots();
-        let models =
-            (0..self.blind.len()).map(|model| self.log_missed(model, kind, place.at, &robots));
+        let models = (0..self.blind.len()).zip(&marked);
+        let models = models.map(|(model, is_marked)| {
+            self.log_missed((model, *is_marked), kind, place.at, &robots)
+        });
         libm::log(expected / area_m2) + place.log_ratio_m2(kind) + models.sum::<f64>()
     }
 
     /// Log likelihood of the looks of a model's robots without a mark, for an item at a position that
-    /// some robots have marked.
-    fn log_missed(&self, model: usize, kind: usize, at: Point, robots: &[RobotId]) -> f64 {
+    /// some robots have marked, those of this model among them or not.
+    fn log_missed(
+        &self,
+        (model, is_marked): (usize, bool),
+        kind: usize,
+        at: Point,
+        robots: &[RobotId],
+    ) -> f64 {
         let blind = self.blind[model][kind];
         let cell = self.clearance.lane.nearest_cell(at);
         let nats = self.searched.nats_without(model, cell, robots);
-        let mut marked = robots.iter();
-        if marked.any(|robot| self.model_of(*robot) == Some(model)) {
+        if is_marked {
             libm::log(1.0 - blind) - nats
         } else {
             libm::log(missed_share(blind, nats))
         }
+    }
+
+    /// Whether a robot of each model has marked a place.
+    fn marked_models(&self, place: &Place) -> Vec<bool> {
+        let robots = place.robots();
+        let models = 0..self.blind.len();
+        let is_marked = |model| {
+            let mut robots = robots.iter();
+            robots.any(|robot| self.model_of(*robot) == Some(model))
+        };
+        models.map(is_marked).collect()
+    }
+
+    /// The robots whose looks do not contradict an item at a place: those that have marked it, or something so near
+    /// that it may be the same item.
+    fn robots_in_agreement(&self, place: &Place) -> Vec<RobotId> {
+        let within_m = NEAR_M.max(place.reach_m());
+        let mut robots = self.marks.robots_near(place.at, within_m);
+        robots.extend(place.robots());
+        robots
     }
 }
 

@@ -20,7 +20,7 @@ use brain::{Lane, MarkVerdict, Work};
 const MIN_SHARE: f64 = 1e-3;
 
 /// Goals lower the risk if they find more than this share of the mines that are left.
-const MIN_POSSIBLE_SHARE: f64 = 0.01;
+const MIN_POSSIBLE_SHARE: f64 = 0.02;
 
 /// Radius of a place, in deviations of its position.
 const RADIUS_DEVIATIONS: f64 = 3.0;
@@ -70,6 +70,8 @@ pub(crate) struct Circumstances<'c> {
     pub(crate) kinds: &'c [u8],
     /// How often a place has been interrogated.
     pub(crate) interrogations: &'c dyn Fn(u32) -> u32,
+    /// Whether no robot can do it at present.
+    pub(crate) is_impossible: &'c dyn Fn(Subject) -> bool,
 }
 
 impl Plan {
@@ -86,7 +88,10 @@ impl Plan {
             proposals.extend(work_at(&mark, clearance, &tiles, interrogations));
         }
         let expected = picture.risk().expected();
-        let is_possible = |one: &Proposal| circumstances.has(clearance, &one.skill);
+        let is_possible = |one: &Proposal| {
+            let is_impossible = (circumstances.is_impossible)(one.subject);
+            circumstances.has(clearance, &one.skill) && !is_impossible
+        };
         let possible = proposals.iter().filter(|one| is_possible(one));
         let gain: f64 = possible.map(|one| one.value).sum();
         proposals.retain(|one| one.value > MIN_SHARE * expected);

@@ -7,7 +7,7 @@ use super::Controller;
 use super::lane_work::{LaneWork, Planned};
 use crate::clearance::plan::{Circumstances, Plan, Subject};
 use alloc::vec::Vec;
-use brain::{Dispatch, GoalId, Percept, RobotId};
+use brain::{Act, Dispatch, GoalId, Percept, RobotId};
 
 /// Time between two plans, and between two messages about the lane, in seconds.
 const PLAN_PERIOD_S: f64 = 1.0;
@@ -17,13 +17,13 @@ const LANE_PERIOD_S: f64 = 5.0;
 const SEARCHES_PER_ROBOT: usize = 3;
 
 impl Controller {
-    /// Plans the goals of the lane until it has stated that the lane is clear, or has given it up.
-    pub(super) fn clear(&mut self, percept: &Percept) {
+    /// Plans the goals of the lane until it has stated that the lane is clear, or has given it up; returns the act
+    /// by which it states so.
+    pub(super) fn clear(&mut self, percept: &Percept) -> Option<Act> {
         let now_s = self.now_s;
+        let mut act = None;
         // Taken out, as planning owns goals.
-        let Some(mut work) = self.clearing.work.take() else {
-            return;
-        };
+        let mut work = self.clearing.work.take()?;
         if now_s >= work.next_lane_s {
             work.next_lane_s = now_s + LANE_PERIOD_S;
             let lane = work.picture.clearance().lane;
@@ -33,13 +33,15 @@ impl Controller {
             work.next_plan_s = now_s + PLAN_PERIOD_S;
             let plan = self.plan(&mut work);
             work.decision.decide(&work.picture, &plan, now_s);
-            if work.decision.statement.is_some() {
+            if let Some(statement) = work.decision.statement {
+                act = Some(statement.act());
                 self.cancel(&mut work, |_| false);
             } else {
                 self.issue(&mut work, plan, percept);
             }
         }
         self.clearing.work = Some(work);
+        act
     }
 
     fn plan(&self, work: &mut LaneWork) -> Plan {
@@ -49,6 +51,7 @@ impl Controller {
         kinds.sort_unstable();
         kinds.dedup();
         let interrogated = &work.interrogated;
+        let impossible = self.impossible(work);
         Plan::new(
             &work.picture,
             &Circumstances {
@@ -57,8 +60,21 @@ impl Controller {
                     let times = interrogated.iter().find(|(known, _)| *known == place);
                     times.map_or(0, |(_, times)| *times)
                 },
+                is_impossible: &|subject| impossible.contains(&subject),
             },
         )
+    }
+
+    /// What no robot in range can do at present, such as to neutralise when no charge is left.
+    fn impossible(&self, work: &LaneWork) -> Vec<Subject> {
+        let is_unserved = |goal: GoalId| {
+            let mut goals = self.goals.iter();
+            let owned = goals.find(|owned| owned.task.id == goal);
+            owned.is_some_and(|owned| owned.unserved(self.now_s).is_some())
+        };
+        let planned = work.planned.iter();
+        let impossible = planned.filter(|planned| is_unserved(planned.goal));
+        impossible.map(|planned| planned.subject).collect()
     }
 
     /// Owns the proposed goals, and cancels those that no longer are.

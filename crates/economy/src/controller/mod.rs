@@ -178,6 +178,7 @@ impl Controller {
     /// A percept from before the last one changes nothing.
     pub fn step_into(&mut self, percept: &Percept, command: &mut Command) {
         command.outbox.clear();
+        command.acts.clear();
         let time_s = percept.time_s.filter(|time_s| time_s.is_finite());
         let now_s = time_s.unwrap_or(self.now_s.max(0.0));
         if now_s < self.now_s {
@@ -193,7 +194,7 @@ impl Controller {
         }
         self.sense(percept);
         self.present(percept);
-        self.clear(percept);
+        command.acts.extend(self.clear(percept));
         self.call();
         self.award();
         self.arbitrate();

@@ -267,6 +267,7 @@ impl Kind {
         let reaches = self.tools.iter().map(|tool| match tool.known.act {
             ActKind::Isolate | ActKind::Neutralise => tool.known.reach_m,
             ActKind::Mark | ActKind::Confirm | ActKind::Reject => MARK_TOLERANCE_M,
+            ActKind::DeclareClear | ActKind::GiveUp => 0.0,
         });
         reaches.fold(0.0, f64::max)
     }

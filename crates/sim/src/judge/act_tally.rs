@@ -95,6 +95,8 @@ impl ActTally {
             ActKind::Mark | ActKind::Confirm => false,
             ActKind::Reject | ActKind::Isolate => done.items.is_empty(),
             ActKind::Neutralise => true,
+            // Controllers state these, without a place.
+            ActKind::DeclareClear | ActKind::GiveUp => false,
         };
         if is_counted {
             events.note(tick, event(done, items));

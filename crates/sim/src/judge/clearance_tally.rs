@@ -4,13 +4,15 @@ use crate::scenario::Scenario;
 use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::{About, Dispatch, GoalId, Message, RobotId};
-use economy::LaneStatement;
 use std::collections::BTreeMap;
 
 /// How far a controller has come with the lane.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Progress {
-    pub(crate) statement: Option<LaneStatement>,
+    /// Whether it has declared the lane clear, once it has stated anything.
+    pub(crate) is_clear: Option<bool>,
+    /// The risk that it has stated; none if the decision was made elsewhere.
+    pub(crate) risk: Option<f64>,
     /// Whether a mark that may be a mine has no verdict.
     pub(crate) has_open_marks: bool,
 }
@@ -21,7 +23,7 @@ pub(super) struct Stated {
     /// The step.
     pub(super) at: u64,
     pub(super) is_clear: bool,
-    /// The risk that the controller stated.
+    /// The risk that the controller stated; 1 if it stated none.
     pub(super) risk: f64,
     /// Mines that were left then.
     pub(super) left: u32,
@@ -88,26 +90,28 @@ impl ClearanceTally {
         left: impl Fn() -> u32,
     ) -> bool {
         let (mut has_open_marks, mut is_undecided) = (false, false);
-        let mut last: Option<LaneStatement> = None;
+        let mut last: Option<(bool, f64)> = None;
         for controller in controllers {
             has_open_marks |= controller.has_open_marks;
-            is_undecided |= controller.statement.is_none();
-            let is_declared = last.is_some_and(|last| last.is_clear);
-            last = controller.statement.filter(|_| !is_declared).or(last);
+            is_undecided |= controller.is_clear.is_none();
+            let is_declared = last.is_some_and(|(is_clear, _)| is_clear);
+            let stated = controller.is_clear.filter(|_| !is_declared);
+            let stated = stated.map(|is_clear| (is_clear, controller.risk.unwrap_or(1.0)));
+            last = stated.or(last);
         }
         self.interrogated_at = if has_open_marks {
             None
         } else {
             self.interrogated_at.or(Some(tick))
         };
-        let stated = last.filter(|last| last.is_clear || !is_undecided);
-        let Some(stated) = stated.filter(|_| self.stated.is_none()) else {
+        let stated = last.filter(|(is_clear, _)| *is_clear || !is_undecided);
+        let Some((is_clear, risk)) = stated.filter(|_| self.stated.is_none()) else {
             return false;
         };
         self.stated = Some(Stated {
             at: tick,
-            is_clear: stated.is_clear,
-            risk: stated.risk,
+            is_clear,
+            risk,
             left: left(),
         });
         true

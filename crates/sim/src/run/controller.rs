@@ -1,6 +1,7 @@
 //! A controller of a run.
 
 use super::participant::{Participant, Place};
+use brain::{Act, ActKind};
 use economy::{Controller, Settings};
 use std::sync::Arc;
 
@@ -9,9 +10,23 @@ use std::sync::Arc;
 pub(crate) struct ControllerAgent {
     pub(crate) participant: Participant,
     pub(crate) controller: Controller,
+    /// What it has stated about the lane that it is to clear: whether it has declared it clear.
+    pub(crate) stated: Option<bool>,
 }
 
 impl ControllerAgent {
+    /// Notes what it states by a command: only the first counts.
+    pub(crate) fn note_acts(&mut self, acts: &[Act]) {
+        let statement = acts.iter().find_map(|act| match act.kind {
+            ActKind::DeclareClear => Some(true),
+            ActKind::GiveUp => Some(false),
+            _ => None,
+        });
+        if self.controller.lane().is_some() {
+            self.stated = self.stated.or(statement);
+        }
+    }
+
     /// Takes over memory, messages and place of a controller; radio and settings stay its own. Its memory names
     /// others by their ids: when these have changed, it restarts.
     pub(super) fn take_over(
@@ -25,6 +40,7 @@ impl ControllerAgent {
         } else {
             Controller::restarted(settings.clone())
         };
+        self.stated = before.stated;
         let (now, was) = (&mut self.participant, &before.participant);
         now.inbox.clone_from(&was.inbox);
         now.has_failed = was.has_failed;

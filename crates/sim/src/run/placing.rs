@@ -167,6 +167,7 @@ pub(super) fn place_controllers(
             let entity = kind.entity(index);
             let random = (entity, Noise::of(seed, run, entity));
             controllers.push(ControllerAgent {
+                stated: None,
                 participant: Participant::new(id, place, kind.radio, random),
                 controller: Controller::new(kind.settings.clone()),
             });

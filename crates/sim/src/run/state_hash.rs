@@ -82,6 +82,9 @@ impl State {
         for agent in &self.controllers {
             (agent.participant.id, agent.participant.has_failed).add_to(hash);
             agent.controller.add_to(hash);
+            if let Some(is_clear) = agent.stated {
+                hash.add(is_clear.into());
+            }
         }
     }
 

@@ -108,6 +108,8 @@ impl State {
             ),
             ActKind::Isolate => (self.items.within(at, tool.known.reach_m), true),
             ActKind::Neutralise => self.attempt(scenario, robot, at, tool),
+            // No robot has a tool for these.
+            ActKind::DeclareClear | ActKind::GiveUp => (Vec::new(), false),
         };
         if let Some(charges) = acting
             .charges

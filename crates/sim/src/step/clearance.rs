@@ -21,7 +21,8 @@ pub(super) fn observe(scenario: &Scenario, state: &mut State, workers: &[WorkerS
     let working = controllers.filter(|agent| agent.participant.is_working(&state.body_states));
     let with_lane = working.filter(|agent| agent.controller.lane().is_some());
     let controllers = with_lane.map(|agent| Progress {
-        statement: agent.controller.lane_statement(),
+        is_clear: agent.stated,
+        risk: agent.controller.lane_statement().map(|stated| stated.risk),
         has_open_marks: agent.controller.has_open_marks(),
     });
     let left = || state.mines_left(scenario);

@@ -52,6 +52,7 @@ impl ControllerScratch {
                 Some(command) => self.command.clone_from(command),
                 None => agent.controller.step_into(&self.percept, &mut self.command),
             }
+            agent.note_acts(&self.command.acts);
             if hashes_decisions {
                 let hash = decision_hash(number, Some(&self.percept), &self.command);
                 results.decisions.push(hash);

@@ -78,7 +78,10 @@ fn disc(radius_m: f64) -> Vec<Disc> {
 #[test]
 fn an_item_has_a_disc_if_its_kind_is_a_danger_and_it_is_likely_enough() {
     let likely = log_odds(MIN_PROBABILITY + 0.01);
-    assert_eq!(believed(1, likely, 0.04).discs, disc(0.5 + 0.25 + 0.4));
+    assert_eq!(
+        believed(1, likely, 0.04).discs,
+        disc(0.75 + (CONTROL_M + 0.4))
+    );
     assert_eq!(believed(0, likely, 0.04).discs, []);
     let unlikely = log_odds(MIN_PROBABILITY - 0.01);
     assert_eq!(believed(1, unlikely, 0.04).discs, []);
@@ -100,12 +103,12 @@ fn an_item_of_uncertain_kind_is_a_danger_by_all_kinds_that_it_may_be() {
     for (shares, danger) in [
         ([0.7, 0.3, 0.0], Some(0.5)),
         // More probably scrap than any of the mines.
-        ([0.7, 0.15, 0.15], Some(0.5)),
+        ([0.7, 0.22, 0.08], Some(0.5)),
         ([0.7, 0.0, 0.3], Some(3.0)),
-        ([0.9, 0.05, 0.05], None),
+        ([0.95, 0.02, 0.03], None),
     ] {
         assert_eq!(danger_m(&hazards_m, &shares, 0.9), danger, "{shares:?}");
-        assert_eq!(danger_m(&hazards_m, &shares, 0.2), None, "{shares:?}");
+        assert_eq!(danger_m(&hazards_m, &shares, 0.1), None, "{shares:?}");
     }
 }
 

@@ -143,7 +143,7 @@ impl Beliefs {
             self.others.scan(ring, ranges_m);
         }
         self.battery.update(percept, elapsed_s);
-        self.forget_destroyed(percept, body);
+        self.note_lane(percept, body);
         let Some(pose) = self.localisation.pose() else {
             return;
         };
@@ -155,14 +155,19 @@ impl Beliefs {
         }
     }
 
-    /// Forgets what this robot, or another by its statement, has destroyed: later contacts there are of other items.
-    fn forget_destroyed(&mut self, percept: &Percept, body: &Body) {
+    /// Takes what messages and results say of a lane. What this robot, or another by its statement, has destroyed is
+    /// forgotten: later contacts there are of other items.
+    fn note_lane(&mut self, percept: &Percept, body: &Body) {
         for received in &percept.inbox {
-            if let About::Dispatch(Dispatch::Statement(statement)) = received.message.about {
-                if statement.verdict == MarkVerdict::Neutralised {
+            match received.message.about {
+                About::Dispatch(Dispatch::Lane(_)) => self.items.is_in_lane = true,
+                About::Dispatch(Dispatch::Statement(statement))
+                    if statement.verdict == MarkVerdict::Neutralised =>
+                {
                     let at = Point::from(statement.at_m.map(f64::from));
                     self.items.forget(at, STATED_WITHIN_M);
                 }
+                _ => {}
             }
         }
         let is_charge = |acted: &&Acted| acted.kind == ActKind::Neutralise && acted.is_success;

@@ -35,6 +35,7 @@ fn planned(picture: &LanePicture, kinds: &[u8], interrogations: u32) -> Plan {
         &Circumstances {
             kinds,
             interrogations: &interrogations,
+            is_impossible: &|_| false,
         },
     )
 }

@@ -5,7 +5,7 @@ use crate::bodies::{Layer, RobotSpec};
 use crate::controllers::clearance::{ClearanceSpec, SkillSpec, detectors};
 use crate::scenario::spec::ScenarioSpec;
 use crate::world::items::CompletedBy;
-use base::document::Place;
+use base::document::{Document, Node, Place, Value};
 use base::error::InputError;
 use brain::MARK_KINDS;
 use brain::behaviours::BehaviourSpec;
@@ -14,7 +14,8 @@ use std::collections::BTreeSet;
 /// The lowest risk of declarations is above the floor by this factor, so that robots can reach it.
 const ABOVE_FLOOR: f64 = 1.05;
 
-pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError> {
+    let at = &document.place();
     let all = at.key("controllers");
     let with_lane = spec.controllers.iter();
     let with_lane = with_lane.filter_map(|(name, kind)| Some((name, kind.clearance.as_ref()?)));
@@ -32,6 +33,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         errors.extend(of_skills(clearance, spec, &at));
         errors.extend(of_leases(name, clearance, spec, &all));
         errors.extend(of_floor(clearance, spec, &at));
+        errors.extend(of_requirement(clearance, spec, document));
         errors.extend(of_world(spec, root));
     }
     errors
@@ -161,6 +163,34 @@ fn of_floor(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Optio
     let at = at.key("declare_below");
     (clearance.declare_below < floor * ABOVE_FLOOR)
         .then(|| super::controllers::of_lease(clearance.declare_below, allowed, &at))
+}
+
+/// A requirement that more lanes are declared clear, and are clear, than any number of looks achieves.
+fn of_requirement(
+    clearance: &ClearanceSpec,
+    spec: &ScenarioSpec,
+    document: &Document,
+) -> Option<InputError> {
+    let conditions = document.get(&["require", "all"]).map(|node| &node.value);
+    let Some(Value::List(conditions)) = conditions else {
+        return None;
+    };
+    let mut conditions = conditions.iter();
+    let is_clear = |node: &Node| match &node.value {
+        Value::Text(text) => text.trim_start().starts_with("declared_clear >"),
+        _ => false,
+    };
+    if !conditions.any(is_clear) {
+        return None;
+    }
+    let at = document.place().key("require").key("probability");
+    let required: f64 = at.value()?.parse().ok()?;
+    let floor = clearance.ready(spec).floor();
+    let allowed = format!(
+        "at most {:.3}: with probability {floor:.3}, a mine remains that no sensor detects, and the lane is not clear",
+        1.0 - floor
+    );
+    (required > 1.0 - floor).then(|| at.error(allowed))
 }
 
 /// Worlds, items and sensors with which a lane cannot be cleared.

@@ -86,7 +86,7 @@ pub(super) fn of_meaning(spec: &ScenarioSpec, document: &Document) -> Vec<InputE
     [
         brains::errors(spec, at),
         controllers::errors(spec, at),
-        clearance::errors(spec, at),
+        clearance::errors(spec, document),
         goals::errors(spec, document),
         end::errors(spec, document),
     ]

@@ -9,9 +9,9 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 
 /// Association gate, in standard deviations: one contact of an item in ninety is beyond it, and begins a second
-/// track. Uncertain kinds, where the number of items matters, have the wider one: one in 3,000.
+/// track. In mined lanes and of uncertain kinds, where the number of items matters, it is wider: one in 3,000.
 const GATE: f64 = 3.0;
-const GATE_OF_UNCERTAIN_KINDS: f64 = 4.0;
+const WIDE_GATE: f64 = 4.0;
 
 /// All item tracks of a robot.
 #[derive(Debug, Clone)]
@@ -20,6 +20,8 @@ pub(crate) struct Items {
     max_tracks: usize,
     /// Without it, contacts have the kind of the item.
     pub(crate) kinds: Option<Arc<KindModel>>,
+    /// Whether a controller has named a lane that is to be cleared.
+    pub(crate) is_in_lane: bool,
     pub(crate) tracks: Vec<Track>,
     pub(crate) last_track_id: u32,
     /// Index of the track that was repeated last.
@@ -35,7 +37,7 @@ base::hashed!(Items {
     repeated,
     unsent,
     unjudged
-} without { max_tracks, kinds });
+} without { max_tracks, kinds, is_in_lane });
 
 impl Items {
     /// No tracks, a maximum number of them, and what is known of uncertain kinds.
@@ -45,6 +47,7 @@ impl Items {
                 .unwrap_or(MAX_TRACKS)
                 .min(MAX_TRACKS),
             kinds: kinds.map(Arc::new),
+            is_in_lane: false,
             tracks: Vec::new(),
             last_track_id: 0,
             repeated: 0,
@@ -68,8 +71,8 @@ impl Items {
         taken: &TrackSet,
     ) -> Option<usize> {
         let is_same = |track: &Track| self.kinds.is_some() || track.kind == kind;
-        let gate = if self.kinds.is_some() {
-            GATE_OF_UNCERTAIN_KINDS
+        let gate = if self.kinds.is_some() || self.is_in_lane {
+            WIDE_GATE
         } else {
             GATE
         };
