@@ -88,7 +88,7 @@ test("the panel has the belief of the chosen controller, and the truth unless it
   await expect(panel.getByRole("heading", { name: "Belief of station/1" })).toBeVisible();
 });
 
-test("what a controller has declared stands beside the truth", async ({ page, server }) => {
+test("what a controller has declared is shown beside the truth", async ({ page, server }) => {
   await openLane(page, server, 761);
   await openTab(page, "Lane");
   const panel = page.getByRole("tabpanel");
