@@ -127,7 +127,7 @@ def header(file: str, parts: list[str], library: str) -> str:
     text = "\n".join(parts)
     names = {
         "annotations": ["Annotated", "Any", "Literal", "NotRequired", "TypeAlias", "TypedDict"],
-        "brain": ["BeliefState", "Command", "Percept", "Point", "Verdict"],
+        "brain": ["BeliefState", "Command", "MarkVerdict", "Percept", "Point", "Verdict"],
     }
     used = {
         key: [name for name in each if re.search(rf"\b{name}\b", text)]

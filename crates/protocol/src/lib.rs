@@ -8,6 +8,7 @@
 //! Seeds and run numbers can have 64 bits, which JavaScript numbers cannot hold: they are strings.
 
 mod economy;
+mod lane;
 mod lists;
 mod page;
 mod schema;
@@ -18,6 +19,7 @@ mod study_answer;
 mod study_form;
 
 pub use economy::{ControllerView, Economy, GoalStatus, GoalView, ServedGoalView, ServiceView};
+pub use lane::{LaneScale, LaneStatementView, LaneView, Lanes, MarkView, RiskView};
 pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
 pub use page::{
     Acknowledge, Change, Empty, Json, Layers, LoggedChange, Open, PageMessage, Play, Seek, Select,

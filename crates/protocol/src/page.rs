@@ -150,6 +150,7 @@ pub struct Select {
 }
 
 /// What is sent with frames; initially nothing.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layers {
@@ -160,6 +161,9 @@ pub struct Layers {
     /// Goals and controllers, of a run that has any.
     #[serde(default)]
     pub economy: bool,
+    /// The mined lane, of a run whose controllers are to clear one.
+    #[serde(default)]
+    pub lanes: bool,
 }
 
 /// The part of the outcome over time that the page does not have.

@@ -1,6 +1,7 @@
 //! Messages from the server to the page of a run.
 
 use crate::economy::Economy;
+use crate::lane::Lanes;
 use crate::lists::{Engine, InputError, RecordingEntry};
 use crate::page::Json;
 use crate::setting::Setting;
@@ -25,6 +26,8 @@ pub enum ServerMessage {
     Map(MapPart),
     /// The goals and controllers while the page requests them, with a maximum rate of 4 Hz.
     Economy(Economy),
+    /// The mined lane while the page requests it, with a maximum rate of 4 Hz.
+    Lanes(Lanes),
     /// The progress of saving a recording.
     Saving(Saving),
     /// A recording has been saved or cancelled.

@@ -143,7 +143,7 @@ fn dict_of<'py>(
 }
 
 /// The word for a reason for which no robot can serve a goal, or for a verdict.
-fn word(value: &impl Serialize) -> Option<String> {
+pub(crate) fn word(value: &impl Serialize) -> Option<String> {
     let word = serde_json::to_value(value).ok()?;
     word.as_str().map(str::to_owned)
 }

@@ -20,6 +20,7 @@ mod external;
 mod frame;
 mod geodesy;
 mod inspect;
+mod lane;
 mod long_work;
 mod message_check;
 mod metric_scenario;
@@ -71,6 +72,8 @@ mod _core {
     use crate::geodesy::LocalFrame;
     #[pymodule_export]
     use crate::inspect::{believed_map, inspect, inspection};
+    #[pymodule_export]
+    use crate::lane::{lanes, mines_left};
     #[pymodule_export]
     use crate::metric_scenario::{MetricScenario, body, read_metric};
     #[pymodule_export]

@@ -16,6 +16,7 @@ from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import scene
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Items
+from agent_economy.recording.lane_topics import LaneTopics
 from agent_economy.recording.logged import Logged
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import grid, still
@@ -67,6 +68,7 @@ class MetricMoments:
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
         self._economy = EconomyTopic(file, simulation, logged.warnings)
+        self._lane = LaneTopics(file, simulation)
         self._file, self._simulation, self._clock = file, simulation, clock
         self._changes = len(simulation.changes)
         self._names = simulation.robots
@@ -139,6 +141,7 @@ class MetricMoments:
         }
         self._file.write_json("/run", run, time_ns)
         self._economy.write(time_ns)
+        self._lane.write(time_ns)
 
     def _write_bodies(self, moment: Moment, time_ns: int) -> None:
         rows = zip(self._names, STATUSES[moment["status"]], *self._bodies.values(), strict=True)

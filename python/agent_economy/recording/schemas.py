@@ -157,6 +157,48 @@ ECONOMY = of_object(
     {"goals": of_lists(OWNED), "controllers": of_lists(CONTROLLERS)},
 )
 
+BOOLEAN_OR_NULL = {"type": ["boolean", "null"]}
+
+LANE_RISKS: dict[str, Schema] = {
+    "name": each("Name of the controller, KIND/INDEX.", STRING),
+    "unmarked": each("Expected number of mines without a mark, as the controller believes."),
+    "marked": each("Expected number of mines at marks."),
+    "probability": each("Probability that at least one mine is left in the lane."),
+    "statement_is_clear": each(
+        "Whether it has declared the lane clear, or given it up.", BOOLEAN_OR_NULL
+    ),
+    "statement_risk": each("The probability at that time.", NUMBER_OR_NULL),
+    "statement_at_s": each("That time, on its clock.", NUMBER_OR_NULL),
+}
+
+LANE = of_object(
+    "agent_economy.Lane",
+    "The remaining risk of a mined lane, and what controllers have stated about it.",
+    {
+        "mines_left": INTEGER | {"description": "The truth: mines that are not destroyed."},
+        "controllers": of_lists(LANE_RISKS),
+    },
+)
+
+VERDICTS = ["confirmed", "rejected", "isolated", "neutralised", None]
+
+OF_LANE_MARKS: dict[str, Schema] = {
+    "controller": each("The controller that believes it, KIND/INDEX.", STRING),
+    "number": each("Its number, which never changes.", INTEGER),
+    "x_m": each("Position."),
+    "y_m": each("Position."),
+    "deviation_m": each("Standard deviation of the position along each axis."),
+    "mine": each("Probability that it holds a mine that has not been neutralised."),
+    "verdict": each("The last statement about it.", {"enum": VERDICTS}),
+    "failed_charges": each("Charges that have gone off there and destroyed nothing.", INTEGER),
+}
+
+LANE_MARKS = of_object(
+    "agent_economy.LaneMarks",
+    "The places that robots have marked, as each controller believes them to be.",
+    {"marks": of_lists(OF_LANE_MARKS)},
+)
+
 INPUT = of_object(
     "agent_economy.Input",
     "The external inputs of the next step, by robot name. A replay needs them.",

@@ -18,6 +18,7 @@ from agent_economy.runs.brain import (
     Inspection,
     Percept,
 )
+from agent_economy.runs.lane import BelievedLane, believed_lane
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, python_brains, resized
 from agent_economy.runs.stepped import Change, Snapshot, Stepped
@@ -517,6 +518,23 @@ class Simulation(Stepped):
         (why no robot can serve it, or None).
         """
         return _core.controllers(self._run)
+
+    @property
+    def lanes(self) -> list[BelievedLane]:
+        """What each controller believes of the mined lane, in the order of `controllers`.
+
+        It is empty if no controller is to clear one. Controllers know only what robots send:
+        `mines_left` is the truth.
+        """
+        return [believed_lane(lane) for lane in _core.lanes(self._run)]
+
+    @property
+    def mines_left(self) -> int:
+        """The number of mines in the lane that are not destroyed; 0 without a lane.
+
+        It is the truth, which no robot and no controller knows.
+        """
+        return _core.mines_left(self._run)
 
 
 def sorted_names(external: Iterable[str]) -> tuple[str, ...]:

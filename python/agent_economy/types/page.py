@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, TypeAlias, TypedDict
 
 import msgspec
 
-from agent_economy.types.brain import BeliefState, Command, Percept, Point, Verdict
+from agent_economy.types.brain import BeliefState, Command, MarkVerdict, Percept, Point, Verdict
 
 Engine: TypeAlias = Literal["metric", "classic"]
 """A simulator."""
@@ -364,6 +364,120 @@ class KindView(TypedDict):
     radio_range_m: float | None
     sensors: Sequence[SensorView]
     rings: Sequence[RingView]
+
+
+class LaneScale(TypedDict):
+    """A logarithmic scale of bytes: byte `b` stands for up to `min x (max / min)^(b / 255)`, and
+    more than a byte less.
+
+    0 also stands for less than `min`, and 255 for more than `max`.
+
+    Attributes:
+        min: The value of byte 0.
+        max: The value of byte 255.
+        cleared: Cells with up to this byte are cleared: if all cells were like them, the lane
+            would be declared clear.
+    """
+
+    min: float
+    max: float
+    cleared: int
+
+
+class LaneStatementView(TypedDict):
+    """What a controller has stated about a lane.
+
+    Attributes:
+        is_clear: Whether it has declared the lane clear; otherwise it has given it up.
+        risk: The probability that at least one mine is left, at that time.
+        at_s: That time, on its clock.
+    """
+
+    is_clear: bool
+    risk: float
+    at_s: float
+
+
+class MarkView(TypedDict):
+    """A place that robots have marked, as a controller believes it to be.
+
+    Attributes:
+        number: Its number, which never changes.
+        at: Its position.
+        deviation_m: Standard deviation of the position along each axis.
+        mine: Probability that it holds a mine that has not been neutralised.
+        verdict: The last statement about it; null if there is none.
+        failed_charges: Number of charges that have gone off there and destroyed nothing.
+    """
+
+    number: int
+    at: Point
+    deviation_m: float
+    mine: float
+    verdict: MarkVerdict | None
+    failed_charges: int
+
+
+class RiskView(TypedDict):
+    """The remaining risk of a lane, as a controller believes it to be.
+
+    Attributes:
+        unmarked: Expected number of mines without a mark.
+        marked: Expected number of mines at marks.
+        probability: Probability that at least one mine is left in the lane.
+    """
+
+    unmarked: float
+    marked: float
+    probability: float
+
+
+class LaneView(TypedDict):
+    """What a controller believes of a lane.
+
+    Attributes:
+        controller: The name of the controller, KIND/INDEX.
+        corners: The lower left and the upper right corner of the lane.
+        cell_m: The side of a cell.
+        columns: Columns of cells.
+        rows: Rows of cells.
+        expected: Base64 of one byte per cell, the lowest row first: expected mines per full
+            cell, on the scale below. Cells that reach beyond the lane are scaled by their area.
+        scale: The scale of these bytes.
+        marks: The places that robots have marked.
+        risk: The remaining risk.
+        declare_below: The lane is declared clear when the probability that at least one mine is
+            left is below this.
+        statement: What the controller has stated about the lane; null until then.
+    """
+
+    controller: str
+    corners: Sequence[Point]
+    cell_m: float
+    columns: int
+    rows: int
+    expected: str
+    scale: LaneScale
+    marks: Sequence[MarkView]
+    risk: RiskView
+    declare_below: float
+    statement: LaneStatementView | None
+
+
+class Lanes(TypedDict):
+    """The mined lane while the page requests it, with a maximum rate of 4 Hz.
+
+    Attributes:
+        tick: The current tick.
+        mines_left: The truth: number of mines in the lane that are not destroyed.
+        lanes: What each controller believes of the lane, in the order of their kinds and
+            indices.
+    """
+
+    type: Literal["lanes"]
+    tick: int
+    mines_left: int
+    lanes: Sequence[LaneView]
 
 
 LoggedChange: TypeAlias = tuple[int, str, Any]
@@ -1084,6 +1198,7 @@ ServerMessage = (
     | State
     | MapPart
     | Economy
+    | Lanes
     | Saving
     | Saved
     | Exported
@@ -1217,11 +1332,13 @@ class Layers(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="layer
         links: Radio links between robots.
         footprints: Areas that sensors cover.
         economy: Goals and controllers, of a run that has any.
+        lanes: The mined lane, of a run whose controllers are to clear one.
     """
 
     links: bool
     footprints: bool
     economy: bool = False
+    lanes: bool = False
 
 
 class RequestSeries(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="request_series"):

@@ -2,6 +2,7 @@ import type {
   Economy,
   Ended,
   Exported,
+  Lanes,
   MapPart,
   Opened,
   Refused,
@@ -19,6 +20,7 @@ export type Message =
   | State
   | MapPart
   | Economy
+  | Lanes
   | Refused
   | Saving
   | Saved
@@ -33,6 +35,7 @@ const types = [
   "state",
   "map",
   "economy",
+  "lanes",
   "refused",
   "saving",
   "saved",

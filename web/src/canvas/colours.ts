@@ -34,6 +34,12 @@ const names = [
   "owner-4",
   "owner-5",
   "owner-6",
+  "risk-1",
+  "risk-2",
+  "risk-3",
+  "risk-4",
+  "risk-5",
+  "cleared",
 ] as const;
 
 export type ColourName = (typeof names)[number];

@@ -1,4 +1,4 @@
-import type { Economy, Json, Setting, State } from "../api/protocol";
+import type { Economy, Json, Lanes, Setting, State } from "../api/protocol";
 import type { BelievedMap } from "../shared/believed_map";
 import type { Link } from "../shared/link";
 import type { Camera } from "./camera";
@@ -16,6 +16,8 @@ export interface Host {
   readonly itemKind: string;
   /** The controller that is chosen in the panel; null for none. */
   readonly controller: string | null;
+  /** The controller whose belief of the mined lane is drawn; null for the first. */
+  readonly laneController: string | null;
   /** Chooses a controller, which shows its goals. */
   chooseController(name: string): void;
   /** Whether the selected robot stays in the centre. */
@@ -29,6 +31,7 @@ export interface DrawnRun {
   readonly state: Pick<State, "is_playing" | "inspection" | "robot"> | null;
   readonly map: BelievedMap | null;
   readonly economy: Economy | null;
+  readonly lanes: Lanes | null;
   readonly selected: string | null;
   readonly frames: FrameQueue;
   /** Called when there is something new to draw. */

@@ -1,5 +1,6 @@
 import type { Point } from "../api/protocol";
 import { controllerAt } from "../shared/economy";
+import { laneOf } from "../shared/lane";
 import { robotAt } from "../shared/robots";
 import { type World, worldOf } from "../shared/world";
 import { type Camera, fitTo, pan, resize, toWorld, zoomAt } from "./camera";
@@ -171,7 +172,7 @@ export class Stage {
   }
 
   private scene(): Scene | null {
-    const { setting, state, map, economy, selected } = this.host.session;
+    const { setting, state, map, economy, lanes, selected } = this.host.session;
     if (!setting) return null;
     const frame = this.interpolation.at(
       performance.now(),
@@ -189,6 +190,7 @@ export class Stage {
       inspection: state?.inspection ?? null,
       map,
       economy,
+      lane: laneOf(lanes, this.host.laneController),
       controller: this.host.controller,
       robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),

@@ -2,7 +2,9 @@
 
 use super::state::State;
 use crate::scenario::Scenario;
+use base::geometry::Rectangle;
 use brain::{Lane, RobotId};
+use core::f64::consts::FRAC_1_SQRT_2;
 use economy::{BelievedMark, LaneStatement, Risk};
 
 /// What a controller believes of the lane that it is to clear.
@@ -18,8 +20,53 @@ pub struct BelievedLane {
     pub marks: Vec<BelievedMark>,
     /// The remaining risk.
     pub risk: Risk,
+    /// The lane is declared clear when the probability that at least one mine is left is below this.
+    pub declare_below: f64,
     /// What it has stated about the lane.
     pub statement: Option<LaneStatement>,
+}
+
+impl BelievedLane {
+    /// Expected number of mines in each cell, row by row from the lower left corner: those without a mark, and those at
+    /// marks, distributed as their positions are.
+    #[must_use]
+    pub fn expected(&self) -> Vec<f64> {
+        let mut expected = self.unmarked.clone();
+        let [columns, rows] = self.lane.columns_and_rows();
+        let right: Vec<Rectangle> = (0..columns).map(|cell| self.lane.cell_area(cell)).collect();
+        let up: Vec<Rectangle> = (0..rows)
+            .map(|row| self.lane.cell_area(row * columns))
+            .collect();
+        for mark in &self.marks {
+            let share = |from_m, to_m, at_m| share_between([from_m, to_m], at_m, mark.deviation_m);
+            let right = right
+                .iter()
+                .map(|cell| share(cell.min().x, cell.max().x, mark.at.x));
+            let right: Vec<f64> = right.collect();
+            let up = up
+                .iter()
+                .map(|cell| share(cell.min().y, cell.max().y, mark.at.y));
+            for (row, up) in up.enumerate().filter(|(_, up)| *up > 0.0) {
+                for (cell, right) in right.iter().enumerate() {
+                    expected[row * columns + cell] += mark.mine * up * right;
+                }
+            }
+        }
+        expected
+    }
+
+    /// Expected number of mines per square metre below which a place is cleared: with that density everywhere, the
+    /// controller would just declare the lane clear.
+    #[must_use]
+    pub fn cleared_below_per_m2(&self) -> f64 {
+        -libm::log1p(-self.declare_below) / self.lane.area().area_m2()
+    }
+}
+
+/// Probability that a normally distributed coordinate is between two others.
+fn share_between([from_m, to_m]: [f64; 2], at_m: f64, deviation_m: f64) -> f64 {
+    let below = |along_m: f64| libm::erf((along_m - at_m) / deviation_m * FRAC_1_SQRT_2) / 2.0;
+    below(to_m) - below(from_m)
 }
 
 impl State {
@@ -36,6 +83,7 @@ impl State {
                     .collect(),
                 marks: picture.marks().collect(),
                 risk: picture.risk(),
+                declare_below: picture.clearance().declare_below,
                 statement: agent.controller.lane_statement(),
             })
         })
@@ -55,5 +103,63 @@ impl State {
                 && lane.contains(self.items.place(*item))
         });
         u32::try_from(left.count()).unwrap_or(u32::MAX)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::geometry::Point;
+
+    fn lane(at: Point) -> BelievedLane {
+        let lane = Lane {
+            min_m: [-1.0, 2.0],
+            max_m: [9.0, 7.0],
+            cell_m: 2.0,
+            hazards: 1,
+        };
+        BelievedLane {
+            controller: RobotId { kind: 0, index: 0 },
+            lane,
+            unmarked: vec![1e-3; lane.cells()],
+            marks: vec![BelievedMark {
+                number: 0,
+                at,
+                deviation_m: 0.5,
+                probabilities: [0.8, 0.0, 0.0, 0.0],
+                mine: 0.8,
+                verdict: None,
+                failed_charges: 0,
+            }],
+            risk: Risk {
+                unmarked: 0.015,
+                marked: 0.8,
+                probability: 0.8,
+            },
+            declare_below: 0.05,
+            statement: None,
+        }
+    }
+
+    #[test]
+    fn the_expected_mines_of_a_mark_are_distributed_as_its_position_is() {
+        let total = |lane: &BelievedLane| lane.expected().iter().sum::<f64>();
+        let inside = lane(Point { x: 4.0, y: 5.0 });
+        assert!((total(&inside) - 0.815).abs() < 1e-4);
+        let expected = inside.expected();
+        let cell = inside.lane.nearest_cell(Point { x: 4.0, y: 5.0 });
+        let highest = expected.iter().copied().fold(0.0, f64::max);
+        assert_eq!(expected[cell], highest);
+        // Two deviations to each side of the cell.
+        assert!((highest - 0.001 - 0.8 * 0.9545 * 0.9545).abs() < 1e-4);
+        let on_the_border = lane(Point { x: 4.0, y: 2.0 });
+        assert!((total(&on_the_border) - 0.415).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_lane_with_the_density_of_cleared_places_is_just_declared_clear() {
+        let lane = lane(Point::default());
+        let expected = lane.cleared_below_per_m2() * lane.lane.area().area_m2();
+        assert!((1.0 - libm::exp(-expected) - 0.05).abs() < 1e-12);
     }
 }

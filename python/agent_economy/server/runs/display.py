@@ -15,8 +15,8 @@ from agent_economy.server.runs.run import Run
 from agent_economy.types.page import Layers, ServerMessage, State
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
-"""Minimum time between two frames, two states, and two maps of a robot, which goals and controllers
-come with. Steps of 1/30 s get a frame each."""
+"""Minimum time between two frames, two states, and two maps of a robot, which goals, controllers
+and lanes come with. Steps of 1/30 s get a frame each."""
 
 MAX_IN_FLIGHT = 3
 """Frames that the page has not acknowledged."""
@@ -92,6 +92,8 @@ class Display:
                 outputs.append(part)
             if economy := self._overlay.economy(run.simulation):
                 outputs.append(economy)
+            if lanes := self._overlay.lanes(run.simulation):
+                outputs.append(lanes)
         return outputs
 
     def _setting(self, run: Run) -> list[Output]:

@@ -8,10 +8,11 @@ from agent_economy.server.runs import (
     belief_view,
     classic_view,
     economy_view,
+    lane_view,
     metric_overlay,
     metric_view,
 )
-from agent_economy.types.page import Economy, Inspection, MapPart, RobotView
+from agent_economy.types.page import Economy, Inspection, Lanes, MapPart, RobotView
 
 
 class Selection(Protocol):
@@ -45,6 +46,8 @@ class Engine(NamedTuple):
         footprints: Draws the areas that sensors cover; None if robots have no sensors.
         economy: Returns the goals and controllers, with a robot selected or None; None if runs of
             the engine have neither.
+        lanes: Returns the mined lane as each controller believes it to be; None if runs of the
+            engine have none.
     """
 
     drawn: Callable[[Any], bytes]
@@ -53,6 +56,7 @@ class Engine(NamedTuple):
     links: DrawOverlay | None
     footprints: DrawOverlay | None
     economy: Callable[[Any, str | None], Economy | None] | None
+    lanes: Callable[[Any], Lanes | None] | None
 
 
 ENGINES = {
@@ -63,9 +67,10 @@ ENGINES = {
         metric_overlay.links,
         metric_overlay.footprints,
         economy_view.economy,
+        lane_view.lanes,
     ),
     "classic": Engine(
-        classic_view.drawn, classic_view.still, classic_view.Selected, None, None, None
+        classic_view.drawn, classic_view.still, classic_view.Selected, None, None, None, None
     ),
 }
 

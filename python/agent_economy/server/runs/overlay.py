@@ -9,7 +9,7 @@ import struct
 
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import engines
-from agent_economy.types.page import Economy, Layers
+from agent_economy.types.page import Economy, Lanes, Layers
 
 KIND = 2
 """The first number of an overlay, which distinguishes it from a frame."""
@@ -25,7 +25,7 @@ class Overlay:
 
     def __init__(self) -> None:
         """Begin without layers."""
-        self._layers = Layers(links=False, footprints=False, economy=False)
+        self._layers = Layers(links=False, footprints=False, economy=False, lanes=False)
         self._robot: str | None = None
 
     def set_layers(self, layers: Layers) -> None:
@@ -51,6 +51,11 @@ class Overlay:
         """Return goals and controllers; None if they are not requested, or there are none."""
         draw = engines.of(simulation).economy
         return draw(simulation, self._robot) if draw and self._layers.economy else None
+
+    def lanes(self, simulation: Stepped) -> Lanes | None:
+        """Return the mined lane; None if it is not requested, or there is none."""
+        draw = engines.of(simulation).lanes
+        return draw(simulation) if draw and self._layers.lanes else None
 
     def _layers_of(self, simulation: Stepped) -> list[engines.DrawOverlay | None]:
         engine, layers = engines.of(simulation), self._layers

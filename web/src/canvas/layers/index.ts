@@ -8,6 +8,7 @@ import { footprints } from "./footprints";
 import { grid } from "./grid";
 import { headings } from "./headings";
 import { items } from "./items";
+import { laneMarks, lanePath, laneRisk } from "./lane";
 import type { Layer } from "./layer";
 import { links } from "./links";
 import { maps } from "./maps";
@@ -22,8 +23,10 @@ import { trails } from "./trails";
 export const layers: Layer[] = [
   ground,
   terrain,
+  laneRisk,
   grid,
   maps,
+  lanePath,
   obstacles,
   border,
   contact,
@@ -34,6 +37,7 @@ export const layers: Layer[] = [
   observedCells,
   links,
   trails,
+  laneMarks,
   economy,
   headings,
   beliefs,

@@ -3,6 +3,7 @@ import type {
   Economy,
   Engine,
   Inspection,
+  LaneView,
   ObstacleView,
   Point,
   RobotView,
@@ -24,6 +25,8 @@ export interface Scene {
   map: BelievedMap | null;
   /** Goals and controllers; null if they are not requested, or there are none. */
   economy: Economy | null;
+  /** The mined lane as the chosen controller believes it to be; null if it is not requested, or there is none. */
+  lane: LaneView | null;
   /** The controller that is chosen in the panel; null for none. */
   controller: string | null;
   /** The engine's report about the selected robot. */

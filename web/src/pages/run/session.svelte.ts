@@ -7,6 +7,7 @@ import type {
   Economy,
   Ended,
   Json,
+  Lanes,
   MapPart,
   Opened,
   OverlayRequest,
@@ -55,6 +56,8 @@ export class Session implements Listener {
   map = $state.raw<BelievedMap | null>(null);
   /** Goals and controllers while they are requested. */
   economy = $state.raw<Economy | null>(null);
+  /** The mined lane while it is requested. */
+  lanes = $state.raw<Lanes | null>(null);
   /** The overlays that frames come with. */
   overlays = $state.raw<OverlayRequest | null>(null);
   /** Progress of the recording that is being saved. */
@@ -217,6 +220,7 @@ export class Session implements Listener {
   requestOverlays(overlays: OverlayRequest): void {
     this.overlays = overlays;
     if (!overlays.economy) this.economy = null;
+    if (!overlays.lanes) this.lanes = null;
     this.send({ type: "layers", ...overlays });
   }
 
@@ -252,6 +256,7 @@ export class Session implements Listener {
     else if (message.type === "state") this.receiveState(message);
     else if (message.type === "map") this.receiveMap(message);
     else if (message.type === "economy") this.receiveEconomy(message);
+    else if (message.type === "lanes") this.receiveLanes(message);
     else if (message.type === "refused") this.receiveRefusal(message);
     else if (message.type === "saving") this.saving = message;
     else if (message.type === "saved") this.receiveSaved(message.recording);
@@ -274,6 +279,7 @@ export class Session implements Listener {
     this.phase = { name: "open" };
     this.map = null;
     this.economy = null;
+    this.lanes = null;
     this.awaitsSeries = false;
     if (this.selected !== null) this.send({ type: "select", robot: this.selected });
     const unsent = Object.entries(this.unsent);
@@ -323,6 +329,10 @@ export class Session implements Listener {
     if (!this.overlays?.economy) return;
     this.economy = economy;
     this.onFrame();
+  }
+
+  private receiveLanes(lanes: Lanes): void {
+    if (this.overlays?.lanes) this.lanes = lanes;
   }
 
   private receiveSaved(recording: RecordingEntry | null): void {

@@ -196,3 +196,15 @@ test("goals and controllers are kept only while they are requested", () => {
   receive(economy);
   expect(session.economy).toBeNull();
 });
+
+test("the lane is kept only while it is requested", () => {
+  connect();
+  const lanes = { type: "lanes", tick: 9, mines_left: 2, lanes: [] };
+  session.requestOverlays({ links: false, footprints: false, economy: false, lanes: true });
+  receive(lanes);
+  expect(session.lanes?.mines_left).toBe(2);
+  session.requestOverlays({ links: false, footprints: false, economy: false, lanes: false });
+  expect(session.lanes).toBeNull();
+  receive(lanes);
+  expect(session.lanes).toBeNull();
+});

@@ -23,6 +23,8 @@ export class Viewer implements Host {
   panel = $state("");
   /** The controller whose goals stand out; null for those of all. */
   controller = $state<string | null>(null);
+  /** The controller whose belief of the mined lane is shown; null for the first. */
+  laneController = $state<string | null>(null);
   /** Whether each section of the robot panel is open. */
   sections = $state({
     command: true,

@@ -1,0 +1,113 @@
+import { copyFile } from "node:fs/promises";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import type { Page } from "@playwright/test";
+import type { Lanes, Point } from "../src/api/protocol";
+import { inkAt, opens, type View } from "./ink";
+import { expect, expectAccessiblePanels, openRun, openTab, type RealServer, test } from "./page";
+
+const small = fileURLToPath(new URL("small_lane.toml", import.meta.url));
+/** The middle of the lane, which is from (6, 2) to (46, 12). */
+const view: View = [26, 7, 16];
+const layers = ["Remaining risk", "Cleared path", "Marks"];
+
+/** Opens the small lane at a tick; the run is over after 761 steps. */
+async function openLane(page: Page, server: RealServer, tick: number): Promise<void> {
+  await copyFile(small, join(server.folder, "small_lane.toml"));
+  const run = `scenario=small_lane.toml&seed=1&run=0&tick=${tick}&${opens(view)}`;
+  await openRun(page, server, run, `${(tick / 5).toFixed(1)} s`);
+}
+
+const checkbox = (page: Page, name: string | RegExp) => page.getByRole("checkbox", { name });
+
+/** The pixels of the view around a place. */
+async function pixelsAt(page: Page, [x, y]: Point): Promise<string> {
+  const box = await page.getByRole("application", { name: "World view" }).boundingBox();
+  if (!box) throw new Error("there is no view");
+  const left = box.x + box.width / 2 + (x - view[0]) * view[2];
+  const top = box.y + box.height / 2 - (y - view[1]) * view[2];
+  const png = await page.screenshot({ clip: { x: left - 2, y: top - 2, width: 4, height: 4 } });
+  return png.toString("base64");
+}
+
+test("the lane is drawn and sent while one of its layers is on", async ({ page, server }) => {
+  const requested: boolean[] = [];
+  const received: Lanes[] = [];
+  page.on("websocket", (line) => {
+    line.on("framesent", ({ payload }) => {
+      const message = JSON.parse(String(payload));
+      if (message.type === "layers") requested.push(message.lanes);
+    });
+    line.on("framereceived", ({ payload }) => {
+      const message = typeof payload === "string" ? JSON.parse(payload) : {};
+      if (message.type === "lanes") received.push(message);
+    });
+  });
+  await openLane(page, server, 500);
+  await openTab(page, "Layers");
+  const others = ["Grid and scale", "Trails", "Sensor coverage", "Goals and controllers", "Items"];
+  for (const name of others) await checkbox(page, name).uncheck();
+  await expect.poll(() => received.at(-1)?.tick).toBe(500);
+  const marks = received.at(-1)?.lanes[0]?.marks ?? [];
+  expect(marks.length).toBeGreaterThan(3);
+  const mine = marks.find((mark) => mark.mine >= 0.5)?.at ?? [0, 0];
+  await expect.poll(() => inkAt(page, view, mine)).toBe(true);
+  // A cell that has not been searched yet, and one at the outline of the cleared path.
+  const places: [layer: string, at: Point][] = [
+    ["Remaining risk", [43, 11]],
+    ["Cleared path", [20, 2]],
+  ];
+  for (const [layer, at] of places) {
+    const drawn = await pixelsAt(page, at);
+    await checkbox(page, layer).uncheck();
+    await expect.poll(() => pixelsAt(page, at)).not.toBe(drawn);
+    await checkbox(page, layer).check();
+    await expect.poll(() => pixelsAt(page, at)).toBe(drawn);
+  }
+  for (const name of layers) await checkbox(page, name).uncheck();
+  await expect.poll(() => inkAt(page, view, mine)).toBe(false);
+  await expect.poll(() => requested.at(-1)).toBe(false);
+  // The panel needs it, too.
+  await openTab(page, "Lane");
+  await expect.poll(() => requested.at(-1)).toBe(true);
+});
+
+test("the panel has the belief of the chosen controller, and the truth unless it is hidden", async ({
+  page,
+  server,
+}) => {
+  await openLane(page, server, 500);
+  await openTab(page, "Lane");
+  const panel = page.getByRole("tabpanel");
+  await expect(panel.getByText(/^Remaining risk over 99.9%: 0\.\d+ mines expected/)).toBeVisible();
+  await expect(panel.getByText("No statement yet: it declares the lane clear below 5%.")).toBeVisible();
+  await expect(panel.getByText("1 mine left in the lane.")).toBeVisible();
+  await checkbox(page, /Show the truth/).uncheck();
+  await expect(panel.getByText(/left in the lane/)).toHaveCount(0);
+  await panel.getByRole("combobox", { name: "Controller" }).selectOption("station/1");
+  await expect(panel.getByRole("heading", { name: "Belief of station/1" })).toBeVisible();
+});
+
+test("what a controller has declared is shown beside the truth", async ({ page, server }) => {
+  await openLane(page, server, 761);
+  await openTab(page, "Lane");
+  const panel = page.getByRole("tabpanel");
+  await expect(panel.getByText(/^Declared clear at 152\.0 s, at a risk of 4\.\d%\.$/)).toBeVisible();
+  await expect(panel.getByText("No mines left in the lane.")).toBeVisible();
+  // The outcome has declared and declared_s, which have the same name.
+  await openTab(page, "Results");
+  await expect(page.getByRole("term").filter({ hasText: /^declared$/ })).toHaveCount(2);
+});
+
+test("a run without a lane has neither the layers nor the panel", async ({ page, server }) => {
+  await openRun(page, server, "scenario=open-field&seed=7&run=0");
+  await openTab(page, "Layers");
+  await expect(checkbox(page, "Radio links")).toBeVisible();
+  for (const name of layers) await expect(checkbox(page, name)).toHaveCount(0);
+  await expect(page.getByRole("tab", { name: "Lane" })).toHaveCount(0);
+});
+
+test("the panels of a run with a lane are accessible", async ({ page, server }) => {
+  await openLane(page, server, 500);
+  await expectAccessiblePanels(page, ["Lane", "Layers"]);
+});
