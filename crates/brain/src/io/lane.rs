@@ -256,6 +256,8 @@ pub enum MarkVerdict {
     Isolated,
     /// Something there has been destroyed.
     Neutralised,
+    /// A charge there has destroyed nothing.
+    Missed,
 }
 
 base::hashed!(enum MarkVerdict);

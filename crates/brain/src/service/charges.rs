@@ -143,6 +143,10 @@ impl Assignee {
         if let Some(at) = job.charge_at() {
             let is_spent = job.charges.fired >= MAX_CHARGES || moment.percept.charges == Some(0);
             if is_spent {
+                let (task, charges) = (job.task, job.charges);
+                if charges.fired > 0 && !charges.is_success {
+                    self.lane.add(missed(&task));
+                }
                 self.report_failure(goal, Reason::Capability);
                 self.release(goal);
                 return;
@@ -158,14 +162,19 @@ impl Assignee {
         } else {
             let (task, is_success) = (job.task, job.charges.is_success);
             if !is_success {
-                self.lane.add(Statement {
-                    mark: task.id,
-                    at_m: task.at_m,
-                    verdict: MarkVerdict::Rejected,
-                });
+                self.lane.add(missed(&task));
             }
             self.finish(goal);
         }
+    }
+}
+
+/// The statement that a charge at the mark of a goal has destroyed nothing.
+fn missed(task: &Task) -> Statement {
+    Statement {
+        mark: task.id,
+        at_m: task.at_m,
+        verdict: MarkVerdict::Missed,
     }
 }
 

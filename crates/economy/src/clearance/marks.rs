@@ -3,7 +3,7 @@
 use super::place::Place;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use brain::{Mark, RobotId, Statement};
+use brain::{Mark, MarkVerdict, RobotId, Statement};
 
 /// Maximum number of places; marks of further ones are refused, and remain missing.
 const MAX_PLACES: usize = 10_000;
@@ -58,7 +58,9 @@ impl Marks {
     }
 
     fn add(&mut self, mark: Mark) {
+        // What is detected where something has been destroyed is another item.
         let places = self.places.iter_mut();
+        let places = places.filter(|place| !place.is_neutralised());
         let near = places.filter_map(|place| Some((place.distance_to(&mark)?, place)));
         let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
         if let Some((_, place)) = nearest {
@@ -69,8 +71,9 @@ impl Marks {
         }
     }
 
-    /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place.
-    pub(super) fn state(&mut self, statement: &Statement) {
+    /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place. What a charge
+    /// destroys is neutralised in all places within its reach: marks of one item can be several places.
+    pub(super) fn state(&mut self, statement: &Statement, reach_m: f64) {
         let at = Point::from(statement.at_m.map(f64::from));
         let is_named = |place: &Place| place.marks.iter().any(|mark| mark.id == statement.mark);
         let named = self.places.iter().position(is_named);
@@ -82,7 +85,12 @@ impl Marks {
             nearest.map(|(_, index, _)| index)
         });
         if let Some(place) = index.and_then(|index| self.places.get_mut(index)) {
-            place.state(statement.verdict);
+            place.state(statement.verdict, statement.mark);
+        }
+        if statement.verdict == MarkVerdict::Neutralised {
+            let places = self.places.iter_mut();
+            let reached = places.filter(|place| place.at.to(at).length() <= reach_m);
+            reached.for_each(|place| place.state(statement.verdict, statement.mark));
         }
     }
 

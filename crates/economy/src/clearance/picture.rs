@@ -123,15 +123,9 @@ impl LanePicture {
     /// Takes a statement of a robot about a mark.
     pub fn take_statement(&mut self, statement: &Statement) {
         if statement.at_m.into_iter().all(f32::is_finite) {
-            self.marks.state(statement);
-        }
-    }
-
-    /// Notes that a robot has used a charge at a place: it destroyed nothing, unless the robot states so.
-    pub(crate) fn note_charge(&mut self, number: u32) {
-        let mut places = self.marks.places.iter_mut();
-        if let Some(place) = places.find(|place| place.number == number) {
-            place.failed_charges += u32::from(place.verdict != Some(MarkVerdict::Neutralised));
+            let charge = self.clearance.neutralise;
+            let reach_m = charge.map_or(0.0, |charge| charge.reach_m);
+            self.marks.state(statement, reach_m);
         }
     }
 
@@ -192,7 +186,7 @@ impl LanePicture {
 
     fn believed(&self, place: &Place) -> BelievedMark {
         let probabilities = self.probabilities(place);
-        let is_open = place.verdict != Some(MarkVerdict::Neutralised);
+        let is_open = !place.is_neutralised();
         let hazards = self.clearance.hazards().filter(|_| is_open);
         let mine: f64 = hazards.map(|(kind, _)| probabilities[kind]).sum();
         let mine = mine.min(MAX_PROBABILITY);
@@ -204,7 +198,7 @@ impl LanePicture {
             probabilities,
             mine: mine * missed / (mine * missed + 1.0 - mine),
             verdict: place.verdict,
-            failed_charges: place.failed_charges,
+            failed_charges: place.failed_charges(),
         }
     }
 
@@ -213,7 +207,7 @@ impl LanePicture {
         let deviation_m = libm::sqrt(place.variance_m2);
         let charge = self.clearance.neutralise;
         let missed = charge.map_or(1.0, |charge| charge.missed(deviation_m));
-        libm::pow(missed, place.failed_charges.into())
+        libm::pow(missed, place.failed_charges().into())
     }
 
     /// Probability of each kind of items at a place, against nothing but false alarms.

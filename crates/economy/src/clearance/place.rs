@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 use base::geometry::Point;
-use brain::{Mark, MarkVerdict, RobotId};
+use brain::{GoalId, Mark, MarkVerdict, RobotId};
 use core::f64::consts::TAU;
 
 /// Marks belong to one place within this many joint standard deviations. With 3, one pair of marks of
@@ -23,8 +23,8 @@ pub(super) struct Place {
     pub(super) marks: Vec<Mark>,
     /// The last statement about it; one that it has been neutralised is final.
     pub(super) verdict: Option<MarkVerdict>,
-    /// Number of charges that have gone off there and destroyed nothing.
-    pub(super) failed_charges: u32,
+    /// The goals for which charges have gone off there and destroyed nothing.
+    pub(super) missed: Vec<GoalId>,
     /// Mean of the positions, weighted by their precision, and its variance along each axis.
     pub(super) at: Point,
     pub(super) variance_m2: f64,
@@ -34,7 +34,7 @@ base::hashed!(Place {
     number,
     marks,
     verdict,
-    failed_charges,
+    missed,
     at,
     variance_m2
 });
@@ -45,7 +45,7 @@ impl Place {
             number,
             marks: Vec::new(),
             verdict: None,
-            failed_charges: 0,
+            missed: Vec::new(),
             at: mark.at(),
             variance_m2: variance_m2(&mark),
         };
@@ -71,11 +71,25 @@ impl Place {
         Some(place)
     }
 
-    /// Takes a statement; one that it has been neutralised is final.
-    pub(super) fn state(&mut self, verdict: MarkVerdict) {
-        if self.verdict != Some(MarkVerdict::Neutralised) {
-            self.verdict = Some(verdict);
+    /// Takes a statement about a mark, or for a goal; one that it has been neutralised is final.
+    pub(super) fn state(&mut self, verdict: MarkVerdict, of: GoalId) {
+        if self.is_neutralised() {
+            return;
         }
+        self.verdict = Some(verdict);
+        if verdict == MarkVerdict::Missed && !self.missed.contains(&of) {
+            self.missed.push(of);
+        }
+    }
+
+    /// Whether what was there has been destroyed.
+    pub(super) fn is_neutralised(&self) -> bool {
+        self.verdict == Some(MarkVerdict::Neutralised)
+    }
+
+    /// Number of charges that have gone off there and destroyed nothing.
+    pub(super) fn failed_charges(&self) -> u32 {
+        u32::try_from(self.missed.len()).unwrap_or(u32::MAX)
     }
 
     /// Statements within this distance can be about it.

@@ -145,11 +145,13 @@ fn work_at(
             let subject = Subject::Mine { place };
             (subject, Work::Neutralise, clearance.neutralise?.skill)
         }
-        None | Some(MarkVerdict::Rejected) if is_suspect && interrogations < MAX_INTERROGATIONS => {
+        None | Some(MarkVerdict::Rejected | MarkVerdict::Missed)
+            if is_suspect && interrogations < MAX_INTERROGATIONS =>
+        {
             let subject = Subject::Suspect { place };
             (subject, Work::Interrogate, clearance.interrogate?)
         }
-        None | Some(MarkVerdict::Rejected)
+        None | Some(MarkVerdict::Rejected | MarkVerdict::Missed)
             if is_suspect && mark.failed_charges < MAX_FAILED_CHARGES =>
         {
             let subject = Subject::Mine { place };

@@ -123,8 +123,7 @@ impl LaneWork {
             }
             planned.done_s = Some(now_s);
             match planned.subject {
-                Subject::Tile { .. } => {}
-                Subject::Mine { place } => self.picture.note_charge(place),
+                Subject::Tile { .. } | Subject::Mine { .. } => {}
                 Subject::Suspect { place } => {
                     let mut known = self.interrogated.iter_mut();
                     match known.find(|(known, _)| *known == place) {
