@@ -25,7 +25,8 @@ def statement(row: Mapping[str, Any]) -> str:
     risk = row["stated_risk"]
     if row["declared"]:
         wrong = ", but it was not clear" if row["declared_not_clear"] else ""
-        return f"declared clear at {row['declared_s']:.0f} s with a stated risk of {risk:.1%}{wrong}"
+        at = f"declared clear at {row['declared_s']:.0f} s"
+        return f"{at} with a stated risk of {risk:.1%}{wrong}"
     if risk < 1:
         return f"not declared clear: given up with a stated risk of {risk:.1%}"
     # A lane without a statement has a risk of 1, and one that is given up may have it.
