@@ -21,17 +21,18 @@ def clearance(view: AnyView) -> Section:
     of = None if view.selected is None else view.result(view.selected).clearance
     own = [f"{upper(in_words(of))}."] if of else []
     meaning = (
-        "Risk: the share of the lanes declared clear in which a mine was left. It is not known of a "
-        "team that declared none; such a team is not safe. Stated risk: what the controllers "
-        "believed, in the mean over the same lanes. Each interval is exact (Clopper and Pearson) for its own "
-        f"team and a fixed number of runs, with {percentage(view.answer.confidence)} confidence; "
-        "they do not hold simultaneously, and decide nothing."
+        "Risk: the share of the lanes declared clear in which a mine was left. It is not known of "
+        "a team that declared none; such a team is not safe. Stated risk: what the controllers "
+        "believed, in the mean over the same lanes. Each interval is exact (Clopper and Pearson) "
+        "for its own team and a fixed number of runs, with "
+        f"{percentage(view.answer.confidence)} confidence; they do not hold simultaneously, and "
+        "decide nothing."
     )
     on_front = (
         "On the front, no other team with a declared lane has a price, a time and a risk that are "
-        "all at most as high. This holds for these runs, and is not proved. Lanes that were not declared "
-        "count with the time limit, and the risk by the upper end of its interval, so that few "
-        "declarations do not look safe."
+        "all at most as high. This holds for these runs, and is not proved. Lanes that were not "
+        "declared count with the time limit, and the risk by the upper end of its interval, so "
+        "that few declarations do not look safe."
     )
     total = sum(result.clearance is not None for result in view.answer.results)
     shown = len(view.with_clearance)

@@ -72,8 +72,8 @@ def heat(view: RequirementView) -> Section:
     across, down = map(factor_name, view.varied)
     shows = "Share of missions that meet the requirement; the selected team is framed"
     note = (
-        "The mark of a cell is the status of its team. Shares of open teams and of teams that are "
-        "not needed are of few runs, or of none."
+        "The mark of a cell is the status of its team. A cell without colour has no runs, and the "
+        "share of a team that is open or not needed may be of few runs."
     )
     heading = f"Missions that meet it by {across} and {down}"
     cells = map(heat_cell, view.answer.results)
