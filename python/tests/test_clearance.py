@@ -7,20 +7,24 @@ from pathlib import Path
 from typing import Any
 
 import altair as alt
+import in_memory_study
 import numpy as np
 import pytest
 import vl_convert
 from command_line import succeed
+from in_memory_study import WANDERERS
 from lane_study import FILE, LIMIT_S, OAVS, UGVS, Lanes, answered, lane
 
 from agent_economy import study
 from agent_economy.cli.lane_rows import lane_rows
-from agent_economy.study import RequirementAnswer, report
+from agent_economy.study import RequirementAnswer, files, report
+from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.answer.clearance import Clearance, clearance, in_words, percent
 from agent_economy.study.answer.evidence import Sample
 from agent_economy.study.report.clearance_section import front
 from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.tables import Table
+from agent_economy.study.report.view import View
 
 HEADING = "Lanes declared clear"
 NEVER: Lanes = {(0, 1): (0.0, 0.0), (1, 1): (0.95, 0.05), (0, 2): (0.5, 0.4), (1, 2): (1.0, 0.0)}
@@ -182,6 +186,19 @@ def test_a_team_without_a_declared_lane_is_not_on_the_front(tmp_path: Path) -> N
     assert labels == ["1 oav, 1 ugv", "1 oav, 2 ugvs"]
 
 
+def test_few_declarations_without_an_error_do_not_bring_a_team_to_the_front(
+    tmp_path: Path,
+) -> None:
+    often, seldom = (0.95, 0.1), (0.05, 0.0)
+    lanes: Lanes = {(0, 1): often, (1, 1): seldom, (0, 2): seldom, (1, 2): seldom}
+    answer = answered(study.make_plan(lane(), runs=100), lanes, tmp_path)
+    _, evidence = study.load_answer(tmp_path)
+    found = [known(each.clearance) for each in answer.results]
+    assert all(each.risk is not None for each in found)
+    on_front = front(View(expect_best(answer), evidence))
+    assert [answer.results[index].label for index in on_front] == ["0 oavs, 1 ugv"]
+
+
 def test_the_map_of_a_requirement_has_the_status_of_each_team_as_a_shape(tmp_path: Path) -> None:
     answered(required(), NEVER, tmp_path)
     parts = report.parts(*study.load_answer(tmp_path))
@@ -246,3 +263,11 @@ def test_a_run_of_a_real_lane_prints_what_json_has() -> None:
     assert outcome["declared"] is True
     stated = f"declared clear at {outcome['declared_s']:.0f} s"
     assert f"{stated} with a stated risk of {outcome['stated_risk']:.1%}" in printed
+
+
+def test_a_study_without_a_lane_has_no_trace_of_one() -> None:
+    given: list[in_memory_study.Values] = [{WANDERERS: robots} for robots in (2, 3)]
+    answer, evidence = in_memory_study.study(given, in_memory_study.classic, runs=10)
+    assert HEADING not in report.html(answer, evidence, "")
+    assert "clearance" not in files.as_json(answer)
+    assert "lanes" not in " ".join(answer.verdict) + answer.sentence

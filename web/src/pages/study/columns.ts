@@ -28,7 +28,10 @@ export function cellText(value: Cell): string {
 
 /** Whether all cells are numbers, with or without a range, status or unit; such columns are right-aligned. */
 export function areNumbers(cells: string[]): boolean {
-  return cells.length > 0 && cells.every((cell) => /^(([−-]?[\d.,]+( ?%)?|[–—])( \(.*\))?|not known)$/.test(cell.trim()));
+  return (
+    cells.length > 0 &&
+    cells.every((cell) => /^(([−-]?[\d.,]+( ?%)?|[–—])( \(.*\))?|not known)$/.test(cell.trim()))
+  );
 }
 
 export function quantileText(quantile: number): string {
