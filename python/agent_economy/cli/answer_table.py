@@ -8,7 +8,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy.cli.requirement_table import requirement_table
+from agent_economy.cli.clearance_table import clearance_table
+from agent_economy.cli.requirement_table import by_cost, requirement_table
 from agent_economy.cli.whole_table import print_whole
 from agent_economy.study import files
 from agent_economy.study.answer.any_answer import AnyAnswer
@@ -40,9 +41,13 @@ def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
     is_wide = console.width >= WIDE
     if isinstance(answer, RequirementAnswer):
         table, precision = requirement_table(answer, ranges=is_wide), ""
+        lanes = clearance_table(by_cost(answer), ranges=is_wide)
     else:
         table, precision = results_table(answer, ranges=is_wide), f"delta {answer.delta:g}, "
+        lanes = clearance_table(best_first(answer)[:MAX_ROWS], ranges=is_wide)
     print_whole(table, console, NAME)
+    if lanes:
+        print_whole(lanes, console, NAME)
     first, *lines, small = answer.verdict
     console.print(first, style="bold", markup=False, emoji=False)
     for line in lines:

@@ -14,6 +14,7 @@ from rich.text import Text
 from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.errors import FAILED, error_exits, print_warnings
+from agent_economy.cli.lane_rows import lane_rows
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.cli.unserved_goals import Unserved, unserved_goals
@@ -160,6 +161,7 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
         ]
     found = {f"{kind} found": counts(outcome, kind) for kind in outcome.found}
     rows: dict[str, str | None] = {
+        **dict(lane_rows(outcome.row)),
         **found,
         "goals served": served(outcome),
         "time": f"{outcome.time_s:.1f} s of {scenario.time_limit_s:g} s",

@@ -55,7 +55,8 @@ def is_infinite(value: Any) -> bool:
 def as_dict(answer: AnyAnswer) -> dict[str, Any]:
     """Return an answer as JSON values; without what it has none of.
 
-    `omissions`, other `questions` and each `goal_time` are in it only if there are any.
+    `omissions`, other `questions`, and each `goal_time` and `clearance` are in it only if there are
+    any.
     """
     values = asdict(answer, dict_factory=with_names_of_infinity)
     scenario = values.pop("scenario")
@@ -65,8 +66,9 @@ def as_dict(answer: AnyAnswer) -> dict[str, Any]:
     if len(answer.questions) <= 1:
         del values["questions"]
     for result in values["results"]:
-        if result["goal_time"] is None:
-            del result["goal_time"]
+        for name in ("goal_time", "clearance"):
+            if result[name] is None:
+                del result[name]
     results = [
         {"configuration": index, **result} for index, result in enumerate(values.pop("results"))
     ]

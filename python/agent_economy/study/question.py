@@ -17,6 +17,9 @@ GOAL_COLUMNS = (
 )
 """Columns that describe goals, of those that the simulator has: NaN in a quarantined run."""
 
+CLEARANCE_COLUMNS = ("declared", "declared_not_clear", "stated_risk", "declared_s")
+"""Columns that describe a lane to be cleared, in the same way."""
+
 
 @dataclass(frozen=True)
 class Best:

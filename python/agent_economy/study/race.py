@@ -30,7 +30,7 @@ from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
 from agent_economy.study.leaders import leaders
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
-from agent_economy.study.question import GOAL_COLUMNS, Best, Cheapest
+from agent_economy.study.question import CLEARANCE_COLUMNS, GOAL_COLUMNS, Best, Cheapest
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import (
     Elimination,
@@ -318,7 +318,7 @@ def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
     yield question.quantity
     if isinstance(question, Cheapest):
         yield "quarantined"
-    names = dict.fromkeys((*question.columns, *GOAL_COLUMNS))
+    names = dict.fromkeys((*question.columns, *GOAL_COLUMNS, *CLEARANCE_COLUMNS))
     yield from (name for name in names if name in limits)
 
 

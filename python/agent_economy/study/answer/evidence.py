@@ -46,7 +46,8 @@ class Sample(EqualByValue):
         columns: By name, shape (runs,): the quantities of the question, such as those of
             `QUANTITIES`, "robots", and "price" if the simulator has prices. About a requirement,
             "quarantined" is 1 in a quarantined run; in other columns, it has the greatest value.
-            Those of `GOAL_COLUMNS` if the scenario has goals.
+            Those of `GOAL_COLUMNS` if the scenario has goals, and of `CLEARANCE_COLUMNS` if it has
+            a lane to be cleared.
         limits: By name, the range of a column.
         quarantined: Number of runs without a finite merit, which count as the worst.
     """

@@ -5,6 +5,7 @@ from functools import cached_property
 from typing import Literal
 
 from agent_economy.scenario import Requirement, Value
+from agent_economy.study.answer.clearance import Clearance, clearance
 from agent_economy.study.answer.evidence import Evidence, Interval, Sample
 from agent_economy.study.answer.goal_time import GoalTime, goal_time
 from agent_economy.study.answer.labels import label
@@ -61,6 +62,7 @@ class RequirementResult:
             quarantined runs included. Empty without runs.
         quantiles: Quantiles of the columns of the conditions.
         goal_time: Where the time of a goal goes; None if no goal was served.
+        clearance: The lanes that were declared clear; None without runs, or without a lane.
     """
 
     values: dict[str, Value]
@@ -74,6 +76,7 @@ class RequirementResult:
     failing: tuple[float, ...]
     quantiles: tuple[Quantiles, ...]
     goal_time: GoalTime | None = None
+    clearance: Clearance | None = None
 
     @property
     def is_possible(self) -> bool:
@@ -98,6 +101,7 @@ def results(
             failing=failing(sample, requirement),
             quantiles=quantiles_of(evidence, sample, quantile_columns(requirement)),
             goal_time=goal_time(sample),
+            clearance=clearance(sample, evidence.confidence),
         )
         for index, sample in enumerate(evidence.samples)
     )

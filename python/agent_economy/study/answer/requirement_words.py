@@ -4,10 +4,11 @@ import math
 from collections.abc import Sequence
 
 from agent_economy.scenario import Requirement
+from agent_economy.study.answer import clearance
 from agent_economy.study.answer.condition_words import in_words
 from agent_economy.study.answer.labels import listed, recommendation
 from agent_economy.study.answer.requirement_results import RequirementResult, Status
-from agent_economy.study.answer.verdict import Verdict, upper
+from agent_economy.study.answer.verdict import Verdict, declarations, upper
 from agent_economy.study.question import Cheapest
 from agent_economy.study.selection import percentage
 
@@ -38,7 +39,8 @@ def requirement_verdict(
         second = " ".join(f"{part}." for part in why(question, results, is_over=is_over))
     else:
         first = f"{recommendation(chosen.values)}."
-        second = f"{upper(holds)} in at least {low} of missions{seen(chosen, requirement)}."
+        met = f"{upper(holds)} in at least {low} of missions{seen(chosen, requirement)}."
+        second = " ".join([met, *declarations(chosen.clearance)])
     parts = of_cheaper(question, results, is_over=is_over)
     parts += named(cheaper(results), "impossible", f"cannot be run ({obstacle})")
     third = " ".join(f"{part}." for part in parts) or "No compared team is cheaper."
@@ -123,6 +125,7 @@ def sentence(
         confidently = f"({percentage(confidence)} confidence)"
         send = recommendation(chosen.values)
         parts = [f"{send}: {holds} in at least {low} of missions {confidently}"]
+        parts += [upper(clearance.in_words(chosen.clearance))] if chosen.clearance else []
     parts += of_cheaper(question, results, is_over=is_over)
     parts += named(results, "impossible", f"cannot be run ({obstacle})")
     if chosen is not None:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from agent_economy.scenario import Value
+from agent_economy.study.answer.clearance import Clearance, clearance
 from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.answer.front import Place, front
 from agent_economy.study.answer.goal_time import GoalTime, goal_time
@@ -48,6 +49,7 @@ class Result:
         eliminated: When and by which configuration; None if it was not eliminated.
         quantiles: Quantiles of the time of success.
         goal_time: Where the time of a goal goes; None if no goal was served.
+        clearance: The lanes that were declared clear; None without runs, or without a lane.
     """
 
     values: dict[str, Value]
@@ -62,6 +64,7 @@ class Result:
     eliminated: Elimination | None
     quantiles: tuple[Quantiles, ...] = ()
     goal_time: GoalTime | None = None
+    clearance: Clearance | None = None
 
     @property
     def is_possible(self) -> bool:
@@ -88,6 +91,7 @@ def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, .
             eliminated=eliminated.get(index),
             quantiles=quantiles_of(evidence, evidence.samples[index], ("time_s",)),
             goal_time=goal_time(evidence.samples[index]),
+            clearance=clearance(evidence.samples[index], evidence.confidence),
         )
         for index, (stands, place) in enumerate(placed)
     )

@@ -3,9 +3,11 @@
 from collections.abc import Sequence
 
 from agent_economy.scenario import Scenario
+from agent_economy.study.answer import clearance
 from agent_economy.study.answer.labels import listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.answer.ties import Verdict
+from agent_economy.study.answer.verdict import upper
 from agent_economy.study.paths import counted_kind, robot_kind
 
 MAX_NAMED = 5
@@ -26,6 +28,7 @@ def sentence(
         recommendation(chosen.values),
         *([f"The price of the team is {chosen.place.price:,.12g}"] if has_prices else []),
         performance(chosen),
+        *([upper(clearance.in_words(chosen.clearance))] if chosen.clearance else []),
         *impossible(results, ending.obstacle),
         *named(results, {"tied"}, f"tied within {delta:g}"),
         *named(results, {"undecided", "not better"}, "too close to decide with these runs", delta),

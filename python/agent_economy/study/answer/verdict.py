@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from html import escape
 
 from agent_economy.scenario import Scenario
+from agent_economy.study.answer import clearance
 from agent_economy.study.answer.labels import alternatives, listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.selection import percentage
@@ -37,8 +38,14 @@ def verdict(
     else:
         first = f"{send}."
         second = f"A run takes {time_s}; {fails}."
+    second = " ".join([second, *declarations(chosen.clearance)])
     third = " ".join([others(chosen, results), *impossible(results, ending.obstacle)])
     return first, second, third, precision(scenario, delta, confidence)
+
+
+def declarations(of: clearance.Clearance | None) -> list[str]:
+    """Return a sentence about the lanes that a team declared clear; none without a lane."""
+    return [f"{upper(clearance.in_words(of))}."] if of else []
 
 
 def impossible(results: Sequence[Result], obstacle: str) -> list[str]:

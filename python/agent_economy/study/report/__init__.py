@@ -9,7 +9,8 @@ from agent_economy.study.report.charts import specifications
 from agent_economy.study.report.page import html
 from agent_economy.study.report.parts import ReportParts, parts
 from agent_economy.study.report.script import ChartScript
-from agent_economy.study.report.sections import Section, sections
+from agent_economy.study.report.section import Section
+from agent_economy.study.report.sections import sections
 from agent_economy.study.report.tables import Table
 from agent_economy.study.report.view import View
 

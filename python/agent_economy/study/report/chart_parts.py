@@ -15,6 +15,15 @@ Codes = dict[str, tuple[str, str]]
 BLUE, ORANGE, TEAL, GREY = "#2f7fd1", "#d9730d", "#1a9a8a", "#87909b"
 """Distinguishable with colour blindness, and visible on light and dark backgrounds."""
 
+VERDICTS: Codes = {
+    "selected": (BLUE, "circle"),
+    "tied within delta": (TEAL, "square"),
+    "not better by delta": (TEAL, "triangle-right"),
+    "undecided": (ORANGE, "diamond"),
+    "worse": (GREY, "triangle-down"),
+}
+"""The verdicts on configurations in a study of merit."""
+
 SCHEMA = "https://vega.github.io/schema/vega-lite/v6.json"
 INK = "ink"
 """Name of text layers, which take the text colour of the page."""

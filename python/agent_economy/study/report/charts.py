@@ -21,6 +21,7 @@ from agent_economy.study.report.chart_parts import (
     INK,
     ORANGE,
     TEAL,
+    VERDICTS,
     Codes,
     Rows,
     Spec,
@@ -44,13 +45,6 @@ from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.scale import ValueAxis, scaled
 from agent_economy.study.report.view import View
 
-VERDICTS: Codes = {
-    "selected": (BLUE, "circle"),
-    "tied within delta": (TEAL, "square"),
-    "not better by delta": (TEAL, "triangle-right"),
-    "undecided": (ORANGE, "diamond"),
-    "worse": (GREY, "triangle-down"),
-}
 PLACES: Codes = {
     "selected": (BLUE, "circle"),
     "selected, dominated": (BLUE, "cross"),

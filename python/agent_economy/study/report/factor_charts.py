@@ -4,9 +4,11 @@ from typing import Any
 
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.saturation import Saturation
+from agent_economy.study.answer.ties import VERDICT_TEXT
 from agent_economy.study.report.chart_parts import (
     BLUE,
     ORANGE,
+    VERDICTS,
     Codes,
     Rows,
     Spec,
@@ -16,17 +18,17 @@ from agent_economy.study.report.chart_parts import (
     chart,
     coded,
     field,
-    fixed,
     heights,
     line_at,
     row_of,
     with_bounds,
 )
 from agent_economy.study.report.formatting import finite
+from agent_economy.study.report.heat_map import heat_map
 from agent_economy.study.report.view import View, factor_name
 
-TALLEST = 480
-"""Height of a heat map in pixels, unless its rows become too thin."""
+MARKS: Codes = {name: code for name, code in VERDICTS.items() if name != "worse"}
+"""The verdicts that mark cells of a heat map; most cells of a finished study are worse."""
 
 MEASURES: Codes = {
     "alone": (BLUE, "circle"),
@@ -51,41 +53,22 @@ def specifications(view: View) -> dict[str, Spec]:
 
 
 def heat(view: View) -> Spec:
-    """Return the heat map of the mean merit over two factors, the selected one framed."""
-    across, down = view.varied
+    """Return the heat map of the mean merit over two factors, those not decided marked."""
     rows: Rows = [
         {
             **row_of(view, index),
-            "across": result.values[across],
-            "down": result.values[down],
             "value": finite(result.merit.value) if view.is_possible(index) else None,
+            "mark": mark_of(view, index),
         }
         for index, result in enumerate(view.answer.results)
     ]
-    named = {"labelAngle": 0, "labelOverlap": True, "grid": False}
-    lattice = {
-        "x": field("across", "ordinal", title=factor_name(across), axis=named),
-        "y": field("down", "ordinal", title=factor_name(down), axis=named),
-    }
-    for channel, low_first in (("x", True), ("y", False)):
-        lattice[channel]["sort"] = steps(rows, lattice[channel]["field"], low_first=low_first)
-    color = field("value", title="mean merit", scale={"scheme": "viridis"})
-    tip = [field("label", "nominal", title=" "), field("value", title="mean merit")]
-    frame = {"type": "rect", "filled": False, "stroke": ORANGE, "strokeWidth": 4}
-    layers = [
-        {"mark": "rect", "encoding": {**lattice, "color": color, "tooltip": tip}},
-        fixed([rows[view.answer.best]], frame, lattice),
-    ]
-    levels = len({row["down"] for row in rows})
-    return chart(layers, rows, {"step": max(8, min(26, TALLEST // levels))})
+    return heat_map(view, rows, {"title": "mean merit"}, MARKS)
 
 
-def steps(rows: Rows, name: str, *, low_first: bool) -> list[float | str]:
-    """Return the values along one axis of a heat map: numbers sorted, names in their order."""
-    found = list(dict.fromkeys(row[name] for row in rows))
-    if any(isinstance(value, str) for value in found):
-        return found
-    return sorted(found, reverse=not low_first)
+def mark_of(view: View, index: int) -> str | None:
+    """Return the verdict that marks a cell of a heat map; None for those that are decided."""
+    text = VERDICT_TEXT[view.result(index).standing.verdict]
+    return text if text in MARKS else None
 
 
 def saturation(view: View, found: Saturation) -> Spec:

@@ -12,7 +12,8 @@ from agent_economy.study.report.chart_parts import Spec
 from agent_economy.study.report.formatting import brief, count
 from agent_economy.study.report.requirement_sections import requirement_sections
 from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.sections import Section, sections
+from agent_economy.study.report.section import Section
+from agent_economy.study.report.sections import sections
 from agent_economy.study.report.view import View
 from agent_economy.study.selection import percentage
 

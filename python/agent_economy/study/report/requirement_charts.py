@@ -30,6 +30,7 @@ from agent_economy.study.report.chart_parts import (
 )
 from agent_economy.study.report.contenders import contenders
 from agent_economy.study.report.formatting import finite
+from agent_economy.study.report.heat_map import heat_map
 from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.scale import ValueAxis, scaled
 
@@ -51,6 +52,8 @@ MAX_POINTS = 400
 def specifications(view: RequirementView) -> dict[str, Spec]:
     """Return the Vega-Lite specification of each chart that the answer has data for, by name."""
     made = {"share": share(view), "failing": failing(view)}
+    if view.is_grid:
+        made["heat"] = heat(view)
     if view.compared_distributions:
         made["distribution"] = distribution(view)
     if view.has_prices:
@@ -83,6 +86,21 @@ def share_row(view: RequirementView, index: int) -> dict[str, Any]:
     met = result.met
     known = bounds(met) if met else {"value": None, "low": None, "high": None}
     return {"label": view.names[index], "configuration": index, **known, "status": result.status}
+
+
+def heat(view: RequirementView) -> Spec:
+    """Return the heat map of the share over two factors, with the status of each team."""
+    rows: Rows = [
+        {
+            "label": view.names[index],
+            "configuration": index,
+            "value": finite(result.met.value) if result.met and result.is_possible else None,
+            "mark": result.status,
+        }
+        for index, result in enumerate(view.answer.results)
+    ]
+    title = {"title": "share of missions that meet it", "format": "~%"}
+    return heat_map(view, rows, title, {**STATUSES, "impossible": (GREY, "cross")})
 
 
 def failing(view: RequirementView) -> Spec:

@@ -2,9 +2,13 @@
 
 from collections.abc import Iterator
 
+from agent_economy.study.answer.requirement_results import RequirementResult
+from agent_economy.study.report import tables
+from agent_economy.study.report.clearance_section import clearance
 from agent_economy.study.report.formatting import NOTHING, percent, places
 from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.sections import Picture, Section, goal_time
+from agent_economy.study.report.section import Picture, Section
+from agent_economy.study.report.sections import goal_time
 from agent_economy.study.report.tables import (
     QUANTILE_HEADS,
     Cell,
@@ -14,13 +18,17 @@ from agent_economy.study.report.tables import (
     shares,
     words,
 )
-from agent_economy.study.report.view import MAX_SHOWN
+from agent_economy.study.report.view import MAX_SHOWN, factor_name
 from agent_economy.study.selection import percentage
 
 
 def requirement_sections(view: RequirementView) -> Iterator[Section]:
     """Return the sections that the answer has data for."""
     yield share(view)
+    if view.is_grid:
+        yield heat(view)
+    if view.with_clearance:
+        yield clearance(view)
     yield failing(view)
     if view.compared_distributions:
         yield distribution(view)
@@ -57,6 +65,27 @@ def share(view: RequirementView) -> Section:
         (table(view),),
         is_folded=False,
     )
+
+
+def heat(view: RequirementView) -> Section:
+    """Return the section on the share over two factors."""
+    across, down = map(factor_name, view.varied)
+    shows = "Share of missions that meet the requirement; the selected team is framed"
+    note = (
+        "The mark of a cell is the status of its team. A cell without colour has no runs, and the "
+        "share of a team that is open or not needed may be of few runs."
+    )
+    heading = f"Missions that meet it by {across} and {down}"
+    cells = map(heat_cell, view.answer.results)
+    found = tables.grid(view, "Share of missions and status", cells)
+    return Section(heading, (note,), (Picture("heat", shows),), found)
+
+
+def heat_cell(result: RequirementResult) -> Cell:
+    """Return the cell of the share and the status of a team."""
+    if result.met is None or not result.is_possible:
+        return Cell(NOTHING, result.status)
+    return Cell(percent(result.met.value, 1), result.status)
 
 
 def spare(view: RequirementView) -> str:

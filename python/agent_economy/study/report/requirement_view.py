@@ -4,12 +4,14 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 
-from agent_economy.scenario import Condition
+from agent_economy.scenario import Condition, Value
+from agent_economy.study.answer.clearance import Clearance
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.goal_time import GoalTime
+from agent_economy.study.answer.labels import varied
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.requirement_results import RequirementResult
-from agent_economy.study.report.view import MAX_SHOWN
+from agent_economy.study.report.view import MAX_SHOWN, are_grid
 
 
 @dataclass(frozen=True)
@@ -60,10 +62,31 @@ class RequirementView:
         return self.answer.selected
 
     @cached_property
+    def configurations(self) -> list[dict[str, Value]]:
+        """The values of the varied factors of each configuration."""
+        return [result.values for result in self.answer.results]
+
+    @cached_property
+    def varied(self) -> tuple[str, ...]:
+        """Paths that have more than one value."""
+        return varied(self.configurations)
+
+    @cached_property
+    def is_grid(self) -> bool:
+        """Whether two factors are varied in a full grid."""
+        return are_grid(self.configurations, self.varied)
+
+    @cached_property
     def with_goal_time(self) -> dict[int, GoalTime]:
         """Where the time of a goal goes in those that are shown, in the order of the design."""
         times = {index: self.result(index).goal_time for index in sorted(self.shown)}
         return {index: time for index, time in times.items() if time is not None}
+
+    @cached_property
+    def with_clearance(self) -> dict[int, Clearance]:
+        """The lanes declared clear by those that are shown, in their order."""
+        lanes = {index: self.result(index).clearance for index in self.shown}
+        return {index: of for index, of in lanes.items() if of is not None}
 
     @cached_property
     def compared_distributions(self) -> tuple[int, ...]:

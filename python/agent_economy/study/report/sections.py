@@ -1,44 +1,17 @@
 """The sections of a report in their order: notes, charts and tables."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from agent_economy.study.answer.goal_time import in_words
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.paths import robot_kind
 from agent_economy.study.report import goal_table, tables
+from agent_economy.study.report.clearance_section import clearance
 from agent_economy.study.report.formatting import MINUS, TIMES, brief, count
 from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.tables import Table
+from agent_economy.study.report.section import Picture, Section
 from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
 from agent_economy.study.selection import percentage
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A chart by name, with its caption."""
-
-    name: str
-    shows: str
-
-
-@dataclass(frozen=True)
-class Section:
-    """A section of the page.
-
-    Attributes:
-        heading: Its heading.
-        notes: Explanations, a paragraph each.
-        pictures: Its charts.
-        tables: Its tables.
-        is_folded: Whether its tables are initially closed.
-    """
-
-    heading: str
-    notes: tuple[str, ...]
-    pictures: tuple[Picture, ...] = ()
-    tables: tuple[Table, ...] = ()
-    is_folded: bool = True
 
 
 def sections(view: View) -> Iterator[Section]:
@@ -46,6 +19,8 @@ def sections(view: View) -> Iterator[Section]:
     yield merit(view)
     if view.is_grid:
         yield heat(view)
+    if view.with_clearance:
+        yield clearance(view)
     yield failed(view)
     if view.with_goal_time:
         yield goal_time(view)
@@ -91,9 +66,10 @@ def merit(view: View) -> Section:
 def heat(view: View) -> Section:
     """Return the section on the merit over two factors."""
     across, down = map(factor_name, view.varied)
-    picture = Picture("heat", "Mean merit of every combination; the selected one is framed")
+    shows = "Mean merit of every combination; the selected one is framed, those not decided marked"
     heading = f"Merit by {across} and {down}"
-    return Section(heading, (), (picture,), tables.heat(view))
+    note = "Combinations without a mark are proved to be worse, or cannot be run."
+    return Section(heading, (note,), (Picture("heat", shows),), tables.heat(view))
 
 
 def formula(view: View) -> str:

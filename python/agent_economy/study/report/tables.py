@@ -10,6 +10,7 @@ from agent_economy.study.answer.quantiles import Quantile, Quantiles
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
+from agent_economy.study.report.factor_charts import mark_of
 from agent_economy.study.report.formatting import (
     INFINITE,
     NOTHING,
@@ -18,6 +19,7 @@ from agent_economy.study.report.formatting import (
     decimal,
     percent,
 )
+from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
 
 WIDEST = 10
@@ -26,7 +28,7 @@ WIDEST = 10
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell: its text, its interval if any, and whether it contains words, not a number."""
+    """A cell: its text, its interval or status if any, and whether it contains words."""
 
     text: str
     range: str = ""
@@ -121,23 +123,29 @@ def merit_cell(view: View, index: int) -> Cell:
 
 
 def heat(view: View) -> tuple[Table, ...]:
-    """Return the mean merit over two factors, in tables that fit on a printed page."""
+    """Return the mean merit over two factors; the cells of a heat map's marks have its words."""
+    cells = [
+        Cell(merit_cell(view, index).text, mark_of(view, index) or "")
+        for index in range(len(view.answer.results))
+    ]
+    return grid(view, "Mean merit", cells)
+
+
+def grid(view: View | RequirementView, quantity: str, cells: Iterable[Cell]) -> tuple[Table, ...]:
+    """Return a cell per configuration over two factors, in tables that fit on a printed page."""
     across, down = view.varied
-    merits = {
-        (result.values[across], result.values[down]): merit_cell(view, index).text
-        for index, result in enumerate(view.answer.results)
+    placed = {
+        (values[across], values[down]): cell
+        for values, cell in zip(view.configurations, cells, strict=True)
     }
-    columns = tuple(dict.fromkeys(one for one, _ in merits))
-    rows = tuple(dict.fromkeys(other for _, other in merits))
-    name = f"Mean merit; rows: {factor_name(down)}, columns: {factor_name(across)}"
+    columns = tuple(dict.fromkeys(one for one, _ in placed))
+    rows = tuple(dict.fromkeys(other for _, other in placed))
+    name = f"{quantity}; rows: {factor_name(down)}, columns: {factor_name(across)}"
     return tuple(
         table(
             name,
             ("", *map(written, part)),
-            (
-                (words(written(other)), *(Cell(merits[one, other]) for one in part))
-                for other in rows
-            ),
+            ((words(written(other)), *(placed[one, other] for one in part)) for other in rows),
         )
         for part in (columns[first : first + WIDEST] for first in range(0, len(columns), WIDEST))
     )

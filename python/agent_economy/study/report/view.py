@@ -2,13 +2,16 @@
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from agent_economy.scenario import Value
+from agent_economy.study.answer.clearance import Clearance
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.goal_time import GoalTime
-from agent_economy.study.answer.labels import is_number, varied
+from agent_economy.study.answer.labels import Values, is_number, varied
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.paths import counted_kind, robot_kind
@@ -97,9 +100,20 @@ class View:
         return {index: time for index, time in times.items() if time is not None}
 
     @cached_property
+    def with_clearance(self) -> dict[int, Clearance]:
+        """The lanes declared clear by those that are shown, in their order."""
+        lanes = {index: self.result(index).clearance for index in self.shown}
+        return {index: of for index, of in lanes.items() if of is not None}
+
+    @cached_property
+    def configurations(self) -> list[dict[str, Value]]:
+        """The values of the varied factors of each configuration."""
+        return [result.values for result in self.answer.results]
+
+    @cached_property
     def varied(self) -> tuple[str, ...]:
         """Paths that have more than one value."""
-        return varied([result.values for result in self.answer.results])
+        return varied(self.configurations)
 
     @cached_property
     def numeric_factor(self) -> str | None:
@@ -133,12 +147,7 @@ class View:
     @cached_property
     def is_grid(self) -> bool:
         """Whether two factors are varied in a full grid."""
-        results = self.answer.results
-        if len(self.varied) != len(("across", "down")) or len(results) > MAX_CELLS:
-            return False
-        points = {tuple(each.values[path] for path in self.varied) for each in results}
-        sides = [len(set(side)) for side in zip(*points, strict=True)]
-        return len(points) == len(results) == sides[0] * sides[1]
+        return are_grid(self.configurations, self.varied)
 
     @cached_property
     def saturations(self) -> tuple[Saturation, ...]:
@@ -191,3 +200,12 @@ def factor_name(path: str) -> str:
     """Return the name of a factor on an axis: rovers for robots.rover.count, else the last key."""
     kind = counted_kind(path)
     return path.rsplit(".", 1)[-1] if kind is None else f"{kind}s"
+
+
+def are_grid(configurations: Sequence[Values], paths: tuple[str, ...]) -> bool:
+    """Return whether configurations are a full grid of two factors, which a heat map can show."""
+    if len(paths) != len(("across", "down")) or len(configurations) > MAX_CELLS:
+        return False
+    points = {tuple(each[path] for path in paths) for each in configurations}
+    sides = [len(set(side)) for side in zip(*points, strict=True)]
+    return len(points) == len(configurations) == sides[0] * sides[1]

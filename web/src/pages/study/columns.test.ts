@@ -26,6 +26,7 @@ test("the ends and the middle of a sample have names", () => {
 
 test("columns of numbers are recognised", () => {
   expect(areNumbers(["−2.55 (−3.23 to −1.87)", "12,345", "0.26%", "–"])).toBe(true);
+  expect(areNumbers(["4.7% (3.1% to 6.8%)", "not known", "– (not needed)"])).toBe(true);
   expect(areNumbers(["1,234", "out after 27 runs"])).toBe(false);
   expect(areNumbers([])).toBe(false);
 });

@@ -26,9 +26,12 @@ export function cellText(value: Cell): string {
   return value.toLocaleString("en", figures).replace("-", "−");
 }
 
-/** Whether all cells are numbers, with or without a range or unit; such columns are right-aligned. */
+/** Whether all cells are numbers, with or without a range, status or unit; such columns are right-aligned. */
 export function areNumbers(cells: string[]): boolean {
-  return cells.length > 0 && cells.every((cell) => /^([−-]?[\d.,]+( ?%)?( \(.*\))?|[–—])$/.test(cell.trim()));
+  return (
+    cells.length > 0 &&
+    cells.every((cell) => /^(([−-]?[\d.,]+( ?%)?|[–—])( \(.*\))?|not known)$/.test(cell.trim()))
+  );
 }
 
 export function quantileText(quantile: number): string {

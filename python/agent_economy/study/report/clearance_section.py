@@ -1,0 +1,129 @@
+"""The section on lanes that teams declared clear: the risk beside the share declared; a front."""
+
+from agent_economy.study.answer.clearance import Clearance, in_words, percent
+from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.verdict import upper
+from agent_economy.study.report.formatting import NOTHING, decimal
+from agent_economy.study.report.requirement_view import RequirementView
+from agent_economy.study.report.section import Section
+from agent_economy.study.report.tables import Cell, Row, Table, words
+from agent_economy.study.report.view import MAX_SHOWN, View
+from agent_economy.study.selection import percentage
+
+AnyView = View | RequirementView
+
+HEADS = ("lanes", "declared clear", "risk", "stated risk", "mean time until declared, s")
+FRONT_HEADS = ("price", "declared clear", "risk", "mean time of all lanes, s")
+
+
+def clearance(view: AnyView) -> Section:
+    """Return the section on lanes that were declared clear."""
+    of = None if view.selected is None else view.result(view.selected).clearance
+    own = [f"{upper(in_words(of))}."] if of else []
+    meaning = (
+        "Risk: the share of the lanes declared clear in which a mine was left. It is not known of "
+        "a team that declared none; such a team is not safe. Stated risk: what the controllers "
+        "believed, in the mean over the same lanes. Each interval is exact (Clopper and Pearson) "
+        "for its own team and a fixed number of runs, with "
+        f"{percentage(view.answer.confidence)} confidence; they do not hold simultaneously, and "
+        "decide nothing."
+    )
+    on_front = (
+        "On the front, no other team with a declared lane has a price, a time and a risk that are "
+        "all at most as high. This holds for these runs, and is not proved. Lanes that were not "
+        "declared count with the time limit, and the risk by the upper end of its interval, so "
+        "that few declarations do not look safe."
+    )
+    total = sum(result.clearance is not None for result in view.answer.results)
+    shown = len(view.with_clearance)
+    some = f"{MAX_SHOWN} of {total:,} configurations are shown; answer.json contains all."
+    return Section(
+        "Lanes declared clear",
+        (*own, meaning, *([on_front] if front(view) else []), *([some] if shown < total else [])),
+        tables=(table(view), *([front_table(view)] if front(view) else [])),
+        is_folded=False,
+    )
+
+
+def table(view: AnyView) -> Table:
+    """Return the table of all shown configurations."""
+
+    def row(index: int, of: Clearance) -> Row:
+        cells = (
+            Cell(f"{of.lanes:,}"),
+            share(of.declared_share),
+            risk(of),
+            Cell(NOTHING if of.stated_risk is None else percent(of.stated_risk)),
+            seconds(of.declared_s),
+        )
+        return Row((words(view.names[index]), *cells), style(view, index), index)
+
+    caption = "Lanes declared clear, and the share of these that were not clear"
+    rows = tuple(row(index, of) for index, of in view.with_clearance.items())
+    return Table(caption, ("configuration", *HEADS), rows)
+
+
+def front_table(view: AnyView) -> Table:
+    """Return the table of the configurations on the front, the cheapest first."""
+
+    def row(index: int, of: Clearance) -> Row:
+        cells = (
+            Cell(f"{price(view, index):,.12g}"),
+            share(of.declared_share),
+            risk(of),
+            seconds(of.cleared_s),
+        )
+        return Row((words(view.names[index]), *cells), style(view, index), index)
+
+    rows = tuple(row(index, of) for index, of in front(view).items())
+    return Table("Front of price, time and risk", ("configuration", *FRONT_HEADS), rows)
+
+
+def front(view: AnyView) -> dict[int, Clearance]:
+    """Return the configurations that no other one dominates, the cheapest first; none of one."""
+    points = {
+        index: (price(view, index), of.cleared_s, of.risk.high)
+        for index, of in view.with_clearance.items()
+        if of.risk is not None and of.cleared_s is not None
+    }
+    if len(points) == 1:
+        return {}
+    best = (
+        index
+        for index, point in points.items()
+        if not any(dominates(other, point) for other in points.values())
+    )
+    return {index: view.with_clearance[index] for index in sorted(best, key=points.__getitem__)}
+
+
+def dominates(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
+    """Return whether a point is nowhere higher than another, and differs from it."""
+    return one != other and all(low <= high for low, high in zip(one, other, strict=True))
+
+
+def price(view: AnyView, index: int) -> float:
+    """Return the price of a configuration; without prices, its number of robots."""
+    if isinstance(view, RequirementView):
+        return view.result(index).price
+    return view.result(index).place.price
+
+
+def share(interval: Interval) -> Cell:
+    """Return the cell of a share and its bounds."""
+    bounds = f"{percent(interval.low)} to {percent(interval.high)}"
+    return Cell(percent(interval.value), bounds)
+
+
+def risk(of: Clearance) -> Cell:
+    """Return the cell of the share of declared lanes that were not clear."""
+    return Cell("not known") if of.risk is None else share(of.risk)
+
+
+def seconds(time_s: float | None) -> Cell:
+    """Return the cell of a time."""
+    return Cell(NOTHING if time_s is None else decimal(time_s, 0))
+
+
+def style(view: AnyView, index: int) -> str:
+    """Return the CSS class of a row."""
+    return "best" if index == view.selected else ""
