@@ -21,7 +21,7 @@ pub(super) struct LaneCoverage {
     /// The steps that were sent last, and the next block of cells.
     sent: Vec<u8>,
     next_block: usize,
-    /// The steps of each cell, computed again for the blocks in view of a look since.
+    /// The steps of each cell, computed again for the blocks in view of later observations.
     steps: Vec<u8>,
     is_stale: Vec<bool>,
 }

@@ -3,7 +3,7 @@
 use super::coverage::Searched;
 use super::marks::Marks;
 use super::place::Place;
-use super::remaining::Remaining;
+use super::remaining::{Remaining, missed_share};
 use super::risk::Risk;
 use super::settings::Clearance;
 use alloc::sync::Arc;
@@ -283,17 +283,12 @@ impl LanePicture {
         models.map(is_marked).collect()
     }
 
-    /// The robots whose looks do not contradict an item at a place: those that have marked it, or something so near
-    /// that it may be the same item.
+    /// The robots whose looks do not contradict an item at a place: those that have marked it, or something
+    /// that may be the same item.
     fn robots_in_agreement(&self, place: &Place) -> Vec<RobotId> {
         let within_m = NEAR_M.max(place.reach_m());
         let mut robots = self.marks.robots_near(place.at, within_m);
         robots.extend(place.robots());
         robots
     }
-}
-
-/// Share of items that all looks of a model miss.
-pub(super) fn missed_share(blind: f64, nats: f64) -> f64 {
-    blind + (1.0 - blind) * libm::exp(-nats)
 }

@@ -90,7 +90,7 @@ impl Plan {
         let expected = picture.risk().expected();
         let is_possible = |one: &Proposal| {
             let is_impossible = (circumstances.is_impossible)(one.subject);
-            circumstances.has(clearance, &one.skill) && !is_impossible
+            circumstances.has(clearance, one.skill) && !is_impossible
         };
         let possible = proposals.iter().filter(|one| is_possible(one));
         let gain: f64 = possible.map(|one| one.value).sum();
@@ -104,7 +104,7 @@ impl Plan {
 
 impl Circumstances<'_> {
     /// Whether a robot in range has a skill.
-    fn has(&self, clearance: &Clearance, skill: &Skill) -> bool {
+    fn has(&self, clearance: &Clearance, skill: Skill) -> bool {
         let mut kinds = self.kinds.iter();
         kinds.any(|kind| {
             let robot = clearance.robots.get(usize::from(*kind));

@@ -1,7 +1,6 @@
 //! The expected numbers of mines without a mark, kept for each cell: only messages about a cell change them.
 
 use super::coverage::Searched;
-use super::picture::missed_share;
 use super::settings::{Clearance, Skill};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -33,7 +32,7 @@ impl Remaining {
         Self {
             shares: shares.collect(),
             tiles: cells.map(tile).collect(),
-            ways: ways.map(|skill| nats_of(clearance, skill)).collect(),
+            ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
             now: vec![0.0; lane.cells()],
             after: vec![vec![0.0; lane.cells()]; clearance.searches.len()],
         }
@@ -78,7 +77,7 @@ impl Clearance {
 }
 
 /// For each sensor model, the looks of one search by the best robots that have the skill.
-fn nats_of(clearance: &Clearance, skill: &Skill) -> Vec<f64> {
+fn nats_of(clearance: &Clearance, skill: Skill) -> Vec<f64> {
     let models = clearance.models();
     let mut nats = vec![0.0; models.len()];
     let able = clearance.robots.iter().filter(|robot| robot.has(skill));
@@ -88,4 +87,9 @@ fn nats_of(clearance: &Clearance, skill: &Skill) -> Vec<f64> {
         nats[index.unwrap_or_default()] = best.search_nats;
     }
     nats
+}
+
+/// Share of items that all looks of a model miss.
+pub(super) fn missed_share(blind: f64, nats: f64) -> f64 {
+    blind + (1.0 - blind) * libm::exp(-nats)
 }

@@ -155,7 +155,7 @@ impl Beliefs {
         }
     }
 
-    /// Takes what messages and results say of a lane. What this robot, or another by its statement, has destroyed is
+    /// Takes messages and results about a lane. What this robot, or another by its statement, has destroyed is
     /// forgotten: later contacts there are of other items.
     fn note_lane(&mut self, percept: &Percept, body: &Body) {
         for received in &percept.inbox {

@@ -239,7 +239,7 @@ impl Track {
         let mut trusts = [None; SOURCES];
         let sources = &self.sources[..self.count];
         for (place, source) in sources.iter().enumerate() {
-            // Looks that have only missed say nothing about kinds.
+            // Looks that have only missed are no evidence of a kind.
             if source.provenance.observer != own && source.log_ratio > 0.0 {
                 trusts[place] = trust(source);
             }
