@@ -2,7 +2,7 @@
 //! holds their leases, and reports.
 
 use super::ability::{Ability, Moment};
-use super::charges::Firing;
+use super::charge_state::Firing;
 use super::failures::Failures;
 use super::finished::Finished;
 use super::holder::Holder;

@@ -1,7 +1,7 @@
 //! The goals that a robot serves, in the order in which it serves them.
 
 use super::ability::Ability;
-use super::charges::{Aim, Charges};
+use super::charge_state::{Aim, Charges};
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
 use crate::io::dispatch::{Task, Work};

@@ -2,6 +2,7 @@
 
 pub(crate) mod clearance;
 pub(crate) mod kind;
+pub(crate) mod lane;
 
 use crate::radio::RadioSpec;
 use crate::sensors::SensorSpec;

@@ -92,11 +92,10 @@ impl ActTally {
             ActKind::Confirm if is_false => {
                 is_new(&mut self.false_confirmations, done.act.at, scenario)
             }
-            ActKind::Mark | ActKind::Confirm => false,
+            // Controllers state the last two, without a place.
+            ActKind::Mark | ActKind::Confirm | ActKind::DeclareClear | ActKind::GiveUp => false,
             ActKind::Reject | ActKind::Isolate => done.items.is_empty(),
             ActKind::Neutralise => true,
-            // Controllers state these, without a place.
-            ActKind::DeclareClear | ActKind::GiveUp => false,
         };
         if is_counted {
             events.note(tick, event(done, items));

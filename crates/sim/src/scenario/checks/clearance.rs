@@ -2,7 +2,8 @@
 
 use super::controllers::unknown;
 use crate::bodies::{Layer, RobotSpec};
-use crate::controllers::clearance::{ClearanceSpec, SkillSpec, detectors};
+use crate::controllers::clearance::{ClearanceSpec, SkillSpec};
+use crate::controllers::lane::detectors;
 use crate::scenario::spec::ScenarioSpec;
 use crate::world::items::CompletedBy;
 use base::document::{Document, Node, Place, Value};
@@ -91,12 +92,12 @@ fn of_expected(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Ve
 /// Skills that no robots have.
 fn of_skills(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
-    let serves = |robot: &&RobotSpec| {
+    let has_behaviour = |robot: &&RobotSpec| {
         let mut behaviours = robot.brain.behaviours.iter();
         let is_served = behaviours.any(|behaviour| matches!(behaviour, BehaviourSpec::Serve(_)));
         robot.radio.is_some() && is_served
     };
-    let servers: Vec<&RobotSpec> = spec.robots.values().filter(serves).collect();
+    let servers: Vec<&RobotSpec> = spec.robots.values().filter(has_behaviour).collect();
     let known = servers.iter().flat_map(|robot| &robot.capabilities);
     let known: BTreeSet<&String> = known.collect();
     let mut check = |skill: &SkillSpec, at: &Place| {
@@ -113,7 +114,9 @@ fn of_skills(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         ("neutralise", &clearance.neutralise),
     ];
     for (key, skill) in single {
-        skill.iter().for_each(|skill| check(skill, &at.key(key)));
+        if let Some(skill) = skill {
+            check(skill, &at.key(key));
+        }
     }
     let mut tools = servers.iter().map(|robot| &robot.tools.neutralise);
     if clearance.neutralise.is_some() && !tools.any(Option::is_some) {

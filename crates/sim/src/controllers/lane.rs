@@ -1,0 +1,155 @@
+//! What controllers know of the lane that they are to clear, and of the robots that clear it.
+
+use super::clearance::{ClearanceSpec, SkillSpec};
+use crate::bodies::RobotSpec;
+use crate::goals::kind::capability;
+use crate::scenario::ScenarioSpec;
+use crate::sensors::items::{Detection, ItemsSpec};
+use crate::sensors::pass::{Pass, Path};
+use crate::sensors::{Measures, SensorSpec};
+use base::geometry::{Point, Rectangle};
+use brain::{Lane, MARK_KINDS};
+use economy::{Charge, Clearance, RobotModel, Skill};
+
+/// A pass counts as at most this many nats: more are never certain.
+const MAX_SEARCH_NATS: f64 = 6.0;
+
+impl ClearanceSpec {
+    /// What controllers of a scenario know of the lane.
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    pub(crate) fn ready(&self, scenario: &ScenarioSpec) -> Clearance {
+        let capabilities = scenario.capabilities();
+        let skill = |spec: &SkillSpec| spec.ready(&capabilities);
+        let kinds = scenario.items.iter().zip(0..MARK_KINDS);
+        let hazards = kinds.filter(|((_, kind), _)| kind.target);
+        let area = self.area(scenario);
+        Clearance {
+            lane: Lane {
+                min_m: [area.min().x, area.min().y].map(|along_m| along_m as f32),
+                max_m: [area.max().x, area.max().y].map(|along_m| along_m as f32),
+                cell_m: self.cell_m as f32,
+                hazards: hazards.fold(0, |bits, (_, place)| bits | 1 << place),
+            },
+            expected: self.expected(scenario),
+            robots: scenario
+                .robots
+                .iter()
+                .map(|robot| model(robot, scenario, &capabilities))
+                .collect(),
+            declare_below: self.declare_below,
+            interrogate_above: self.interrogate_above,
+            tile_m: self.tile_m as f32,
+            searches: self.searches.iter().map(skill).collect(),
+            interrogate: self.interrogate.as_ref().map(skill),
+            neutralise: self
+                .neutralise
+                .as_ref()
+                .map(|spec| charge(skill(spec), scenario)),
+        }
+    }
+
+    /// The area of the lane.
+    pub(crate) fn area(&self, scenario: &ScenarioSpec) -> Rectangle {
+        let [width, height] = scenario.world.size_m;
+        let world = [[0.0; 2], [width.0, height.0]];
+        let [min, max] = self.lane_m.unwrap_or(world).map(Point::from);
+        Rectangle::spanned(min, max)
+    }
+
+    fn expected(&self, scenario: &ScenarioSpec) -> Vec<f64> {
+        let kinds = scenario.items.iter().take(MARK_KINDS);
+        let expected = kinds.map(|(name, kind)| {
+            let expected = self.expected_count.get(name).copied();
+            expected.unwrap_or_else(|| kind.count.into())
+        });
+        expected.collect()
+    }
+}
+
+impl SkillSpec {
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    fn ready(&self, capabilities: &[String]) -> Skill {
+        let required = self.requires.as_ref();
+        Skill {
+            capability: required.map_or(0, |name| capability(name, capabilities)),
+            service_s: self.service_s as f32,
+        }
+    }
+}
+
+/// The weakest charge of all robots.
+fn charge(skill: Skill, scenario: &ScenarioSpec) -> Charge {
+    let robots = scenario.robots.values();
+    let tools = robots.filter_map(|robot| robot.tools.neutralise.as_ref());
+    let weakest = tools.map(|tool| (tool.success_probability, tool.reach_m));
+    let weakest = weakest.reduce(|one, other| (one.0.min(other.0), one.1.min(other.1)));
+    let (success_probability, reach_m) = weakest.unwrap_or_default();
+    Charge {
+        skill,
+        success_probability,
+        reach_m,
+    }
+}
+
+/// What controllers know of the item detectors of a kind of robots, which are of one model.
+fn model(
+    (name, robot): (&String, &RobotSpec),
+    scenario: &ScenarioSpec,
+    capabilities: &[String],
+) -> RobotModel {
+    let sensors: Vec<(u32, &ItemsSpec, &SensorSpec)> = detectors(robot)
+        .map(|(sensor, items, spec)| (items.model_key(name, sensor), items, spec))
+        .collect();
+    let blind = |kind: &String| {
+        let shares = sensors.iter();
+        let shares = shares.map(|(_, items, _)| items.blind_share.get(kind).copied());
+        shares.flatten().fold(0.0, f64::max)
+    };
+    let nats = sensors
+        .iter()
+        .map(|(_, items, sensor)| pass_nats(items, sensor, robot, scenario));
+    let numbers = robot.capabilities.iter();
+    RobotModel {
+        model: sensors.first().map_or(0, |(model, ..)| *model),
+        blind_share: scenario.items.keys().take(MARK_KINDS).map(blind).collect(),
+        capabilities: numbers.map(|name| capability(name, capabilities)).collect(),
+        search_nats: nats.sum::<f64>().min(MAX_SEARCH_NATS),
+    }
+}
+
+/// The item detectors of a kind of robots, with their names.
+pub(crate) fn detectors(
+    robot: &RobotSpec,
+) -> impl Iterator<Item = (&String, &ItemsSpec, &SensorSpec)> {
+    let sensors = robot.sensors.iter();
+    sensors.filter_map(|(name, sensor)| match &sensor.measures {
+        Measures::Items(items) => Some((name, items, sensor)),
+        _ => None,
+    })
+}
+
+/// How often a pass at the robot's speed misses an item in its swath that the sensor can detect, in nats; of the kind
+/// that it detects least.
+fn pass_nats(
+    items: &ItemsSpec,
+    sensor: &SensorSpec,
+    robot: &RobotSpec,
+    scenario: &ScenarioSpec,
+) -> f64 {
+    let path = Path::new(robot, sensor, scenario.clock.step_s);
+    if path.speed_m_s <= 0.0 || items.sector.range_m <= 0.0 {
+        return 0.0;
+    }
+    let always = Detection::Constant(1.0);
+    let targets = scenario.items.iter().filter(|(_, kind)| kind.target);
+    let of = |name: &String| match &items.detection_probability {
+        None => Some(&always),
+        Some(kinds) => kinds.get(name),
+    };
+    let nats = targets.map(|(name, _)| {
+        of(name).map_or(0.0, |detection| {
+            -libm::log1p(-Pass::new(items, detection, path).in_swath)
+        })
+    });
+    nats.reduce(f64::min).unwrap_or_default()
+}
