@@ -814,7 +814,7 @@ class StatementColumns(TypedDict):
     Attributes:
         mark: The mark, or the goal that the robot served there.
         at_m: Its position in the world, in metres: receivers may not know the goal.
-        verdict: The statement. 0 confirmed, 1 rejected, 2 isolated, 3 neutralised.
+        verdict: The statement. 0 confirmed, 1 rejected, 2 isolated, 3 neutralised, 4 missed.
     """
 
     mark: GoalIdColumns
@@ -968,7 +968,8 @@ class ActedColumns(TypedDict):
     """The result of an act.
 
     Attributes:
-        kind: What the robot did. 0 mark, 1 confirm, 2 reject, 3 isolate, 4 neutralise.
+        kind: What the robot did. 0 mark, 1 confirm, 2 reject, 3 isolate, 4 neutralise, 5
+            declare_clear, 6 give_up.
         at: The place that its command named.
         is_success: Whether it was done. Of `neutralise`: whether the charge destroyed
             something. A statement reveals nothing about what is there. An act without the tool,
@@ -1730,7 +1731,7 @@ class StatementArrays(TypedDict):
     Attributes:
         mark: The mark, or the goal that the robot served there.
         at_m: Its position in the world, in metres: receivers may not know the goal.
-        verdict: The statement. 0 confirmed, 1 rejected, 2 isolated, 3 neutralised.
+        verdict: The statement. 0 confirmed, 1 rejected, 2 isolated, 3 neutralised, 4 missed.
     """
 
     mark: GoalIdArrays
@@ -1872,7 +1873,8 @@ class ActArrays(TypedDict):
     """Something that a robot does to the item at a place, or states about it.
 
     Attributes:
-        kind: What it does. 0 mark, 1 confirm, 2 reject, 3 isolate, 4 neutralise.
+        kind: What it does. 0 mark, 1 confirm, 2 reject, 3 isolate, 4 neutralise, 5
+            declare_clear, 6 give_up.
         at: The place in the world, as far as the robot knows its own position.
     """
 

@@ -296,7 +296,7 @@ class Mark(TypedDict):
     log_ratios: Sequence[float]
 
 
-MarkVerdict: TypeAlias = Literal["confirmed", "rejected", "isolated", "neutralised"]
+MarkVerdict: TypeAlias = Literal["confirmed", "rejected", "isolated", "neutralised", "missed"]
 """A verdict on a mark."""
 
 
@@ -445,7 +445,9 @@ class About(TypedDict, total=False):
     dispatch: Dispatch
 
 
-ActKind: TypeAlias = Literal["mark", "confirm", "reject", "isolate", "neutralise"]
+ActKind: TypeAlias = Literal[
+    "mark", "confirm", "reject", "isolate", "neutralise", "declare_clear", "give_up"
+]
 """What a robot can do to items with its tools."""
 
 

@@ -12,7 +12,7 @@ export interface Act {
 }
 
 /** What a robot can do to items with its tools. */
-export type ActKind = "mark" | "confirm" | "reject" | "isolate" | "neutralise";
+export type ActKind = "mark" | "confirm" | "reject" | "isolate" | "neutralise" | "declare_clear" | "give_up";
 
 /** The result of an act. */
 export interface Acted {
@@ -241,7 +241,7 @@ export interface Mark {
 }
 
 /** A verdict on a mark. */
-export type MarkVerdict = "confirmed" | "rejected" | "isolated" | "neutralised";
+export type MarkVerdict = "confirmed" | "rejected" | "isolated" | "neutralised" | "missed";
 
 /** A message from one robot or controller to others. */
 export interface Message {

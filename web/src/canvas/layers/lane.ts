@@ -97,6 +97,7 @@ const shapes: Record<MarkState, { closed: boolean; lines: Point[][] }> = {
     ],
   },
   isolated: { closed: true, lines: [polygon(6)] },
+  missed: { closed: true, lines: [polygon(4)] },
 };
 
 /** A regular polygon with a corner at the top. */
