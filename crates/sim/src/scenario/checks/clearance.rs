@@ -175,11 +175,11 @@ fn of_world(spec: &ScenarioSpec, root: &Place) -> Vec<InputError> {
         let allowed = format!("at most {MARK_KINDS} kinds: marks distinguish no more");
         errors.push(items.error(allowed));
     }
-    let mut targets = spec.items.iter().filter(|(_, kind)| kind.target);
+    let targets = spec.items.iter().filter(|(_, kind)| kind.target);
     if targets.clone().next().is_none() {
         errors.push(items.error("with at least one kind of targets, the mines"));
     }
-    let incomplete = targets.find(|(_, kind)| kind.completed_by != CompletedBy::Neutralised);
+    let incomplete = targets.filter(|(_, kind)| kind.completed_by != CompletedBy::Neutralised);
     errors.extend(incomplete.map(|(name, _)| {
         let allowed = "\"neutralised\": until then, targets make the lane unsafe";
         items.key(name).key("completed_by").error(allowed)
