@@ -86,7 +86,7 @@ impl Plan {
             proposals.extend(work_at(&mark, clearance, &tiles, interrogations));
         }
         let expected = picture.risk().expected();
-        let is_possible = |one: &Proposal| circumstances.has(clearance, &one.skill);
+        let is_possible = |one: &Proposal| circumstances.has(clearance, one.skill);
         let possible = proposals.iter().filter(|one| is_possible(one));
         let gain: f64 = possible.map(|one| one.value).sum();
         proposals.retain(|one| one.value > MIN_SHARE * expected);
@@ -99,7 +99,7 @@ impl Plan {
 
 impl Circumstances<'_> {
     /// Whether a robot in range has a skill.
-    fn has(&self, clearance: &Clearance, skill: &Skill) -> bool {
+    fn has(&self, clearance: &Clearance, skill: Skill) -> bool {
         let mut kinds = self.kinds.iter();
         kinds.any(|kind| {
             let robot = clearance.robots.get(usize::from(*kind));

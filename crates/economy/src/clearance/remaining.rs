@@ -33,7 +33,7 @@ impl Remaining {
         Self {
             shares: shares.collect(),
             tiles: cells.map(tile).collect(),
-            ways: ways.map(|skill| nats_of(clearance, skill)).collect(),
+            ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
             now: vec![0.0; lane.cells()],
             after: vec![vec![0.0; lane.cells()]; clearance.searches.len()],
         }
@@ -78,7 +78,7 @@ impl Clearance {
 }
 
 /// For each sensor model, the looks of one search by the best robots that have the skill.
-fn nats_of(clearance: &Clearance, skill: &Skill) -> Vec<f64> {
+fn nats_of(clearance: &Clearance, skill: Skill) -> Vec<f64> {
     let models = clearance.models();
     let mut nats = vec![0.0; models.len()];
     let able = clearance.robots.iter().filter(|robot| robot.has(skill));

@@ -109,7 +109,7 @@ impl Clearance {
 }
 
 impl RobotModel {
-    pub(crate) fn has(&self, skill: &Skill) -> bool {
+    pub(crate) fn has(&self, skill: Skill) -> bool {
         skill.capability == 0 || self.capabilities.contains(&skill.capability)
     }
 

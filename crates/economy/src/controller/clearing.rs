@@ -101,7 +101,7 @@ impl Controller {
         let free = ways.map(|(way, skill)| {
             let able = self.picture.present().filter(|robot| {
                 let model = clearance.robots.get(usize::from(robot.id.kind));
-                model.is_some_and(|model| model.has(skill))
+                model.is_some_and(|model| model.has(*skill))
             });
             let open = work
                 .planned

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 
 /// Columns of the statement and its truth, of times, with those of these kinds of robots, and of messages, unless
 /// those of goals contain them.
-pub(super) fn columns(robots: &[&str], has: &Features) -> Vec<Column> {
+pub(super) fn columns(robots: &[&str], has: Features) -> Vec<Column> {
     let mut columns = statement();
     columns.extend(times());
     columns.extend(robots.iter().enumerate().map(on_station));

@@ -30,7 +30,7 @@ pub(crate) fn columns(
     let acts = has.acts.then(act_columns::columns);
     let clearance = has
         .clearance
-        .then(|| clearance_columns::columns(robots, &has));
+        .then(|| clearance_columns::columns(robots, has));
     let more = [goals, acts, clearance].into_iter().flatten().flatten();
     let columns = columns.chain(more);
     OutcomeColumns(columns.chain(counts).chain(times).collect())

@@ -158,11 +158,11 @@ impl Beliefs {
     /// Forgets what this robot, or another by its statement, has destroyed: later contacts there are of other items.
     fn forget_destroyed(&mut self, percept: &Percept, body: &Body) {
         for received in &percept.inbox {
-            if let About::Dispatch(Dispatch::Statement(statement)) = received.message.about {
-                if statement.verdict == MarkVerdict::Neutralised {
-                    let at = Point::from(statement.at_m.map(f64::from));
-                    self.items.forget(at, STATED_WITHIN_M);
-                }
+            if let About::Dispatch(Dispatch::Statement(statement)) = received.message.about
+                && statement.verdict == MarkVerdict::Neutralised
+            {
+                let at = Point::from(statement.at_m.map(f64::from));
+                self.items.forget(at, STATED_WITHIN_M);
             }
         }
         let is_charge = |acted: &&Acted| acted.kind == ActKind::Neutralise && acted.is_success;

@@ -89,12 +89,12 @@ fn of_expected(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Ve
 /// Skills that no robots have.
 fn of_skills(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
-    let serves = |robot: &&RobotSpec| {
+    let can_serve = |robot: &&RobotSpec| {
         let mut behaviours = robot.brain.behaviours.iter();
         let is_served = behaviours.any(|behaviour| matches!(behaviour, BehaviourSpec::Serve(_)));
         robot.radio.is_some() && is_served
     };
-    let servers: Vec<&RobotSpec> = spec.robots.values().filter(serves).collect();
+    let servers: Vec<&RobotSpec> = spec.robots.values().filter(can_serve).collect();
     let known = servers.iter().flat_map(|robot| &robot.capabilities);
     let known: BTreeSet<&String> = known.collect();
     let mut check = |skill: &SkillSpec, at: &Place| {
@@ -111,7 +111,9 @@ fn of_skills(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         ("neutralise", &clearance.neutralise),
     ];
     for (key, skill) in single {
-        skill.iter().for_each(|skill| check(skill, &at.key(key)));
+        if let Some(skill) = skill {
+            check(skill, &at.key(key));
+        }
     }
     let mut tools = servers.iter().map(|robot| &robot.tools.neutralise);
     if clearance.neutralise.is_some() && !tools.any(Option::is_some) {
