@@ -15,7 +15,6 @@ The status is 1 if a cell or a direction fails.
 import argparse
 import csv
 import math
-import re
 import sys
 import time
 from collections.abc import Callable, Iterable
@@ -24,7 +23,7 @@ from typing import Any, get_type_hints
 
 import numpy as np
 from page import ROOT, is_stale, table
-from plots import INK, Axes, Row, Spec, page_of, panel, picture, plain, points
+from plots import INK, Row, Spec, page_of, panel, picture, plain, points
 
 import agent_economy as ae
 from agent_economy.scenario import Override
@@ -33,7 +32,12 @@ FOLDER = ROOT / "docs" / "mines"
 PAGE = FOLDER.with_suffix(".md")
 
 SEED = 1
-RISKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5)
+RUNS = {0.01: 1650, 0.02: 3200, 0.05: 2400, 0.1: 1400, 0.2: 1200, 0.5: 700}
+"""Lanes by the risk below which they are declared: two standard errors are the tolerance.
+
+The stated risk is lower than that risk, as it falls in steps.
+"""
+
 MIN_TOLERANCE, TOLERANCE = 0.005, 0.2
 """The share may differ from the stated risk by the larger of a number and a part of the risk."""
 
@@ -41,7 +45,7 @@ DIRECTION_RUNS, TEAM_RUNS = 300, 100
 SIGMAS = 2.0
 """Without an effect, a paired difference has this many standard errors in 2.3% of the cases."""
 
-CLEAR_SHARE = 0.85
+CLEAR_SHARE = 0.7
 """The cheapest team declares the lane clear, rightly, in at least this share of the runs."""
 
 LANE = [[8, 4], [68, 24]]
@@ -65,7 +69,7 @@ def of_kinds(keys: Iterable[str], value: float) -> Changes:
 
 def lossy(probability: float) -> Changes:
     """Return a loss of messages on every radio."""
-    return {f"{who}.radio.loss_probability": probability for who in PARTICIPANTS}
+    return {f"{each}.radio.loss_probability": probability for each in PARTICIPANTS}
 
 
 SMALL: Changes = {
@@ -93,14 +97,17 @@ class Series:
     name: str
     changes: Changes
     is_claim: bool = True
-    risks: tuple[float, ...] = RISKS
+    risks: tuple[float, ...] = tuple(RUNS)
 
+
+WRONG = (0.05, 0.2)
+"""The risks of controllers that expect a wrong number of mines."""
 
 SERIES = (
     Series("no loss", {}),
     Series("30% of messages lost", lossy(0.3)),
-    Series("half of the mines expected", {EXPECTED: {"mine": 1.5}}, False, (0.05, 0.2)),
-    Series("twice the mines expected", {EXPECTED: {"mine": 6}}, False, (0.05, 0.2)),
+    Series("half of the mines expected", {EXPECTED: {"mine": 1.5}}, is_claim=False, risks=WRONG),
+    Series("twice the mines expected", {EXPECTED: {"mine": 6}}, is_claim=False, risks=WRONG),
 )
 
 
@@ -181,7 +188,7 @@ def column(runs: Any, name: str) -> np.ndarray:
 
 def cell(series: Series, risk: float, scale: float) -> Cell:
     """Return what was stated and what was true, at one risk below which lanes are declared."""
-    number = max(50, round(scale * runs_for(risk)))
+    number = max(50, round(scale * RUNS[risk]))
     runs = ae.replicate(scenario({BELOW: risk} | series.changes), number, SEED)
     is_declared = column(runs, "declared") > 0
     declared = int(is_declared.sum())
@@ -194,11 +201,6 @@ def cell(series: Series, risk: float, scale: float) -> Cell:
     return replace(one, verdict=verdict(one) if series.is_claim else "reported")
 
 
-def runs_for(risk: float) -> int:
-    """Return the number of lanes with which the tolerance is two standard errors."""
-    return math.ceil(4 * risk * (1 - risk) / tolerance(risk) ** 2)
-
-
 def tolerance(risk: float) -> float:
     """Return by how much the share may differ from a risk."""
     return max(MIN_TOLERANCE, TOLERANCE * risk)
@@ -208,7 +210,7 @@ def verdict(one: Cell) -> str:
     """Return whether the share is within the tolerance, as far as two standard errors decide it."""
     off = one.not_clear - one.stated
     margin = tolerance(one.stated) - abs(off)
-    is_decided = 2 * one.standard_error <= 1.1 * tolerance(one.stated)
+    is_decided = 2 * one.standard_error <= tolerance(one.stated)
     if is_decided and margin >= 0:
         return "passes"
     if not is_decided and margin > -2 * one.standard_error:
@@ -219,8 +221,8 @@ def verdict(one: Cell) -> str:
 def directions(scale: float) -> Iterable[Direction]:
     """Yield the results of each change, all in the same worlds."""
     number = max(30, round(scale * DIRECTION_RUNS))
-    clutter = {"mine": 3, "clutter": 20}
-    more: Changes = {"items.clutter.count": 20, **dict.fromkeys(BELIEFS, clutter)}
+    clutter = {"mine": 3, "clutter": 40}
+    more: Changes = {"items.clutter.count": 40, **dict.fromkeys(BELIEFS, clutter)}
     better = of_kinds([DETECTION], 0.5)
     time_s, not_clear = "declared_s", "declared_not_clear"
     changes: list[tuple[str, Changes, Changes, str, int]] = [
@@ -251,8 +253,8 @@ def direction(
 
 def dearer(number: int) -> Direction:
     """Return the ground vehicles of the cheapest team, by their price, with the same runs."""
-    teams = [(oavs, ugvs) for oavs in range(4) for ugvs in range(1, 5)]
-    limit: Changes = {"clock.time_limit_s": 360}
+    teams = [(oavs, ugvs) for oavs in (1, 3) for ugvs in (1, 2, 3)]
+    limit: Changes = {"clock.time_limit_s": 600}
     enough = []
     for oavs, ugvs in teams:
         team = limit | {"robots.oav.count": oavs, "robots.ugv.count": ugvs}
@@ -301,12 +303,18 @@ def draw(cells: list[Cell], moved: list[Direction]) -> None:
     """Write the chart and the tables of the page, if they are stale."""
     text = PAGE.read_text(encoding="utf-8")
     for name, made in (("calibration", of_cells(cells)), ("directions", of_directions(moved))):
-        block = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end -->)", re.DOTALL)
-        text = block.sub(lambda found, made=made: f"{found[1]}{made}\n{found[2]}", text)
+        text = with_block(text, name, made)
     for file, content in ((FOLDER / "calibration.svg", picture(chart(cells))), (PAGE, text)):
         if is_stale(file, content):
             file.write_text(content, encoding="utf-8")
             print(file.relative_to(ROOT))
+
+
+def with_block(text: str, name: str, made: str) -> str:
+    """Return a page with another content of a block."""
+    start, rest = text.split(f"<!-- {name} -->\n")
+    _, end = rest.split("<!-- end -->", 1)
+    return f"{start}<!-- {name} -->\n{made}\n<!-- end -->{end}"
 
 
 def of_cells(cells: list[Cell]) -> str:

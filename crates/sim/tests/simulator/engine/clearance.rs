@@ -167,7 +167,7 @@ fn a_run_ends_with_the_statement_of_a_controller_and_not_with_the_last_mine() {
 }
 
 #[test]
-fn a_controller_whose_radio_reaches_nobody_never_declares_a_lane() {
+fn a_controller_with_no_robot_in_range_never_declares_a_lane() {
     // It gives a lane up after a minute without robots in range.
     let short = LANE.replace("time_limit_s = 300", "time_limit_s = 50");
     let deaf = short.replace(
