@@ -25,14 +25,14 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         if number > 0 {
             let allowed = "omitted: another kind of controllers has a lane already";
             errors.push(at.error(allowed));
-            continue;
+        } else {
+            errors.extend(of_world(spec, root));
         }
         errors.extend(of_lane(clearance, spec, &at));
         errors.extend(of_expected(clearance, spec, &at));
         errors.extend(of_skills(clearance, spec, &at));
         errors.extend(of_leases(name, clearance, spec, &all));
         errors.extend(of_floor(clearance, spec, &at));
-        errors.extend(of_world(spec, root));
     }
     errors
 }

@@ -158,7 +158,13 @@ fn all_errors_of_a_lane_are_reported_at_once_with_their_lines() {
             &format!("{AT}.neutralise.requires"),
             "did you mean \"search\"?",
         ),
-        ("controllers.station.clearance", "must be omitted"),
+        (AT, "must be omitted"),
+        ("controllers.other.clearance.searches", "at least one way"),
+        // They follow from the blind share and the periodic world.
+        ("controllers.other.clearance.declare_below", "never falls"),
+        (&format!("{AT}.declare_below"), "never falls"),
+        ("robots.oav.brain.behaviours[0].kind", "periodic"),
+        ("robots.ugv.brain.behaviours[0].kind", "periodic"),
     ];
     for (path, part) in expected {
         let of_path = reported
