@@ -10,7 +10,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection verify-requirement fuzz golden schemas \
-	picture page-pictures bench-page examples replication validation brain-comparison economy verify-leases goals web lint quick \
+	picture page-pictures bench-page examples replication validation brain-comparison economy clearance verify-leases goals web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test drive-browser clean
 
 help: ## List the targets
@@ -124,6 +124,10 @@ brain-comparison: .venv/installed ## Regenerate docs/brain-comparison.md and its
 
 economy: .venv/installed ## Regenerate docs/economy.md and its charts (takes minutes)
 	$(BIN)/python scripts/economy.py
+
+# A claim that fails is an error, after all measurements.
+clearance: .venv/released ## Compare what controllers state of mined lanes with the truth (takes half an hour)
+	$(BIN)/python scripts/clearance.py
 
 # Longer than the schedules of `make test`.
 verify-leases: ## Verify the leases of goals: 10,000 schedules of lost, late and repeated messages

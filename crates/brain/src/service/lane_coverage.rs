@@ -67,6 +67,8 @@ impl LaneCoverage {
                     trust: 1.0,
                     observations: 1.0,
                     blur_m: pose.blur_m(),
+                    // Statements of risk must not be biased, also not towards safety.
+                    counts_centres: true,
                 };
                 self.own.update(&map.field, &map.occupancy, &scan);
                 self.note_look(pose.at, detector.range_m + map.field.cell_m);

@@ -29,5 +29,6 @@ mod stays;
 pub(crate) mod tally;
 mod unseen;
 
+pub use clearance_outcome::ClearanceOutcome;
 pub use goal_outcome::GoalOutcome;
 pub use outcome::Outcome;

@@ -86,6 +86,8 @@ pub(crate) struct DetectorScan<'g> {
     pub(crate) observations: f64,
     /// Cells that are no farther behind an obstacle than this count as visible.
     pub(crate) blur_m: f64,
+    /// Whether a cell counts as in view if its centre is; otherwise, nearly the whole cell has to be.
+    pub(crate) counts_centres: bool,
 }
 
 impl CoverageMap {
@@ -98,10 +100,15 @@ impl CoverageMap {
             trust,
             observations,
             blur_m,
+            counts_centres,
         } = *scan;
         let view = View::new(detector, heading_rad);
         let (low, high) = view.bounding_box(at);
-        let margin_m = cell_margin_m(field, detector.range_m);
+        let margin_m = if counts_centres {
+            0.0
+        } else {
+            cell_margin_m(field, detector.range_m)
+        };
         let [columns, rows] = field.columns_and_rows(low, high);
         let may_be_hidden =
             detector.needs_line_of_sight && occupancy.is_any_in(field, &columns, &rows);
@@ -179,6 +186,7 @@ pub(crate) mod tests {
             trust,
             observations: 1.0,
             blur_m: 0.0,
+            counts_centres: false,
         };
         coverage.update(&map.field, &map.occupancy, &scan);
     }

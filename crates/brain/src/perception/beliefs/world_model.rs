@@ -241,6 +241,7 @@ impl Beliefs {
                 trust,
                 observations,
                 blur_m,
+                counts_centres: false,
             };
             coverage.update(field, occupancy, &scan);
         }

@@ -27,7 +27,8 @@ pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError
         if number > 0 {
             let allowed = "omitted: another kind of controllers has a lane already";
             errors.push(at.error(allowed));
-            continue;
+        } else {
+            errors.extend(of_world(spec, root));
         }
         errors.extend(of_lane(clearance, spec, &at));
         errors.extend(of_expected(clearance, spec, &at));
@@ -35,7 +36,6 @@ pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError
         errors.extend(of_leases(name, clearance, spec, &all));
         errors.extend(of_floor(clearance, spec, &at));
         errors.extend(of_requirement(clearance, spec, document));
-        errors.extend(of_world(spec, root));
     }
     errors
 }
@@ -92,12 +92,12 @@ fn of_expected(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Ve
 /// Skills that no robots have.
 fn of_skills(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
-    let has_behaviour = |robot: &&RobotSpec| {
+    let can_serve = |robot: &&RobotSpec| {
         let mut behaviours = robot.brain.behaviours.iter();
         let is_served = behaviours.any(|behaviour| matches!(behaviour, BehaviourSpec::Serve(_)));
         robot.radio.is_some() && is_served
     };
-    let servers: Vec<&RobotSpec> = spec.robots.values().filter(has_behaviour).collect();
+    let servers: Vec<&RobotSpec> = spec.robots.values().filter(can_serve).collect();
     let known = servers.iter().flat_map(|robot| &robot.capabilities);
     let known: BTreeSet<&String> = known.collect();
     let mut check = |skill: &SkillSpec, at: &Place| {
@@ -208,11 +208,11 @@ fn of_world(spec: &ScenarioSpec, root: &Place) -> Vec<InputError> {
         let allowed = format!("at most {MARK_KINDS} kinds: marks distinguish no more");
         errors.push(items.error(allowed));
     }
-    let mut targets = spec.items.iter().filter(|(_, kind)| kind.target);
+    let targets = spec.items.iter().filter(|(_, kind)| kind.target);
     if targets.clone().next().is_none() {
         errors.push(items.error("with at least one kind of targets, the mines"));
     }
-    let incomplete = targets.find(|(_, kind)| kind.completed_by != CompletedBy::Neutralised);
+    let incomplete = targets.filter(|(_, kind)| kind.completed_by != CompletedBy::Neutralised);
     errors.extend(incomplete.map(|(name, _)| {
         let allowed = "\"neutralised\": until then, targets make the lane unsafe";
         items.key(name).key("completed_by").error(allowed)

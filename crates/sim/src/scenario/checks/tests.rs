@@ -3,6 +3,7 @@ use base::document::Document;
 use base::error::InputErrors;
 
 mod brains;
+mod clearance;
 mod controllers;
 mod end;
 mod goals;

@@ -5,6 +5,7 @@ mod battery;
 mod change;
 mod change_pending;
 mod changes_of_economy;
+mod clearance;
 mod collision_warnings;
 mod collisions;
 mod contact;

@@ -35,6 +35,7 @@ fn model_observation(
         trust: 1.0,
         observations: 1.0,
         blur_m: 0.0,
+        counts_centres: false,
     };
     map.coverage.update(&map.field, &map.occupancy, &scan);
 }

@@ -211,6 +211,7 @@ fn believed(worlds: u64, assumed: &Detector) -> Vec<(f64, bool)> {
                 trust: 1.0,
                 observations: 1.0,
                 blur_m: 0.0,
+                counts_centres: false,
             };
             map.coverage.update(&map.field, &map.occupancy, &scan);
         }

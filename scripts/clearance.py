@@ -1,0 +1,372 @@
+"""Compare what controllers state of a mined lane with the truth, and check directions of change.
+
+Calibration: of the lanes that are declared clear with a stated risk r, the share r is not clear.
+Directions: changes of the team, the sensors and the radio move results the right way. The
+measurements are docs/mines/calibration.csv and directions.csv; the tables of docs/mines.md are
+between `<!-- calibration -->` or `<!-- directions -->` and `<!-- end -->`. Examples:
+
+    python scripts/clearance.py               run everything (takes half an hour on one core)
+    python scripts/clearance.py --scale 0.2   the same with a fifth of the runs
+    python scripts/clearance.py --draw        only the chart and the page, from the CSV files
+
+The status is 1 if a cell or a direction fails.
+"""
+
+import argparse
+import csv
+import math
+import sys
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass, fields, replace
+from typing import Any, get_type_hints
+
+import numpy as np
+from page import ROOT, is_stale, table
+from plots import INK, Row, Spec, page_of, panel, picture, plain, points
+
+import agent_economy as ae
+from agent_economy.scenario import Override
+
+FOLDER = ROOT / "docs" / "mines"
+PAGE = FOLDER.with_suffix(".md")
+
+SEED = 1
+RUNS = {0.01: 1650, 0.02: 3200, 0.05: 2400, 0.1: 1400, 0.2: 1200, 0.5: 700}
+"""Lanes by the risk below which they are declared: two standard errors are the tolerance.
+
+The stated risk is lower than that risk, as it falls in steps.
+"""
+
+MIN_TOLERANCE, TOLERANCE = 0.005, 0.2
+"""The share may differ from the stated risk by the larger of a number and a part of the risk."""
+
+DIRECTION_RUNS, TEAM_RUNS = 300, 100
+SIGMAS = 2.0
+"""Without an effect, a paired difference has this many standard errors in 2.3% of the cases."""
+
+CLEAR_SHARE = 0.7
+"""The cheapest team declares the lane clear, rightly, in at least this share of the runs."""
+
+LANE = [[8, 4], [68, 24]]
+UNIFORM = {"kind": "uniform", "within_m": LANE}
+COUNTS = {"mine": 3, "clutter": 4}
+PARTICIPANTS = ("robots.oav", "robots.ugv", "controllers.station")
+CLEARANCE = "controllers.station.clearance"
+BELOW = f"{CLEARANCE}.declare_below"
+EXPECTED = f"{CLEARANCE}.expected_count"
+BLIND = ("robots.oav.sensors.camera.blind_share", "robots.ugv.sensors.detector.blind_share")
+DETECTION = "robots.ugv.sensors.detector.detection_probability"
+BELIEFS = ("robots.oav.brain.beliefs.prior_count", "robots.ugv.brain.beliefs.prior_count")
+
+Changes = dict[str, Any]
+
+
+def of_kinds(keys: Iterable[str], value: float) -> Changes:
+    """Return a change of a number for mines and clutter at each key."""
+    return {key: {"mine": value, "clutter": value} for key in keys}
+
+
+def lossy(probability: float) -> Changes:
+    """Return a loss of messages on every radio."""
+    return {f"{each}.radio.loss_probability": probability for each in PARTICIPANTS}
+
+
+SMALL: Changes = {
+    "world.size_m": [76, 28],
+    "clock.time_limit_s": 900,
+    "items.mine.count": COUNTS["mine"],
+    "items.clutter.count": COUNTS["clutter"],
+    "items.mine.placement": UNIFORM,
+    "items.clutter.placement": UNIFORM,
+    f"{CLEARANCE}.lane_m": LANE,
+    "controllers.station.count": 1,
+    "robots.oav.count": 1,
+    "robots.ugv.count": 3,
+    **dict.fromkeys(BELIEFS, COUNTS),
+    **of_kinds(BLIND, 0.03),
+    **lossy(0),
+}
+"""A lane of 60 m x 20 m with the sensors of the bundled scenario, and a floor of 0.3%."""
+
+
+@dataclass(frozen=True)
+class Series:
+    """What differs from the small lane, at which risks, and whether it must be calibrated."""
+
+    name: str
+    changes: Changes
+    is_claim: bool = True
+    risks: tuple[float, ...] = tuple(RUNS)
+
+
+WRONG = (0.05, 0.2)
+"""The risks of controllers that expect a wrong number of mines."""
+
+SERIES = (
+    Series("no loss", {}),
+    Series("30% of messages lost", lossy(0.3)),
+    Series("half of the mines expected", {EXPECTED: {"mine": 1.5}}, is_claim=False, risks=WRONG),
+    Series("twice the mines expected", {EXPECTED: {"mine": 6}}, is_claim=False, risks=WRONG),
+)
+
+
+@dataclass(frozen=True)
+class Cell:
+    """What was stated of the lanes that were declared clear, and the share that was not clear."""
+
+    series: str
+    declare_below: float
+    runs: int
+    declared: int
+    stated: float
+    not_clear: float
+    standard_error: float
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A change, and the mean of a column before and after it."""
+
+    claim: str
+    column: str
+    runs: int
+    before: float
+    after: float
+    sigmas: float
+    verdict: str
+
+
+def main() -> None:
+    """Measure and draw, or only draw."""
+    parser = argparse.ArgumentParser(description="Check statements about mined lanes.")
+    parser.add_argument("--scale", type=float, default=1.0, help="factor of the numbers of runs")
+    parser.add_argument("--draw", action="store_true", help="only the chart and the page")
+    options = parser.parse_args()
+    if not options.draw:
+        measure(options.scale)
+    cells, directions = read("calibration", Cell), read("directions", Direction)
+    draw(cells, directions)
+    failed = [f"{each.series}, {each.declare_below:g}" for each in cells if is_failed(each)]
+    failed += [each.claim for each in directions if is_failed(each)]
+    sys.exit(f"failed: {'; '.join(failed)}" if failed else 0)
+
+
+def is_failed(each: Cell | Direction) -> bool:
+    """Return whether a cell or a direction fails."""
+    return each.verdict.startswith("fails")
+
+
+# Measured.
+
+
+def measure(scale: float) -> None:
+    """Run everything, and write the measurements as they come."""
+    FOLDER.mkdir(exist_ok=True)
+    write("calibration", Cell, (cell(*each, scale) for each in all_cells()))
+    write("directions", Direction, directions(scale))
+
+
+def all_cells() -> Iterable[tuple[Series, float]]:
+    """Yield each series with each of its risks."""
+    return ((series, risk) for series in SERIES for risk in series.risks)
+
+
+def scenario(changes: Changes) -> ae.Scenario:
+    """Return the bundled scenario with the small lane and other changes."""
+    bundled = ae.Scenario.load(ROOT / "scenarios" / "mines.toml")
+    every = (SMALL | changes).items()
+    return bundled.changed(tuple(Override.at(path, value, "change") for path, value in every))
+
+
+def column(runs: Any, name: str) -> np.ndarray:
+    """Return a column as numbers."""
+    values: np.ndarray = runs[name].to_numpy().astype(np.float64)
+    return values
+
+
+def cell(series: Series, risk: float, scale: float) -> Cell:
+    """Return what was stated and what was true, at one risk below which lanes are declared."""
+    number = max(50, round(scale * RUNS[risk]))
+    runs = ae.replicate(scenario({BELOW: risk} | series.changes), number, SEED)
+    is_declared = column(runs, "declared") > 0
+    declared = int(is_declared.sum())
+    if declared == 0:
+        return Cell(series.name, risk, number, 0, 1.0, 0.0, 1.0, "undecided")
+    stated = float(np.mean(column(runs, "stated_risk")[is_declared]))
+    not_clear = float(np.mean(column(runs, "declared_not_clear")[is_declared]))
+    error = math.sqrt(stated * (1 - stated) / declared)
+    one = Cell(series.name, risk, number, declared, stated, not_clear, error, "")
+    return replace(one, verdict=verdict(one) if series.is_claim else "reported")
+
+
+def tolerance(risk: float) -> float:
+    """Return by how much the share may differ from a risk."""
+    return max(MIN_TOLERANCE, TOLERANCE * risk)
+
+
+def verdict(one: Cell) -> str:
+    """Return whether the share is within the tolerance, as far as two standard errors decide it."""
+    off = one.not_clear - one.stated
+    margin = tolerance(one.stated) - abs(off)
+    is_decided = 2 * one.standard_error <= tolerance(one.stated)
+    if is_decided and margin >= 0:
+        return "passes"
+    if not is_decided and margin > -2 * one.standard_error:
+        return "undecided"
+    return f"fails: the stated risk is too {'low' if off > 0 else 'high'}"
+
+
+def directions(scale: float) -> Iterable[Direction]:
+    """Yield the results of each change, all in the same worlds."""
+    number = max(30, round(scale * DIRECTION_RUNS))
+    clutter = {"mine": 3, "clutter": 40}
+    more: Changes = {"items.clutter.count": 40, **dict.fromkeys(BELIEFS, clutter)}
+    better = of_kinds([DETECTION], 0.5)
+    time_s, not_clear = "declared_s", "declared_not_clear"
+    changes: list[tuple[str, Changes, Changes, str, int]] = [
+        ("a better sensor of ground vehicles", {}, better, time_s, -1),
+        ("a lower blind share", of_kinds(BLIND, 0.1), {}, time_s, -1),
+        ("more clutter", {}, more, time_s, 1),
+        ("60% of messages lost", {}, lossy(0.6), time_s, 1),
+        ("one more ground vehicle", {}, {"robots.ugv.count": 4}, time_s, -1),
+        ("declarations at a higher risk", {BELOW: 0.02}, {BELOW: 0.5}, not_clear, 1),
+    ]
+    for claim, before, after, name, sign in changes:
+        yield direction(claim, (before, after), (name, sign), number)
+    yield dearer(max(20, round(scale * TEAM_RUNS)))
+
+
+def direction(
+    claim: str, sides: tuple[Changes, Changes], expected: tuple[str, int], number: int
+) -> Direction:
+    """Return how a change moves a column: by two standard errors in the expected direction."""
+    name, sign = expected
+    before, after = (column(ae.replicate(scenario(side), number, SEED), name) for side in sides)
+    difference = after - before
+    error = float(np.std(difference, ddof=1)) / math.sqrt(number)
+    sigmas = sign * float(np.mean(difference)) / error if error > 0 else 0.0
+    means = (float(np.mean(before)), float(np.mean(after)))
+    return Direction(claim, name, number, *means, sigmas, "passes" if sigmas > SIGMAS else "fails")
+
+
+def dearer(number: int) -> Direction:
+    """Return the ground vehicles of the cheapest team, by their price, with the same runs."""
+    teams = [(oavs, ugvs) for oavs in (1, 3) for ugvs in (1, 2, 3)]
+    limit: Changes = {"clock.time_limit_s": 600}
+    enough = []
+    for oavs, ugvs in teams:
+        team = limit | {"robots.oav.count": oavs, "robots.ugv.count": ugvs}
+        clear = column(ae.replicate(scenario(team), number, SEED), "declared_clear")
+        if float(np.mean(clear)) >= CLEAR_SHARE:
+            enough.append((oavs, ugvs))
+
+    def cheapest(price: float) -> int:
+        return min(enough, key=lambda team: (15_000 * team[0] + price * team[1], team))[1]
+
+    if not enough:
+        return Direction("a dearer ground vehicle", "robots.ugv", number, 0, 0, 0, "fails")
+    before, after = cheapest(5_000), cheapest(300_000)
+    passes = "passes" if after < before else "fails"
+    return Direction("a dearer ground vehicle", "robots.ugv", number, before, after, 0, passes)
+
+
+def write(name: str, kind: type, rows: Iterable[Any]) -> None:
+    """Write rows to a CSV file as they come, with six digits."""
+    with (FOLDER / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, [each.name for each in fields(kind)], lineterminator="\n")
+        writer.writeheader()
+        began_s = time.monotonic()
+        for row in rows:
+            values = asdict(row).items()
+            short = {
+                key: f"{value:.6g}" if isinstance(value, float) else value for key, value in values
+            }
+            writer.writerow(short)
+            file.flush()
+            print(f"{time.monotonic() - began_s:.0f} s: {short}", flush=True)
+
+
+def read(name: str, kind: Callable[..., Any]) -> list[Any]:
+    """Return the rows of a CSV file."""
+    types = get_type_hints(kind)
+    with (FOLDER / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        rows = csv.DictReader(file)
+        return [kind(**{key: types[key](value) for key, value in row.items()}) for row in rows]
+
+
+# Drawn.
+
+
+def draw(cells: list[Cell], moved: list[Direction]) -> None:
+    """Write the chart and the tables of the page, if they are stale."""
+    text = PAGE.read_text(encoding="utf-8")
+    for name, made in (("calibration", of_cells(cells)), ("directions", of_directions(moved))):
+        text = with_block(text, name, made)
+    for file, content in ((FOLDER / "calibration.svg", picture(chart(cells))), (PAGE, text)):
+        if is_stale(file, content):
+            file.write_text(content, encoding="utf-8")
+            print(file.relative_to(ROOT))
+
+
+def with_block(text: str, name: str, made: str) -> str:
+    """Return a page with another content of a block."""
+    start, rest = text.split(f"<!-- {name} -->\n")
+    _, end = rest.split("<!-- end -->", 1)
+    return f"{start}<!-- {name} -->\n{made}\n<!-- end -->{end}"
+
+
+def of_cells(cells: list[Cell]) -> str:
+    """Return the table of the calibration."""
+    header = ["", "declared below", "runs", "declared", "stated risk", "not clear", "verdict"]
+    lines = [
+        [
+            each.series,
+            f"{each.declare_below:g}",
+            f"{each.runs:,}",
+            f"{each.declared:,}",
+            f"{each.stated:.4f}",
+            f"{each.not_clear:.4f} ± {2 * each.standard_error:.4f}",
+            each.verdict,
+        ]
+        for each in cells
+    ]
+    return table(header, lines)
+
+
+def of_directions(moved: list[Direction]) -> str:
+    """Return the table of the directions."""
+    lines = [
+        [
+            each.claim,
+            f"`{each.column}`",
+            f"{each.runs}",
+            f"{each.before:.4g}",
+            f"{each.after:.4g}",
+            f"{each.sigmas:.1f}" if each.sigmas else "",
+            each.verdict,
+        ]
+        for each in moved
+    ]
+    return table(["change", "", "runs", "before", "after", "standard errors", "verdict"], lines)
+
+
+def chart(cells: list[Cell]) -> Spec:
+    """Return the share that is not clear by the stated risk, with intervals of 95%."""
+    rows = [
+        Row(each.series, each.stated, each.not_clear, each.standard_error, each.stated)
+        for each in cells
+    ]
+    ends = [{"x": risk, "y": risk} for risk in (0.0, max(row.x for row in rows))]
+    same = {
+        "data": {"values": ends},
+        "mark": {"type": "line", "color": INK, "strokeWidth": 1},
+        "encoding": plain(),
+    }
+    layers = [same, *points(rows)]
+    return page_of(panel(layers, "stated risk", "share of declared lanes not clear"))
+
+
+if __name__ == "__main__":
+    main()
