@@ -137,6 +137,7 @@ mod tests {
             trust: 1.0,
             observations: 1.0,
             blur_m: 0.0,
+            counts_centres: false,
         }
     }
 
@@ -151,7 +152,7 @@ mod tests {
         let [before, behind] = [ahead, back].map(|way| expected(&map, way, 0.0));
         assert!((before - 5.4).abs() < 0.8, "{before}");
         map.coverage
-            .update(&map.field, &map.occupancy, &scan(&camera));
+            .update(&map.field, (&map.field, &map.occupancy), &scan(&camera));
         assert!(expected(&map, ahead, 0.0) < 0.5 * before);
         assert!((expected(&map, back, 0.0) - behind).abs() < 1e-9);
     }

@@ -5,18 +5,23 @@
 
 use super::ability::Moment;
 use crate::io::lane::{CELLS_PER_MESSAGE, Coverage, Lane};
+use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::coverage_map::{CoverageMap, DetectorScan};
 use crate::perception::beliefs::field::Field;
-use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
+
+/// Parts of a cell along each side, and the maximum number of parts of all cells.
+const PARTS: f64 = 2.0;
+const MAX_PARTS: usize = 262_144;
 
 /// The coverage of a lane.
 #[derive(Debug, Clone)]
 pub(super) struct LaneCoverage {
     lane: Lane,
-    /// On the grid of the robot's map.
+    /// Finer than the cells of the lane, as parts of a cell are at the edge of every look.
+    field: Field,
     own: CoverageMap,
     /// The steps that were sent last, and the next block of cells.
     sent: Vec<u8>,
@@ -31,14 +36,17 @@ base::hashed!(LaneCoverage {
     own,
     sent,
     next_block
-} without { steps, is_stale });
+} without { field, steps, is_stale });
 
 impl LaneCoverage {
-    pub(super) fn new(lane: Lane, map: &Map) -> Self {
+    pub(super) fn new(lane: Lane) -> Self {
         let blocks = lane.cells().div_ceil(CELLS_PER_MESSAGE);
+        let side_m = f64::from(lane.cell_m) / PARTS;
+        let field = Field::new(&lane.area(), side_m, MAX_PARTS);
         Self {
             lane,
-            own: CoverageMap::new(map.field.cells()),
+            own: CoverageMap::new(field.cells()),
+            field,
             sent: vec![0; blocks * CELLS_PER_MESSAGE],
             next_block: 0,
             steps: vec![0; blocks * CELLS_PER_MESSAGE],
@@ -70,8 +78,9 @@ impl LaneCoverage {
                     // Statements of risk must not be biased, also not towards safety.
                     counts_centres: true,
                 };
-                self.own.update(&map.field, &map.occupancy, &scan);
-                self.note_look(pose.at, detector.range_m + map.field.cell_m);
+                self.own
+                    .update(&self.field, (&map.field, &map.occupancy), &scan);
+                self.note_look(pose.at, detector.range_m);
             }
         }
     }
@@ -92,10 +101,10 @@ impl LaneCoverage {
     }
 
     /// Computes the steps of the cells that may have changed.
-    fn refresh(&mut self, map: &Map) {
+    fn refresh(&mut self) {
         for block in 0..self.is_stale.len() {
             if core::mem::take(&mut self.is_stale[block]) {
-                let steps = self.block(map, block);
+                let steps = self.block(block);
                 self.steps[block * CELLS_PER_MESSAGE..][..CELLS_PER_MESSAGE]
                     .copy_from_slice(&steps);
             }
@@ -103,18 +112,15 @@ impl LaneCoverage {
     }
 
     /// How often all looks miss a visible item at a position, in nats.
-    pub(super) fn nats_at(&self, map: &Map, at: Point) -> f64 {
-        -libm::log(
-            self.own
-                .of(map.field.nearest_cell(at))
-                .max(f64::MIN_POSITIVE),
-        )
+    pub(super) fn nats_at(&self, at: Point) -> f64 {
+        let missed = self.own.of(self.field.nearest_cell(at));
+        -libm::log(missed.max(f64::MIN_POSITIVE))
     }
 
     /// The messages to be sent, at most a number: changed blocks of cells, then others again, as
     /// messages are lost. `marks` is the number of marks so far.
-    pub(super) fn due(&mut self, map: &Map, marks: u32, max: usize) -> Vec<Coverage> {
-        self.refresh(map);
+    pub(super) fn due(&mut self, marks: u32, max: usize) -> Vec<Coverage> {
+        self.refresh();
         let blocks = self.sent.len() / CELLS_PER_MESSAGE;
         let order = (0..blocks).map(|index| (self.next_block + index) % blocks);
         let (mut due, same): (Vec<usize>, Vec<usize>) = order.partition(|block| {
@@ -139,11 +145,11 @@ impl LaneCoverage {
         due.into_iter().map(send).collect()
     }
 
-    fn block(&self, map: &Map, block: usize) -> [u8; CELLS_PER_MESSAGE] {
+    fn block(&self, block: usize) -> [u8; CELLS_PER_MESSAGE] {
         core::array::from_fn(|index| {
             let cell = block * CELLS_PER_MESSAGE + index;
             if cell < self.lane.cells() {
-                Coverage::steps(self.nats(&map.field, cell))
+                Coverage::steps(self.nats(cell))
             } else {
                 0
             }
@@ -151,7 +157,8 @@ impl LaneCoverage {
     }
 
     /// How often all looks miss a visible item at a random position of a cell of the lane, in nats.
-    fn nats(&self, field: &Field, cell: usize) -> f64 {
+    fn nats(&self, cell: usize) -> f64 {
+        let field = &self.field;
         let area = self.lane.cell_area(cell);
         let [columns, rows] = field.columns_and_rows(area.min(), area.max());
         let (mut sum, mut count) = (0.0, 0.0);

@@ -74,14 +74,14 @@ base::hashed!(Work {
 impl LaneReports {
     /// A controller has named a lane. Looks count from the first message on; another lane replaces it.
     pub(crate) fn name(&mut self, lane: Lane, beliefs: &Beliefs, now_s: f64) {
-        let (true, Some(map)) = (lane.is_valid(), &beliefs.map) else {
+        if !lane.is_valid() || beliefs.map.is_none() {
             return;
-        };
+        }
         match &mut self.work {
             Some(work) if work.coverage.lane() == lane => work.named_s = now_s,
             _ => {
                 self.work = Some(Box::new(Work {
-                    coverage: LaneCoverage::new(lane, map),
+                    coverage: LaneCoverage::new(lane),
                     marks: LaneMarks::default(),
                     named_s: now_s,
                     next_s: now_s,
@@ -160,13 +160,13 @@ impl LaneReports {
     }
 
     fn lane_due(&mut self, moment: &Moment, beliefs: &Beliefs, now_s: f64) -> Vec<Dispatch> {
-        let (Some(work), Some(map)) = (&mut self.work, &beliefs.map) else {
+        let Some(work) = &mut self.work else {
             return Vec::new();
         };
         let coverage = &work.coverage;
         work.marks
             .update((beliefs, moment.body.position_noise_m), |track| {
-                coverage.nats_at(map, track.at)
+                coverage.nats_at(track.at)
             });
         work.coverage.update(moment, beliefs);
         if now_s < work.next_s || now_s >= work.named_s + SILENCE_S {
@@ -183,7 +183,7 @@ impl LaneReports {
             }));
         }
         let marks = marks.into_iter().map(|(mark, _)| mark);
-        let coverage = work.coverage.due(map, work.marks.count(), MAX_COVERAGE);
+        let coverage = work.coverage.due(work.marks.count(), MAX_COVERAGE);
         let coverage = coverage.into_iter().map(Dispatch::Coverage);
         marks.map(Dispatch::Mark).chain(coverage).collect()
     }

@@ -59,7 +59,7 @@ impl Decision {
     /// Declares the lane clear when the risk is low and all marks that robots report have been
     /// received; gives it up when no robot in range can lower the risk.
     pub(crate) fn decide(&mut self, picture: &LanePicture, plan: &Plan, now_s: f64) {
-        let risk = picture.risk().probability;
+        let risk = plan.risk;
         let is_clear = risk < picture.clearance().declare_below && picture.missing_marks() == 0;
         self.hopeless_since_s = if plan.is_possible {
             None

@@ -129,15 +129,6 @@ impl LanePicture {
         }
     }
 
-    /// Whether a mark that may be a mine has no verdict.
-    pub(crate) fn has_open_marks(&self) -> bool {
-        let clearance = &self.clearance;
-        self.marks().any(|mark| {
-            let is_suspect = mark.mine > clearance.interrogate_above;
-            is_suspect && mark.verdict.is_none() && mark.may_be_in(&clearance.lane)
-        })
-    }
-
     /// Number of marks that robots report and that have not been received.
     #[must_use]
     pub fn missing_marks(&self) -> u32 {
@@ -173,11 +164,13 @@ impl LanePicture {
     #[must_use]
     pub fn risk(&self) -> Risk {
         let lane = self.clearance.lane;
-        let inside = self.marks().filter(|mark| mark.may_be_in(&lane));
-        Risk::new(
-            self.remaining.now.iter().sum(),
-            inside.map(|mark| mark.mine),
-        )
+        self.risk_with(self.marks().filter(|mark| mark.may_be_in(&lane)))
+    }
+
+    /// The same, with the marks that may be in the lane.
+    pub(crate) fn risk_with(&self, marks: impl Iterator<Item = BelievedMark>) -> Risk {
+        let unmarked = self.remaining.now.iter().sum();
+        Risk::new(unmarked, marks.map(|mark| mark.mine))
     }
 
     fn model_of(&self, robot: RobotId) -> Option<usize> {

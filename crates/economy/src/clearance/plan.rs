@@ -62,6 +62,10 @@ pub(crate) struct Plan {
     pub(crate) proposals: Vec<Proposal>,
     /// Whether the goals that robots in range can serve lower the risk.
     pub(crate) is_possible: bool,
+    /// Whether a mark that may be a mine has no verdict.
+    pub(crate) has_open_marks: bool,
+    /// The probability that at least one mine is left.
+    pub(crate) risk: f64,
 }
 
 /// The circumstances in which a controller plans.
@@ -83,11 +87,14 @@ impl Plan {
             proposals.extend(searches(picture, &tiles, search, *skill));
         }
         let marks = picture.marks();
-        for mark in marks.filter(|mark| mark.may_be_in(&clearance.lane)) {
+        let marks = marks.filter(|mark| mark.may_be_in(&clearance.lane));
+        let marks: Vec<BelievedMark> = marks.collect();
+        for mark in &marks {
             let interrogations = (circumstances.interrogations)(mark.number);
-            proposals.extend(work_at(&mark, clearance, &tiles, interrogations));
+            proposals.extend(work_at(mark, clearance, &tiles, interrogations));
         }
-        let expected = picture.risk().expected();
+        let risk = picture.risk_with(marks.iter().copied());
+        let expected = risk.expected();
         let is_possible = |one: &Proposal| {
             let is_impossible = (circumstances.is_impossible)(one.subject);
             circumstances.has(clearance, one.skill) && !is_impossible
@@ -98,6 +105,8 @@ impl Plan {
         Self {
             proposals,
             is_possible: gain > MIN_POSSIBLE_SHARE * expected,
+            has_open_marks: marks.iter().any(|mark| mark.is_open(clearance)),
+            risk: risk.probability,
         }
     }
 }
@@ -110,6 +119,13 @@ impl Circumstances<'_> {
             let robot = clearance.robots.get(usize::from(*kind));
             robot.is_some_and(|robot| robot.has(skill))
         })
+    }
+}
+
+impl BelievedMark {
+    /// Whether it may be a mine and has no verdict.
+    fn is_open(&self, clearance: &Clearance) -> bool {
+        self.mine > clearance.interrogate_above && self.verdict.is_none()
     }
 }
 

@@ -32,6 +32,7 @@ impl Controller {
         if now_s >= work.next_plan_s && work.decision.statement.is_none() {
             work.next_plan_s = now_s + PLAN_PERIOD_S;
             let plan = self.plan(&mut work);
+            work.has_open_marks = plan.has_open_marks;
             work.decision.decide(&work.picture, &plan, now_s);
             if let Some(statement) = work.decision.statement {
                 act = Some(statement.act());
@@ -46,7 +47,6 @@ impl Controller {
 
     fn plan(&self, work: &mut LaneWork) -> Plan {
         work.note_done(&self.goals, self.now_s);
-        work.has_open_marks = work.picture.has_open_marks();
         let mut kinds: Vec<u8> = self.picture.present().map(|robot| robot.id.kind).collect();
         kinds.sort_unstable();
         kinds.dedup();

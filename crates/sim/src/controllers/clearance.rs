@@ -24,7 +24,7 @@ pub struct ClearanceSpec {
     #[schemars(range(min = 0.0001, max = 0.9999))]
     pub interrogate_above: f64,
     /// Side of the cells for which the controllers compute the remaining risk, in metres.
-    #[serde(default = "two")]
+    #[serde(default = "one")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub cell_m: f64,
     /// Side of the tiles that are searched as one goal, in metres.
@@ -58,8 +58,8 @@ fn one_in_fifty() -> f64 {
     0.02
 }
 
-fn two() -> f64 {
-    2.0
+fn one() -> f64 {
+    1.0
 }
 
 fn twenty() -> f64 {

@@ -91,8 +91,13 @@ pub(crate) struct DetectorScan<'g> {
 }
 
 impl CoverageMap {
-    /// Updates all cells in view.
-    pub(crate) fn update(&mut self, field: &Field, occupancy: &Occupancy, scan: &DetectorScan) {
+    /// Updates all cells of a field that are in view, on a map with its own field.
+    pub(crate) fn update(
+        &mut self,
+        field: &Field,
+        (map_field, occupancy): (&Field, &Occupancy),
+        scan: &DetectorScan,
+    ) {
         let DetectorScan {
             detector,
             at,
@@ -110,8 +115,10 @@ impl CoverageMap {
             cell_margin_m(field, detector.range_m)
         };
         let [columns, rows] = field.columns_and_rows(low, high);
-        let may_be_hidden =
-            detector.needs_line_of_sight && occupancy.is_any_in(field, &columns, &rows);
+        let may_be_hidden = detector.needs_line_of_sight && {
+            let [columns, rows] = map_field.columns_and_rows(low, high);
+            occupancy.is_any_in(map_field, &columns, &rows)
+        };
         let floor = distrusted(trust);
         let min = floor.max(MIN_MISSED);
         for row in rows {
@@ -122,7 +129,8 @@ impl CoverageMap {
                 let centre = field.centre(cell);
                 let offset = at.to(centre);
                 let is_in_view = view.holds_within(offset, margin_m);
-                if is_in_view && (!may_be_hidden || occupancy.is_visible(field, at, centre, blur_m))
+                if is_in_view
+                    && (!may_be_hidden || occupancy.is_visible(map_field, at, centre, blur_m))
                 {
                     let detection = detector.min_probability(offset.length());
                     let above = self.missed[cell] - floor;
@@ -188,7 +196,7 @@ pub(crate) mod tests {
             blur_m: 0.0,
             counts_centres: false,
         };
-        coverage.update(&map.field, &map.occupancy, &scan);
+        coverage.update(&map.field, (&map.field, &map.occupancy), &scan);
     }
 
     #[test]

@@ -243,7 +243,7 @@ impl Beliefs {
                 blur_m,
                 counts_centres: false,
             };
-            coverage.update(field, occupancy, &scan);
+            coverage.update(field, (field, occupancy), &scan);
         }
     }
 }

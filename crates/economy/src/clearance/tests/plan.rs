@@ -149,6 +149,7 @@ fn a_lane_is_declared_clear_when_the_stated_risk_is_low_enough() {
     assert_eq!(decision.statement, None);
     searched(&mut picture, OAV, 15.0);
     searched(&mut picture, UGV, 15.0);
+    let plan = planned(&picture, &[0, 1], 0);
     decision.decide(&picture, &plan, 2.0);
     let statement = decision.statement.unwrap();
     assert!(statement.is_clear && (statement.risk - picture.clearance().floor()).abs() < 1e-4);

@@ -37,7 +37,8 @@ fn model_observation(
         blur_m: 0.0,
         counts_centres: false,
     };
-    map.coverage.update(&map.field, &map.occupancy, &scan);
+    map.coverage
+        .update(&map.field, (&map.field, &map.occupancy), &scan);
 }
 
 /// From -8 to 8 along both axes, in cells of half a metre.

@@ -213,7 +213,8 @@ fn believed(worlds: u64, assumed: &Detector) -> Vec<(f64, bool)> {
                 blur_m: 0.0,
                 counts_centres: false,
             };
-            map.coverage.update(&map.field, &map.occupancy, &scan);
+            map.coverage
+                .update(&map.field, (&map.field, &map.occupancy), &scan);
         }
         for (place, track) in items.tracks.iter().enumerate() {
             let is_it = |(kind, at, _): &WorldItem| {
