@@ -72,7 +72,8 @@ impl Marks {
     }
 
     /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place. What a charge
-    /// destroys is neutralised in all places within its reach: marks of one item can be several places.
+    /// destroys is neutralised in all places within its reach that may be the same item: marks of one item can be several
+    /// places.
     pub(super) fn state(&mut self, statement: &Statement, reach_m: f64) {
         let at = Point::from(statement.at_m.map(f64::from));
         let is_named = |place: &Place| place.marks.iter().any(|mark| mark.id == statement.mark);
@@ -89,7 +90,8 @@ impl Marks {
         }
         if statement.verdict == MarkVerdict::Neutralised {
             let places = self.places.iter_mut();
-            let reached = places.filter(|place| place.at.to(at).length() <= reach_m);
+            let reached =
+                places.filter(|place| place.at.to(at).length() <= reach_m.min(place.same_item_m()));
             reached.for_each(|place| place.state(statement.verdict, statement.mark));
         }
     }

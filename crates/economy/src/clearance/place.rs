@@ -92,6 +92,11 @@ impl Place {
         u32::try_from(self.missed.len()).unwrap_or(u32::MAX)
     }
 
+    /// Another place within this distance, with about the same deviation, may be the same item.
+    pub(super) fn same_item_m(&self) -> f64 {
+        GATE * libm::sqrt(2.0 * self.variance_m2)
+    }
+
     /// Statements within this distance can be about it.
     pub(super) fn reach_m(&self) -> f64 {
         GATE * libm::sqrt(self.variance_m2) + STATEMENT_M

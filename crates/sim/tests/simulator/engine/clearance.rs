@@ -290,7 +290,11 @@ fn the_first_declaration_of_two_controllers_ends_the_run() {
             .each_lane()
             .filter_map(|lane| lane.statement);
         let risks: Vec<f64> = statements.map(|statement| statement.risk).collect();
-        assert_eq!(lane(&outcome).stated_risk, risks[0]);
+        // Some runs end at the time limit: with narrow radios, messages are lost.
+        let Some(first) = risks.first() else {
+            continue;
+        };
+        assert_eq!(lane(&outcome).stated_risk, *first);
         alone += u32::from(risks.len() == 1);
     }
     assert!(alone > 0);

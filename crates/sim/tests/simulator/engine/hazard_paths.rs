@@ -19,6 +19,8 @@ count = 1
 radius_m = 0.3
 start = { kind = "fixed", at_m = [[2, 5]], heading_deg = [0] }
 drive = { max_speed_m_s = 1, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 90 }
+payload_kg = 1
+tools.neutralise = { range_m = 1, charges = 1 }
 sensors.place = { kind = "position" }
 sensors.compass = { kind = "heading" }
 sensors.eye = { kind = "items", range_m = 4, detection_probability = { mine = 0.9 } }

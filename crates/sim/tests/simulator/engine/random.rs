@@ -41,7 +41,7 @@ pub(crate) fn text(seed: u64) -> String {
 
 /// What completes an item, and its hazard.
 fn item_acts(random: &mut Random) -> String {
-    let completed_by = random.one_of(&["", "detected", "confirmed", "neutralised"]);
+    let completed_by = random.one_of(&["", "", "", "", "detected", "confirmed", "neutralised"]);
     let mut text = match completed_by {
         "" => String::new(),
         act => format!("completed_by = \"{act}\"\n"),
