@@ -78,7 +78,14 @@ export function borderOf(lane: LaneView): [from: Point, to: Point][] {
 
 export type MarkState = "unverified" | NonNullable<MarkView["verdict"]>;
 
-export const markStates: MarkState[] = ["unverified", "confirmed", "rejected", "missed", "neutralised", "isolated"];
+export const markStates: MarkState[] = [
+  "unverified",
+  "confirmed",
+  "rejected",
+  "missed",
+  "neutralised",
+  "isolated",
+];
 
 export function stateOf({ verdict }: MarkView): MarkState {
   return verdict ?? "unverified";
