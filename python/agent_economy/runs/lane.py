@@ -20,8 +20,8 @@ class LaneMark(NamedTuple):
         probabilities: Probability of each kind of items there, by kind; the rest is that of
             nothing.
         mine: Probability that it holds a mine that has not been neutralised, 0 to 1.
-        verdict: The last statement about it: "confirmed", "rejected", "isolated", "neutralised" or "missed" (by a charge);
-            None if there is none.
+        verdict: The last statement about it: "confirmed", "rejected", "isolated", "neutralised" or
+            "missed" (by a charge); None if there is none.
         failed_charges: Number of charges that have gone off there and destroyed nothing.
     """
 
