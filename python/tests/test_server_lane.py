@@ -44,10 +44,10 @@ def test_runs_without_a_lane_have_no_such_message(page: Page) -> None:
 
 def test_a_lane_is_the_belief_of_its_controller_beside_the_truth(page: Page) -> None:
     simulation = ae.Simulation(SMALL_LANE, seed=3)
-    simulation.step(400)
+    simulation.step(200)
     page.send("layers", **REQUEST)
-    page.open(scenario=None, text=SMALL_LANE.read_text(), seed="3", tick=400)
-    message = page.wait_for("lanes", tick=400)
+    page.open(scenario=None, text=SMALL_LANE.read_text(), seed="3", tick=200)
+    message = page.wait_for("lanes", tick=200)
     assert message["mines_left"] == simulation.mines_left
     for view, lane in zip(message["lanes"], simulation.lanes, strict=True):
         assert view["risk"] == lane.risk._asdict()
