@@ -76,9 +76,7 @@ impl Aim {
 
 /// The id of the robot's mark of a track that it has detected itself.
 fn own_mark(track: &Track, beliefs: &Beliefs) -> Option<GoalId> {
-    let mut sources = track.sources[..track.count].iter();
-    let own =
-        sources.find(|source| source.provenance.observer == beliefs.id && source.is_contact)?;
+    let own = track.own_contact(beliefs.id)?;
     Some(GoalId {
         issuer: beliefs.id,
         number: own.provenance.track_id,

@@ -154,11 +154,7 @@ fn mark_of(
     own: RobotId,
     pose_deviation_m: f64,
 ) -> Option<Mark> {
-    let mut sources = track.sources[..track.count].iter();
-    let source = sources.find(|source| source.provenance.observer == own)?;
-    if !source.is_contact {
-        return None;
-    }
+    let source = track.own_contact(own)?;
     let mut log_ratios = [EXCLUDED; MARK_KINDS];
     if let Some(kinds) = kinds {
         let of_kinds = log_ratios.iter_mut().zip(track.visible_log_ratios(kinds));

@@ -205,8 +205,10 @@ impl LanePicture {
 
     /// Probability of each kind of items at a place, against nothing but false alarms.
     fn probabilities(&self, place: &Place) -> [f64; MARK_KINDS] {
-        let log_odds: [f64; MARK_KINDS] = core::array::from_fn(|kind| self.log_odds(place, kind));
-        let contradiction = self.contradiction(place);
+        let marked = self.marked_models(place);
+        let log_odds: [f64; MARK_KINDS] =
+            core::array::from_fn(|kind| self.log_odds(place, kind, &marked));
+        let contradiction = self.contradiction(place, &marked);
         let highest = log_odds.into_iter().fold(0.0, f64::max) + contradiction;
         let odds = log_odds.map(|odds| libm::exp(odds - highest));
         // It has been there, but is gone: what contradicts an item that is still there does not count.
@@ -218,11 +220,11 @@ impl LanePicture {
     }
 
     /// How often looks of robots without a mark miss an item that a robot of the same model has detected, in nats.
-    fn contradiction(&self, place: &Place) -> f64 {
+    fn contradiction(&self, place: &Place, marked: &[bool]) -> f64 {
         let robots = self.robots_in_agreement(place);
         let cell = self.clearance.lane.nearest_cell(place.at);
-        let marked = self.marked_models(place).into_iter().enumerate();
-        let marked = marked.filter(|(_, is_marked)| *is_marked);
+        let marked = marked.iter().enumerate();
+        let marked = marked.filter(|(_, is_marked)| **is_marked);
         let nats = marked.map(|(model, _)| self.searched.nats_without(model, cell, &robots));
         nats.sum()
     }
@@ -231,15 +233,14 @@ impl LanePicture {
     ///
     /// An item that a sensor model has detected is one that it can detect. If the model has not,
     /// either all of its looks have missed the item, or the model is blind to it.
-    fn log_odds(&self, place: &Place, kind: usize) -> f64 {
+    fn log_odds(&self, place: &Place, kind: usize, marked: &[bool]) -> f64 {
         let area_m2 = self.clearance.lane.area().area_m2();
         let expected = self.clearance.expected.get(kind).copied();
         let Some(expected) = expected.filter(|expected| *expected > 0.0) else {
             return f64::NEG_INFINITY;
         };
-        let marked = self.marked_models(place);
         let robots = place.robots();
-        let models = (0..self.blind.len()).zip(&marked);
+        let models = (0..self.blind.len()).zip(marked);
         let models = models.map(|(model, is_marked)| {
             self.log_missed((model, *is_marked), kind, place.at, &robots)
         });

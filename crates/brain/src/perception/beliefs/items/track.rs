@@ -166,6 +166,12 @@ impl Track {
         sources.any(|source| source.provenance.observer == own)
     }
 
+    /// The observations of a robot, if its detectors have detected the item.
+    pub(crate) fn own_contact(&self, own: RobotId) -> Option<&Source> {
+        let mut sources = self.sources[..self.count].iter();
+        sources.find(|source| source.provenance.observer == own && source.is_contact)
+    }
+
     /// Corrects the position.
     pub(crate) fn correct_position(&mut self, at: Point, variance_m2: f64) {
         if self.count == 1 && self.sources[0].provenance.observations <= 1 {
