@@ -5,7 +5,7 @@ Directions: changes of the team, the sensors and the radio move results the righ
 measurements are docs/mines/calibration.csv and directions.csv; the tables of docs/mines.md are
 between `<!-- calibration -->` or `<!-- directions -->` and `<!-- end -->`. Examples:
 
-    python scripts/clearance.py               run everything (takes half an hour on one core)
+    python scripts/clearance.py               run everything (half an hour on two cores)
     python scripts/clearance.py --scale 0.2   the same with a fifth of the runs
     python scripts/clearance.py --draw        only the chart and the page, from the CSV files
 
@@ -22,6 +22,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, get_type_hints
 
 import numpy as np
+import pyarrow as pa
 from page import ROOT, is_stale, table
 from plots import INK, Row, Spec, page_of, panel, picture, plain, points
 
@@ -31,22 +32,28 @@ from agent_economy.scenario import Override
 FOLDER = ROOT / "docs" / "mines"
 PAGE = FOLDER.with_suffix(".md")
 
-SEED = 1
-RUNS = {0.01: 1650, 0.02: 3200, 0.05: 2400, 0.1: 1400, 0.2: 1200, 0.5: 700}
-"""Lanes by the risk below which they are declared: two standard errors are the tolerance.
+SEED = 2
+RISKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9)
+"""The risks below which lanes are declared.
 
-The stated risk is lower than that risk, as it falls in steps.
+The stated risk is lower, as it falls in steps: below 0.9, lanes are declared with about 0.5.
 """
 
 MIN_TOLERANCE, TOLERANCE = 0.005, 0.2
 """The share may differ from the stated risk by the larger of a number and a part of the risk."""
 
+STANDARD_ERRORS = 3.0
+"""The tolerance has this many standard errors: a true statement fails in 0.3% of the cells."""
+
+BLOCK_RUNS, MAX_RUNS = 500, 12_000
+"""Lanes are added in blocks, until the tolerance has so many standard errors, or to a maximum."""
+
 DIRECTION_RUNS, TEAM_RUNS = 300, 100
 SIGMAS = 2.0
 """Without an effect, a paired difference has this many standard errors in 2.3% of the cases."""
 
-CLEAR_SHARE = 0.7
-"""The cheapest team declares the lane clear, rightly, in at least this share of the runs."""
+CLEAR_SHARE, CLEAR_S = 0.7, 180
+"""The cheapest team declares the lane clear, rightly and in this time, in this share of the runs."""
 
 LANE = [[8, 4], [68, 24]]
 UNIFORM = {"kind": "uniform", "within_m": LANE}
@@ -97,7 +104,7 @@ class Series:
     name: str
     changes: Changes
     is_claim: bool = True
-    risks: tuple[float, ...] = tuple(RUNS)
+    risks: tuple[float, ...] = RISKS
 
 
 WRONG = (0.05, 0.2)
@@ -188,17 +195,31 @@ def column(runs: Any, name: str) -> np.ndarray:
 
 def cell(series: Series, risk: float, scale: float) -> Cell:
     """Return what was stated and what was true, at one risk below which lanes are declared."""
-    number = max(50, round(scale * RUNS[risk]))
-    runs = ae.replicate(scenario({BELOW: risk} | series.changes), number, SEED)
+    case = scenario({BELOW: risk} | series.changes)
+    blocks = []
+    for block in range(MAX_RUNS // BLOCK_RUNS):
+        blocks.append(ae.replicate(case, BLOCK_RUNS, SEED + block))
+        one = counted(series, risk, pa.concat_tables(blocks))
+        if one.runs >= scale * needed(one):
+            break
+    return replace(one, verdict=verdict(one) if series.is_claim else "reported")
+
+
+def counted(series: Series, risk: float, runs: Any) -> Cell:
+    """Return what was stated and what was true in some runs."""
     is_declared = column(runs, "declared") > 0
     declared = int(is_declared.sum())
     if declared == 0:
-        return Cell(series.name, risk, number, 0, 1.0, 0.0, 1.0, "undecided")
+        return Cell(series.name, risk, len(runs), 0, 1.0, 0.0, 1.0, "undecided")
     stated = float(np.mean(column(runs, "stated_risk")[is_declared]))
     not_clear = float(np.mean(column(runs, "declared_not_clear")[is_declared]))
     error = math.sqrt(stated * (1 - stated) / declared)
-    one = Cell(series.name, risk, number, declared, stated, not_clear, error, "")
-    return replace(one, verdict=verdict(one) if series.is_claim else "reported")
+    return Cell(series.name, risk, len(runs), declared, stated, not_clear, error, "")
+
+
+def needed(one: Cell) -> float:
+    """Return the runs with which the tolerance has enough standard errors, by what was stated."""
+    return one.runs * (STANDARD_ERRORS * one.standard_error / tolerance(one.stated)) ** 2
 
 
 def tolerance(risk: float) -> float:
@@ -207,15 +228,11 @@ def tolerance(risk: float) -> float:
 
 
 def verdict(one: Cell) -> str:
-    """Return whether the share is within the tolerance, as far as two standard errors decide it."""
+    """Return whether the share is within the tolerance, if there are enough runs to decide it."""
     off = one.not_clear - one.stated
-    margin = tolerance(one.stated) - abs(off)
-    is_decided = 2 * one.standard_error <= tolerance(one.stated)
-    if is_decided and margin >= 0:
-        return "passes"
-    if not is_decided and margin > -2 * one.standard_error:
-        return "undecided"
-    return f"fails: the stated risk is too {'low' if off > 0 else 'high'}"
+    if abs(off) > max(tolerance(one.stated), STANDARD_ERRORS * one.standard_error):
+        return f"fails: the stated risk is too {'low' if off > 0 else 'high'}"
+    return "passes" if one.runs >= needed(one) else "undecided"
 
 
 def directions(scale: float) -> Iterable[Direction]:
@@ -253,8 +270,8 @@ def direction(
 
 def dearer(number: int) -> Direction:
     """Return the ground vehicles of the cheapest team, by their price, with the same runs."""
-    teams = [(oavs, ugvs) for oavs in (1, 3) for ugvs in (1, 2, 3)]
-    limit: Changes = {"clock.time_limit_s": 600}
+    teams = [(oavs, ugvs) for oavs in range(1, 5) for ugvs in range(1, 5)]
+    limit: Changes = {"clock.time_limit_s": CLEAR_S}
     enough = []
     for oavs, ugvs in teams:
         team = limit | {"robots.oav.count": oavs, "robots.ugv.count": ugvs}

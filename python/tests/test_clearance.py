@@ -55,7 +55,7 @@ def known(of: Clearance | None) -> Clearance:
 
 def row(**changes: Any) -> dict[str, Any]:
     """Return the outcome of a run whose lane was declared clear and is clear."""
-    stated = {"declared": True, "declared_not_clear": False, "stated_risk": 0.046}
+    stated = {"declared": True, "declared_not_clear": False, "given_up": False, "stated_risk": 0.046}
     acts = {"marked": 8, "false_marks": 1, "confirmed": 7, "false_confirmations": 2}
     ends = {"declared_s": 412.2, "neutralised": 6, "left": 0, "robots_lost": 3}
     return {**stated, **acts, **ends, "unmarked_from_air": 2, "met_unmarked": 1, **changes}
@@ -134,12 +134,14 @@ def test_a_run_states_the_declaration_and_the_truth() -> None:
 
 
 def test_a_lane_that_is_not_declared_does_not_look_clear() -> None:
-    given_up = dict(lane_rows(row(declared=False, stated_risk=0.34, left=3)))
+    given_up = dict(lane_rows(row(declared=False, given_up=True, stated_risk=0.34, left=3)))
     assert given_up["lane"] == (
         "not declared clear: given up with a stated risk of 34.0%; 3 mines left"
     )
     neither = dict(lane_rows(row(declared=False, stated_risk=1.0, left=0)))
-    assert neither["lane"].startswith("neither declared clear nor given up")
+    assert neither["lane"] == "neither declared clear nor given up; 0 mines left"
+    certain = dict(lane_rows(row(declared=False, given_up=True, stated_risk=1.0, left=0)))
+    assert "given up with a stated risk of 100.0%" in certain["lane"]
 
 
 def test_runs_without_a_lane_have_no_such_rows() -> None:

@@ -99,6 +99,20 @@ test("what a controller has declared is shown beside the truth", async ({ page, 
   await expect(page.getByRole("term").filter({ hasText: /^declared$/ })).toHaveCount(2);
 });
 
+test("a person ends the mission, and the controllers give the lane up with the risk of that time", async ({
+  page,
+  server,
+}) => {
+  await openLane(page, server, 150);
+  await openTab(page, "Lane");
+  const panel = page.getByRole("tabpanel");
+  const callOff = panel.getByRole("button", { name: "Call off the mission" });
+  await callOff.click();
+  await page.getByRole("button", { name: "Play" }).click();
+  await expect(panel.getByText(/^Given up at 3\d\.\d s, at a risk of [\d.]+%\.$/)).toBeVisible();
+  await expect(callOff).toHaveCount(0);
+});
+
 test("a run without a lane has neither the layers nor the panel", async ({ page, server }) => {
   await openRun(page, server, "scenario=open-field&seed=7&run=0");
   await openTab(page, "Layers");

@@ -68,6 +68,7 @@ pub use perception::beliefs::{BeliefsSpec, TrustSpec};
 pub use perception::believed::{BelievedItem, BelievedRobot};
 pub use service::grantor::{Grant, Grantor, wait_s};
 pub use service::holder::{Holder, Lease};
+pub use service::lane_reports::{LANE_REPORT_MESSAGES, LANE_REPORT_PERIOD_S};
 pub use service::numbers::Numbers;
 pub use service::served::ServedGoal;
 pub use spec::BrainSpec;

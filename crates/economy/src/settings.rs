@@ -38,6 +38,9 @@ pub struct Settings {
     /// The lane that all controllers of the kind are to clear; without it, they plan no goals.
     #[serde(skip)]
     pub clearance: Option<Arc<Clearance>>,
+    /// Whether a person ends its mission on the lane.
+    #[serde(skip)]
+    pub is_called_off: bool,
 }
 
 impl Settings {
@@ -82,6 +85,7 @@ impl Default for Settings {
             robot_kinds: 0,
             controller_kinds: 0,
             clearance: None,
+            is_called_off: false,
         }
     }
 }

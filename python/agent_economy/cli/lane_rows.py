@@ -27,10 +27,9 @@ def statement(row: Mapping[str, Any]) -> str:
         wrong = ", but it was not clear" if row["declared_not_clear"] else ""
         at = f"declared clear at {row['declared_s']:.0f} s"
         return f"{at} with a stated risk of {risk:.1%}{wrong}"
-    if risk < 1:
+    if row["given_up"]:
         return f"not declared clear: given up with a stated risk of {risk:.1%}"
-    # A lane without a statement has a risk of 1, and one that is given up may have it.
-    return "neither declared clear nor given up with a risk below 100%"
+    return "neither declared clear nor given up"
 
 
 def act_rows(row: Mapping[str, Any]) -> Iterator[Row]:

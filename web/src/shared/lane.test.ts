@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 import type { LaneView, MarkView, Setting } from "../api/protocol";
 import {
   borderOf,
+  calledOffPath,
   cellsOf,
   clearedShare,
   hasLane,
@@ -48,6 +49,11 @@ test("a run has a lane if one of its controllers is to clear it", () => {
   expect(hasLane(documentOf({ controllers: { base: {}, station: { clearance: {} } } }))).toBe(true);
   expect(hasLane(documentOf({ controllers: { base: {} } }))).toBe(false);
   expect(hasLane(documentOf({}))).toBe(false);
+});
+
+test("a person ends the mission of the kind of controllers that has a lane", () => {
+  const setting = documentOf({ controllers: { base: {}, station: { clearance: {} } } });
+  expect(calledOffPath(setting)).toBe("controllers.station.clearance.called_off");
 });
 
 test("the first controller is shown until another one is chosen", () => {

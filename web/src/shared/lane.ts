@@ -8,6 +8,13 @@ export function hasLane({ document }: Setting): boolean {
   return Object.values(tableOf(document.controllers)).some((kind) => "clearance" in tableOf(kind));
 }
 
+/** The key with which a person ends the mission on the lane. */
+export function calledOffPath({ document }: Setting): string {
+  const kinds = Object.entries(tableOf(document.controllers));
+  const kind = kinds.find(([, table]) => "clearance" in tableOf(table))?.[0] ?? "";
+  return `controllers.${kind}.clearance.called_off`;
+}
+
 /** What a controller believes of the lane; that of the first if it is null or does not exist. */
 export function laneOf(lanes: Lanes | null, controller: string | null): LaneView | null {
   return lanes?.lanes.find((lane) => lane.controller === controller) ?? lanes?.lanes[0] ?? null;

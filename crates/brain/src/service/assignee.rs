@@ -66,7 +66,7 @@ impl Assignee {
         self.take_results(moment);
         self.aim(ability, moment);
         self.return_goals(ability, moment);
-        for received in &moment.percept.inbox {
+        for received in self.in_order(ability, moment) {
             self.receive(received, ability, moment);
         }
         self.work(ability, moment);
@@ -81,15 +81,20 @@ impl Assignee {
         let inbox = moment.percept.inbox.iter();
         for received in inbox.filter(|received| ability.is_controller(received.from)) {
             if let About::Dispatch(Dispatch::Lane(lane)) = received.message.about {
-                self.lane.name(lane, beliefs, self.now_s);
+                let own = moment.percept.id;
+                self.lane.name((lane, own), beliefs, self.now_s);
             }
         }
         if let Some(task) = self.interrogated.take() {
             let within_m = ability.uncertain_m(&task);
             self.lane.state((&task, within_m), moment.body, beliefs);
         }
+        // Not to everyone: other robots would receive fewer of the messages that they need.
+        let controllers: Vec<RobotId> = self.schedule.contacts.iter().map(|one| one.id).collect();
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
-            self.send(RobotId::EVERYONE, dispatch);
+            for controller in &controllers {
+                self.send(*controller, dispatch);
+            }
         }
         self.lane.act(&mut self.acts);
     }
@@ -192,6 +197,28 @@ impl Assignee {
             self.report_failure(goal, reason);
             self.release(goal);
         }
+    }
+
+    /// The messages of a step. Of several awards, the best come last, and first: otherwise the goals of the same
+    /// controller would win whenever there is room for one.
+    fn in_order<'p>(&self, ability: &Ability, moment: &'p Moment) -> Vec<&'p ReceivedMessage> {
+        let cost_s = |received: &ReceivedMessage| match received.message.about {
+            About::Dispatch(Dispatch::Award(award)) => {
+                let offer = self.offers.get(award.goal);
+                let estimate = offer.and_then(|offer| self.estimate(offer, ability, moment).ok());
+                estimate.map_or(f64::INFINITY, |estimate| estimate.cost_s())
+            }
+            _ => 0.0,
+        };
+        let is_award = |received: &&ReceivedMessage| {
+            matches!(received.message.about, About::Dispatch(Dispatch::Award(_)))
+        };
+        let inbox = &moment.percept.inbox;
+        let mut order: Vec<&ReceivedMessage> = inbox.iter().collect();
+        if inbox.iter().filter(is_award).count() > 1 {
+            order.sort_by(|one, other| cost_s(one).total_cmp(&cost_s(other)));
+        }
+        order
     }
 
     fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {

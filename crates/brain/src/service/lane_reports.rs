@@ -4,7 +4,7 @@ use super::ability::Moment;
 use super::lane_coverage::LaneCoverage;
 use super::lane_marks::LaneMarks;
 use crate::io::act::{Act, ActKind, MAX_ACTS};
-use crate::io::body::Body;
+use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Dispatch, Task};
 use crate::io::lane::{Lane, MarkVerdict, Statement};
 use crate::perception::beliefs::Beliefs;
@@ -15,13 +15,20 @@ use base::geometry::Rectangle;
 use base::hash::Hash;
 use base::hashed::Hashed;
 
-/// Time between two reports, in seconds, and the maximum number of messages of each kind in one.
-const PERIOD_S: f64 = 1.0;
+/// Time between two reports of a robot about a lane, in seconds.
+pub const LANE_REPORT_PERIOD_S: f64 = 1.0;
+
+/// Maximum number of messages of marks and coverage in a report.
+pub const LANE_REPORT_MESSAGES: u32 = (MAX_COVERAGE + MAX_MARKS) as u32;
+
 const MAX_COVERAGE: usize = 6;
 const MAX_MARKS: usize = 6;
 
 /// A mark is confirmed from this probability of an item that is to be cleared on.
 const CONFIRM_ABOVE: f64 = 0.5;
+
+/// Multiples of it are spread evenly between whole numbers, whatever their number.
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
 
 /// Each statement is sent this many times.
 const REPEATS: u32 = 3;
@@ -56,6 +63,14 @@ impl Hashed for LaneReports {
     }
 }
 
+/// The part of a period by which a robot's reports are later than a message to all: together, the reports
+/// of all robots would be more than a radio receives in a step.
+fn phase(own: RobotId) -> f64 {
+    let number = f64::from(own.index) + f64::from(own.kind) / 2.0;
+    let turns = number * GOLDEN_RATIO;
+    turns - libm::floor(turns)
+}
+
 #[derive(Debug, Clone)]
 struct Work {
     coverage: LaneCoverage,
@@ -73,7 +88,7 @@ base::hashed!(Work {
 
 impl LaneReports {
     /// A controller has named a lane. Looks count from the first message on; another lane replaces it.
-    pub(crate) fn name(&mut self, lane: Lane, beliefs: &Beliefs, now_s: f64) {
+    pub(crate) fn name(&mut self, (lane, own): (Lane, RobotId), beliefs: &Beliefs, now_s: f64) {
         if !lane.is_valid() || beliefs.map.is_none() {
             return;
         }
@@ -84,7 +99,7 @@ impl LaneReports {
                     coverage: LaneCoverage::new(lane),
                     marks: LaneMarks::default(),
                     named_s: now_s,
-                    next_s: now_s,
+                    next_s: now_s + phase(own) * LANE_REPORT_PERIOD_S,
                 }));
             }
         }
@@ -149,7 +164,7 @@ impl LaneReports {
         if now_s < self.next_statement_s || self.statements.is_empty() {
             return Vec::new();
         }
-        self.next_statement_s = now_s + PERIOD_S;
+        self.next_statement_s = now_s + LANE_REPORT_PERIOD_S;
         let send = |(statement, times): &mut (Statement, u32)| {
             *times -= 1;
             Dispatch::Statement(*statement)
@@ -172,7 +187,7 @@ impl LaneReports {
         if now_s < work.next_s || now_s >= work.named_s + SILENCE_S {
             return Vec::new();
         }
-        work.next_s = now_s + PERIOD_S;
+        work.next_s = now_s + LANE_REPORT_PERIOD_S;
         let marks = work.marks.due(MAX_MARKS);
         if moment.body.tool(ActKind::Mark).is_some() {
             let kind = ActKind::Mark;

@@ -58,12 +58,24 @@ impl Robot {
     }
 
     fn command(&mut self, messages: &[Dispatch], touches: bool) -> Command {
+        let messages = messages.iter().map(|dispatch| (OWNER, *dispatch));
+        self.command_from(messages, touches)
+    }
+
+    /// A step with messages of several controllers.
+    fn command_from(
+        &mut self,
+        messages: impl IntoIterator<Item = (RobotId, Dispatch)>,
+        touches: bool,
+    ) -> Command {
         self.time_s += 0.1;
-        let inbox = messages.iter().map(|dispatch| ReceivedMessage {
-            from: OWNER,
-            age_s: 0.0,
-            message: Message::to_all(About::Dispatch(*dispatch)),
-        });
+        let inbox = messages
+            .into_iter()
+            .map(|(from, dispatch)| ReceivedMessage {
+                from,
+                age_s: 0.0,
+                message: Message::to_all(About::Dispatch(dispatch)),
+            });
         let percept = Percept {
             time_s: Some(self.time_s),
             inbox: inbox.collect(),
@@ -105,6 +117,49 @@ const CALL: Dispatch = Dispatch::Call {
     number: 0,
     task: TASK,
 };
+
+/// Awards of two controllers that arrive together: otherwise the one that is received first would win each time,
+/// and the goals of the other be served last, whatever their value.
+#[test]
+fn of_two_awards_that_arrive_together_a_robot_with_room_for_one_takes_the_better() {
+    for (first, second, taken) in [(1.0, 5.0, 1), (5.0, 1.0, 0)] {
+        let mut robot = Robot::new("", "");
+        let spec = r#"{"behaviours": [{"kind": "serve", "max_goals": 1}]}"#;
+        let body = Body {
+            others: vec![Other::default()],
+            ..body()
+        };
+        robot.brain = brain(spec, body);
+        let owners = [0, 1].map(|index| RobotId { kind: 1, index });
+        let tasks = [(0, first), (1, second)].map(|(number, value)| Task {
+            id: GoalId { number, ..TASK.id },
+            value,
+            ..TASK
+        });
+        let calls = tasks.map(|task| Dispatch::Call { number: 0, task });
+        let calls = [(owners[0], calls[0]), (owners[1], calls[1])];
+        let sent = robot.command_from(calls, false).outbox.into_iter();
+        let bids = sent.filter_map(|message| match message.about {
+            About::Dispatch(Dispatch::Bid(bid)) => Some(bid),
+            _ => None,
+        });
+        let bids: Vec<_> = bids.collect();
+        let awards = [0, 1].map(|index: usize| {
+            let goal = tasks[index].id;
+            let bid = bids.iter().find(|bid| bid.goal == goal).unwrap();
+            let award = Award {
+                goal,
+                number: bid.number,
+                lease_s: 3600.0,
+            };
+            (owners[index], Dispatch::Award(award))
+        });
+        robot.command_from(awards, false);
+        let served = robot.brain.served_goals();
+        let served: Vec<GoalId> = served.iter().map(|served| served.task.id).collect();
+        assert_eq!(served, [tasks[taken].id]);
+    }
+}
 
 #[test]
 fn without_an_award_the_behaviours_below_are_active() {

@@ -59,22 +59,36 @@ impl Decision {
     /// Declares the lane clear when the risk is low and all marks that robots report have been
     /// received; gives it up when no robot in range can lower the risk.
     pub(crate) fn decide(&mut self, picture: &LanePicture, plan: &Plan, now_s: f64) {
-        let risk = plan.risk;
-        let is_clear = risk < picture.clearance().declare_below && picture.missing_marks() == 0;
+        let is_hopeless = self.is_hopeless(plan, now_s);
+        let is_clear =
+            plan.risk < picture.clearance().declare_below && picture.missing_marks() == 0;
+        if is_clear || is_hopeless {
+            self.state(is_clear, plan.risk, now_s);
+        }
+    }
+
+    /// Gives the lane up, as a person orders it.
+    pub(crate) fn give_up(&mut self, plan: &Plan, now_s: f64) {
+        self.state(false, plan.risk, now_s);
+    }
+
+    fn state(&mut self, is_clear: bool, risk: f64, at_s: f64) {
+        let statement = LaneStatement {
+            is_clear,
+            risk,
+            at_s,
+        };
+        self.statement.get_or_insert(statement);
+    }
+
+    /// Whether no goal has lowered the risk for long.
+    fn is_hopeless(&mut self, plan: &Plan, now_s: f64) -> bool {
         self.hopeless_since_s = if plan.is_possible {
             None
         } else {
             self.hopeless_since_s.or(Some(now_s))
         };
-        let is_hopeless = self
-            .hopeless_since_s
-            .is_some_and(|since_s| now_s >= since_s + PATIENCE_S);
-        if self.statement.is_none() && (is_clear || is_hopeless) {
-            self.statement = Some(LaneStatement {
-                is_clear,
-                risk,
-                at_s: now_s,
-            });
-        }
+        self.hopeless_since_s
+            .is_some_and(|since_s| now_s >= since_s + PATIENCE_S)
     }
 }

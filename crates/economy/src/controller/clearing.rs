@@ -34,6 +34,9 @@ impl Controller {
             let plan = self.plan(&mut work);
             work.has_open_marks = plan.has_open_marks;
             work.decision.decide(&work.picture, &plan, now_s);
+            if self.settings.is_called_off {
+                work.decision.give_up(&plan, now_s);
+            }
             if let Some(statement) = work.decision.statement {
                 act = Some(statement.act());
                 self.cancel(&mut work, |_| false);

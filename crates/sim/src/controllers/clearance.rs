@@ -23,6 +23,10 @@ pub struct ClearanceSpec {
     #[serde(default = "one_in_fifty")]
     #[schemars(range(min = 0.0001, max = 0.9999))]
     pub interrogate_above: f64,
+    /// A person ends the mission, from the start or from when this changes in a run: controllers that have stated
+    /// nothing give the lane up, and state the risk.
+    #[serde(default)]
+    pub called_off: bool,
     /// Side of the cells for which the controllers compute the remaining risk, in metres.
     #[serde(default = "one")]
     #[schemars(range(min = 0.1, max = 1000.0))]

@@ -32,6 +32,7 @@ fn statement() -> Vec<Column> {
             flag(of.is_declared && !of.is_clear)
         })
         .with_term("declared_not_clear", 33),
+        column("given_up", Flag, share, move |of| flag(of.is_given_up)).with_term("given_up", 38),
         column("stated_risk", Real, share, |of| of.stated_risk).with_term("stated_risk", 34),
     ]
 }

@@ -11,6 +11,8 @@ pub struct ClearanceOutcome {
     pub is_declared: bool,
     /// Whether it was declared clear and no mine was left in it.
     pub is_clear: bool,
+    /// Whether all controllers gave it up.
+    pub is_given_up: bool,
     /// The risk that was stated when it was declared clear or given up; 1 if it was neither.
     pub stated_risk: f64,
     /// Time until it was declared clear; the time limit if it was not.
@@ -43,6 +45,7 @@ impl ClearanceOutcome {
         Self {
             is_declared: declared.is_some(),
             is_clear: declared.is_some_and(|stated| stated.left == 0),
+            is_given_up: tally.stated.is_some_and(|stated| !stated.is_clear),
             stated_risk: tally.stated.map_or(1.0, |stated| stated.risk),
             declared_s: time_s(declared.map(|stated| stated.at)),
             interrogated_s: time_s(tally.interrogated_at),

@@ -7,6 +7,7 @@ mod configurations;
 mod cropped_maps;
 mod economy;
 mod goals;
+mod lane_radios;
 mod narrow_radios;
 mod room;
 
@@ -20,12 +21,13 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 5] = [
+const EXAMINATIONS: [Examination; 6] = [
     cropped_maps::warnings,
     room::warnings,
     goals::warnings,
     economy::warnings,
     narrow_radios::warnings,
+    lane_radios::warnings,
 ];
 
 /// Warnings about `configurations` of a document, each with values by path. Invalid configurations have
@@ -52,5 +54,7 @@ pub(crate) fn warnings(
 
 #[cfg(test)]
 mod economy_tests;
+#[cfg(test)]
+mod lane_radios_tests;
 #[cfg(test)]
 mod tests;

@@ -65,6 +65,8 @@ class PageConnection:
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
+            # Before anything is awaited: a cancellation of this task may end the next await.
+            self._saver.cancel()
             self._host.leave(self)
             for task in tasks:
                 task.cancel()

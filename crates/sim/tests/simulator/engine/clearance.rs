@@ -221,6 +221,35 @@ fn a_team_that_cannot_neutralise_gives_up_and_fails() {
 }
 
 #[test]
+fn a_mission_that_a_person_ends_is_given_up_with_the_risk_of_that_time() {
+    let ended = LANE.replace(
+        "declare_below = 0.1",
+        "declare_below = 0.1\ncalled_off = true",
+    );
+    for run in 0..3 {
+        let mut simulation = begin(LANE, run);
+        (0..100).for_each(|_| simulation.step());
+        let risk_of = |simulation: &Simulation| {
+            let believed = simulation.state().each_lane().next().unwrap();
+            (believed.risk.probability, believed.statement)
+        };
+        let (before, none) = risk_of(&simulation);
+        assert_eq!(none, None);
+        simulation.change(scenario(&ended)).unwrap();
+        let outcome = simulation.finish();
+        let (lane, (_, statement)) = (lane(&outcome), risk_of(&simulation));
+        assert!(lane.is_given_up && !lane.is_declared && outcome.has_failed);
+        // Within the period of the plans, after a second.
+        assert!(simulation.state().tick() <= 106);
+        // What had been searched by then is remembered.
+        assert!((statement.unwrap().risk - before).abs() < 0.2 && before < 0.999_999);
+        assert_eq!(lane.stated_risk, statement.unwrap().risk);
+    }
+    let (outcome, _) = finish(LANE, 0);
+    assert!(lane(&outcome).is_declared && !lane(&outcome).is_given_up);
+}
+
+#[test]
 fn statement_truth_and_columns_agree() {
     let sloppy = LANE.replace("declare_below = 0.1", "declare_below = 0.85");
     let runs = Runs(scenario(&sloppy));

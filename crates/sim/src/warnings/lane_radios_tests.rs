@@ -1,0 +1,37 @@
+use super::lane_radios::warnings;
+use crate::scenario::ScenarioSpec;
+use base::document::Document;
+
+/// The warnings of the bundled scenario with other radios of robots and controllers, and numbers of controllers.
+fn with(robots: u32, controllers: u32, count: u32) -> Vec<String> {
+    let text = include_str!("../../../../scenarios/mines.toml");
+    let (before, after) = text.split_once("[controllers.station]").unwrap();
+    let radio = |messages: u32| format!("messages_per_step = {messages}");
+    let before = before.replace("messages_per_step = 50", &radio(robots));
+    let after = after.replace("messages_per_step = 50", &radio(controllers));
+    let after = after.replace("count = 2", &format!("count = {count}"));
+    let text = format!("{before}[controllers.station]{after}");
+    let document = Document::parse("t.toml", &text).unwrap();
+    let checked = ScenarioSpec::read(&document).unwrap();
+    let found = warnings(&checked, &document.place());
+    found.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn radios_that_are_too_narrow_for_the_reports_about_a_lane_have_a_warning() {
+    let none: [&str; 0] = [];
+    assert_eq!(with(50, 50, 2), none);
+    // Twelve messages to each of two controllers; eight robots report every fifth step.
+    assert_eq!(with(24, 20, 2), none);
+    let of_robots = with(23, 20, 2);
+    assert!(
+        of_robots.len() == 2 && of_robots[1].contains("robots.ugv.radio.messages_per_step = 23")
+    );
+    assert_eq!(with(12, 20, 1), none);
+    let of_controllers = with(24, 4, 2);
+    assert_eq!(of_controllers.len(), 1);
+    assert!(
+        of_controllers[0]
+            .contains("controllers.station.radio.messages_per_step = 4: fewer than the 20")
+    );
+}
