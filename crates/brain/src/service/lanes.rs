@@ -6,6 +6,10 @@ use base::geometry::{Point, Rectangle};
 /// Maximum number of lanes.
 const MAX_LANES: f64 = 1000.0;
 
+/// An item this far beside the path, as a part of the range, is in view for half as long as one on the path. At the
+/// range itself it is hardly in view, however often the robot passes: sqrt(3) / 2.
+const USEFUL_RANGE: f64 = 0.866_025_403_784_438_6;
+
 /// The path of a search of a robot.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Lanes {
@@ -17,7 +21,8 @@ pub(crate) struct Lanes {
 }
 
 impl Lanes {
-    /// The path of searches in a lane: what is beyond it is not searched.
+    /// The path of searches in a mined lane: what is beyond it is not searched, and no strip is at the edge of the view
+    /// in every pass.
     pub(crate) fn in_lane(self, lane: Rectangle) -> Self {
         let in_field = |corner: Point| {
             self.within.map_or(corner, |field| Point {
@@ -28,7 +33,7 @@ impl Lanes {
         let within = Rectangle::spanned(in_field(lane.min()), in_field(lane.max()));
         Self {
             within: Some(within),
-            ..self
+            apart_m: USEFUL_RANGE * self.apart_m,
         }
     }
 
@@ -120,6 +125,29 @@ mod tests {
         }
         let length_m = lanes.length_m(&TASK);
         assert!(length_m > 314.0 / 3.0 && length_m < 150.0);
+    }
+
+    #[test]
+    fn no_part_of_a_mined_lane_is_at_the_edge_of_the_view_in_every_pass() {
+        let lanes = Lanes {
+            apart_m: 10.0,
+            within: None,
+        };
+        let corner = |x: f64, y: f64| Point { x, y };
+        let lane = Rectangle::spanned(corner(-7.0, -6.0), corner(13.0, 14.0));
+        let task = Task {
+            radius_m: 14.2,
+            ..TASK
+        };
+        let lanes = lanes.in_lane(lane);
+        let corners = (0..).map_while(|number| lanes.corner(&task, number));
+        let rows: Vec<f64> = corners.map(|at| at.y).collect();
+        let nearest = |y: f64| {
+            rows.iter()
+                .fold(f64::MAX, |least, row| least.min((row - y).abs()))
+        };
+        let sides = (0..=200).map(|part| -6.0 + f64::from(part) / 10.0);
+        assert!(sides.map(nearest).all(|away_m| away_m < USEFUL_RANGE * 5.0));
     }
 
     #[test]

@@ -205,76 +205,96 @@ impl LanePicture {
 
     /// Probability of each kind of items at a place, against nothing but false alarms.
     fn probabilities(&self, place: &Place) -> [f64; MARK_KINDS] {
-        let marked = self.marked_models(place);
-        let log_odds: [f64; MARK_KINDS] =
-            core::array::from_fn(|kind| self.log_odds(place, kind, &marked));
-        let contradiction = self.contradiction(place, &marked);
-        let highest = log_odds.into_iter().fold(0.0, f64::max) + contradiction;
-        let odds = log_odds.map(|odds| libm::exp(odds - highest));
-        // It has been there, but is gone: what contradicts an item that is still there does not count.
-        let gone = GONE * libm::exp(contradiction) * odds.into_iter().sum::<f64>();
-        let is_contradicted = contradiction > 0.0;
-        let gone = if is_contradicted { gone } else { 0.0 };
-        let total = libm::exp(-highest) + gone + odds.into_iter().sum::<f64>();
-        odds.map(|odds| odds / total)
+        let origins = self.origins(place).into_iter();
+        let each = origins.map(|origin| {
+            let odds: [f64; MARK_KINDS] =
+                core::array::from_fn(|kind| self.log_odds(place, kind, &origin));
+            (odds, self.contradiction(place, &origin))
+        });
+        let each: Vec<([f64; MARK_KINDS], f64)> = each.collect();
+        let highest = each
+            .iter()
+            .fold(0.0, |highest: f64, (odds, contradiction)| {
+                highest.max(odds.iter().copied().fold(0.0, f64::max) + contradiction)
+            });
+        let mut sums = [0.0; MARK_KINDS];
+        let mut total = libm::exp(-highest);
+        for (odds, contradiction) in &each {
+            // It has been there, but is gone: what contradicts an item that is still there does not count.
+            let is_contradicted = *contradiction > 0.0;
+            for (sum, odds) in sums.iter_mut().zip(odds) {
+                let still = libm::exp(odds - highest);
+                let gone = GONE * libm::exp(odds + contradiction - highest);
+                *sum += still;
+                total += still + if is_contradicted { gone } else { 0.0 };
+            }
+        }
+        sums.map(|sum| sum / total)
+    }
+
+    /// From what the marks of a place may come: for each, whether those of each sensor model are of the item. All of
+    /// them are, or those of one model are false alarms beside an item that the model has not detected.
+    fn origins(&self, place: &Place) -> Vec<Vec<bool>> {
+        let all = self.marked_models(place);
+        let marked = (0..all.len()).filter(|model| all[*model]);
+        let without = marked.clone().map(|model| {
+            let mut others = all.clone();
+            others[model] = false;
+            others
+        });
+        let without = without.filter(|_| marked.clone().count() > 1);
+        core::iter::once(all.clone()).chain(without).collect()
     }
 
     /// How often looks of robots without a mark miss an item that a robot of the same model has detected, in nats.
-    fn contradiction(&self, place: &Place, marked: &[bool]) -> f64 {
+    fn contradiction(&self, place: &Place, detected: &[bool]) -> f64 {
         let robots = self.robots_in_agreement(place);
         let cell = self.clearance.lane.nearest_cell(place.at);
-        let marked = marked.iter().enumerate();
-        let marked = marked.filter(|(_, is_marked)| **is_marked);
-        let nats = marked.map(|(model, _)| self.searched.nats_without(model, cell, &robots));
+        let models = detected.iter().enumerate();
+        let models = models.filter(|(_, has_detected)| **has_detected);
+        let nats = models.map(|(model, _)| self.searched.nats_without(model, cell, &robots));
         nats.sum()
     }
 
-    /// Log odds of a kind of items at a place, against nothing but false alarms.
+    /// Log odds of a kind of items at a place, against nothing but false alarms, if some sensor models have detected
+    /// it.
     ///
     /// An item that a sensor model has detected is one that it can detect. If the model has not,
     /// either all of its looks have missed the item, or the model is blind to it.
-    fn log_odds(&self, place: &Place, kind: usize, marked: &[bool]) -> f64 {
+    fn log_odds(&self, place: &Place, kind: usize, detected: &[bool]) -> f64 {
         let area_m2 = self.clearance.lane.area().area_m2();
         let expected = self.clearance.expected.get(kind).copied();
         let Some(expected) = expected.filter(|expected| *expected > 0.0) else {
             return f64::NEG_INFINITY;
         };
+        let is_of_item = |mark: &Mark| {
+            let model = self.model_of(mark.id.issuer);
+            model.is_some_and(|model| detected[model])
+        };
+        let cell = self.clearance.lane.nearest_cell(place.at);
         let robots = place.robots();
-        let models = (0..self.blind.len()).zip(marked);
-        let models = models.map(|(model, is_marked)| {
-            self.log_missed((model, *is_marked), kind, place.at, &robots)
+        let models = (0..self.blind.len()).zip(detected);
+        let models = models.map(|(model, has_detected)| {
+            let blind = self.blind[model][kind];
+            if *has_detected {
+                libm::log(1.0 - blind) - self.searched.nats_without(model, cell, &robots)
+            } else {
+                let nats = self.searched.nats_without(model, cell, &[]);
+                libm::log(missed_share(blind, nats))
+            }
         });
-        libm::log(expected / area_m2) + place.log_ratio_m2(kind) + models.sum::<f64>()
-    }
-
-    /// Log likelihood of the looks of a model's robots without a mark, for an item at a position that
-    /// some robots have marked, those of this model among them or not.
-    fn log_missed(
-        &self,
-        (model, is_marked): (usize, bool),
-        kind: usize,
-        at: Point,
-        robots: &[RobotId],
-    ) -> f64 {
-        let blind = self.blind[model][kind];
-        let cell = self.clearance.lane.nearest_cell(at);
-        let nats = self.searched.nats_without(model, cell, robots);
-        if is_marked {
-            libm::log(1.0 - blind) - nats
-        } else {
-            libm::log(missed_share(blind, nats))
-        }
+        libm::log(expected / area_m2) + place.log_ratio_m2(kind, is_of_item) + models.sum::<f64>()
     }
 
     /// Whether a robot of each model has marked a place.
     fn marked_models(&self, place: &Place) -> Vec<bool> {
-        let robots = place.robots();
-        let models = 0..self.blind.len();
-        let is_marked = |model| {
-            let mut robots = robots.iter();
-            robots.any(|robot| self.model_of(*robot) == Some(model))
-        };
-        models.map(is_marked).collect()
+        let mut marked = vec![false; self.blind.len()];
+        for robot in place.robots() {
+            if let Some(model) = self.model_of(robot) {
+                marked[model] = true;
+            }
+        }
+        marked
     }
 
     /// The robots whose looks do not contradict an item at a place: those that have marked it, or something

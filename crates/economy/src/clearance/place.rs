@@ -123,30 +123,37 @@ impl Place {
         (square <= GATE * GATE).then_some(square)
     }
 
-    /// Log likelihood ratio of all marks for a kind of items that all of their sensors can detect,
-    /// integrated over the position of the item, in square metres.
+    /// Log likelihood ratio of those marks that `is_of_item` chooses, for a kind of items that all of their sensors
+    /// can detect, integrated over the position of the item, in square metres.
     ///
     /// ```text
     /// integral of product exp(L_r - |x - x_r|^2 / 2 s_r^2) dx
     ///   = exp(sum L_r) x 2 pi s^2 x exp(-sum |x_0 - x_r|^2 / 2 s_r^2),  1 / s^2 = sum 1 / s_r^2
     /// ```
-    pub(super) fn log_ratio_m2(&self, kind: usize) -> f64 {
-        let each = self.marks.iter().map(|mark| {
-            let away_m2 = self.at.to(mark.at()).length_squared();
+    pub(super) fn log_ratio_m2(&self, kind: usize, is_of_item: impl Fn(&Mark) -> bool) -> f64 {
+        let marks = self.marks.iter().filter(|mark| is_of_item(mark));
+        let (at, joint_m2) = fused(marks.clone());
+        let each = marks.map(|mark| {
+            let away_m2 = at.to(mark.at()).length_squared();
             f64::from(mark.log_ratios[kind]) - away_m2 / (2.0 * variance_m2(mark))
         });
-        libm::log(TAU * self.variance_m2) + each.sum::<f64>()
+        libm::log(TAU * joint_m2) + each.sum::<f64>()
     }
 
     fn fuse(&mut self) {
-        let (mut precision, mut sum) = (0.0, Point::default());
-        for mark in &self.marks {
-            let weight = 1.0 / variance_m2(mark);
-            precision += weight;
-            sum = sum.plus(mark.at().times(weight));
-        }
-        (self.at, self.variance_m2) = (sum.times(1.0 / precision), 1.0 / precision);
+        (self.at, self.variance_m2) = fused(self.marks.iter());
     }
+}
+
+/// Mean of the positions, weighted by their precision, and its variance along each axis.
+fn fused<'m>(marks: impl Iterator<Item = &'m Mark>) -> (Point, f64) {
+    let (mut precision, mut sum) = (0.0, Point::default());
+    for mark in marks {
+        let weight = 1.0 / variance_m2(mark);
+        precision += weight;
+        sum = sum.plus(mark.at().times(weight));
+    }
+    (sum.times(1.0 / precision), 1.0 / precision)
 }
 
 fn variance_m2(mark: &Mark) -> f64 {

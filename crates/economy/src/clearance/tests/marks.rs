@@ -87,6 +87,25 @@ fn a_mark_that_another_model_misses_is_explained_by_its_blindness_or_by_nothing_
     assert_eq!(mine(5.0, OAV), mine(0.0, OAV));
 }
 
+/// Another robot of the model of the false alarm does not detect the mine, to which that model is blind: a mark of the
+/// model is no evidence that it can detect it.
+#[test]
+fn a_false_alarm_beside_a_mine_does_not_turn_the_looks_of_that_model_into_evidence_against_it() {
+    let other = RobotId { index: 1, ..OAV };
+    let mine = |has_false_alarm: bool| {
+        let mut picture = lane();
+        picture.take_mark(UGV, &mark(UGV, 10.0, 0.1, 15.0));
+        if has_false_alarm {
+            picture.take_mark(OAV, &mark(OAV, 11.0, 0.4, 2.0));
+        }
+        looked(&mut picture, other, 12.0);
+        assert_eq!(picture.marks().count(), 1);
+        picture.marks().next().unwrap().mine
+    };
+    let (alone, beside) = (mine(false), mine(true));
+    assert!(alone > 0.5 && beside > 0.9 * alone, "{alone} {beside}");
+}
+
 #[test]
 fn looks_of_a_robot_count_only_with_all_of_its_marks() {
     let mut picture = lane();
