@@ -21,7 +21,7 @@ pub const LANE_REPORT_PERIOD_S: f64 = 1.0;
 /// Maximum number of messages of marks and coverage in a report.
 pub const LANE_REPORT_MESSAGES: u32 = (MAX_COVERAGE + MAX_MARKS) as u32;
 
-const MAX_COVERAGE: usize = 6;
+const MAX_COVERAGE: usize = 12;
 const MAX_MARKS: usize = 6;
 
 /// A mark is confirmed from this probability of an item that is to be cleared on.

@@ -21,17 +21,17 @@ fn with(robots: u32, controllers: u32, count: u32) -> Vec<String> {
 fn radios_that_are_too_narrow_for_the_reports_about_a_lane_have_a_warning() {
     let none: [&str; 0] = [];
     assert_eq!(with(50, 50, 2), none);
-    // Twelve messages to each of two controllers; eight robots report every fifth step.
-    assert_eq!(with(24, 20, 2), none);
-    let of_robots = with(23, 20, 2);
+    // Eighteen messages to each of two controllers; eight robots report every fifth step.
+    assert_eq!(with(36, 29, 2), none);
+    let of_robots = with(35, 29, 2);
     assert!(
-        of_robots.len() == 2 && of_robots[1].contains("robots.ugv.radio.messages_per_step = 23")
+        of_robots.len() == 2 && of_robots[1].contains("robots.ugv.radio.messages_per_step = 35")
     );
-    assert_eq!(with(12, 20, 1), none);
-    let of_controllers = with(24, 4, 2);
+    assert_eq!(with(18, 29, 1), none);
+    let of_controllers = with(36, 4, 2);
     assert_eq!(of_controllers.len(), 1);
     assert!(
         of_controllers[0]
-            .contains("controllers.station.radio.messages_per_step = 4: fewer than the 20")
+            .contains("controllers.station.radio.messages_per_step = 4: fewer than the 29")
     );
 }
