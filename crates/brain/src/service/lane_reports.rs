@@ -31,7 +31,7 @@ const CONFIRM_ABOVE: f64 = 0.5;
 const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
 
 /// Each statement is sent this many times.
-const REPEATS: u32 = 3;
+const REPEATS: u32 = 6;
 
 /// Without a message about the lane for this time, in seconds, nothing is reported: no controller is in
 /// range.
