@@ -43,10 +43,10 @@ MIN_TOLERANCE, TOLERANCE = 0.005, 0.2
 """The share may differ from the stated risk by the larger of a number and a part of the risk."""
 
 STANDARD_ERRORS = 3.0
-"""The tolerance has this many standard errors: a true statement fails in 0.3% of the cells."""
+"""The tolerance is at least this many standard errors: a true statement fails in 0.3% of cells."""
 
 BLOCK_RUNS, MAX_RUNS = 500, 12_000
-"""Lanes are added in blocks, until the tolerance has so many standard errors, or to a maximum."""
+"""Lanes are added in blocks, until the tolerance is that many standard errors, up to a maximum."""
 
 DIRECTION_RUNS, TEAM_RUNS = 300, 100
 SIGMAS = 2.0
