@@ -6,7 +6,7 @@ measurements are docs/mines/calibration.csv and directions.csv; the tables of do
 between `<!-- calibration -->` or `<!-- directions -->` and `<!-- end -->`. Examples:
 
     python scripts/clearance.py               run everything (half an hour on two cores)
-    python scripts/clearance.py --scale 0.2   the same with a fifth of the runs
+    python scripts/clearance.py --scale 0.2   fewer runs: most cells are undecided
     python scripts/clearance.py --draw        only the chart and the page, from the CSV files
 
 The status is 1 if a cell or a direction fails.
@@ -45,8 +45,11 @@ MIN_TOLERANCE, TOLERANCE = 0.005, 0.2
 STANDARD_ERRORS = 3.0
 """The tolerance is at least this many standard errors: a true statement fails in 0.3% of cells."""
 
-BLOCK_RUNS, MAX_RUNS = 500, 12_000
-"""Lanes are added in blocks, until the tolerance is that many standard errors, up to a maximum."""
+BLOCK_RUNS, MAX_RUNS, REPORTED_RUNS = 500, 12_000, 2_000
+"""Lanes are added in blocks, until the tolerance is that many standard errors, up to a maximum.
+
+The maximum is lower for cells of which nothing is claimed.
+"""
 
 DIRECTION_RUNS, TEAM_RUNS = 300, 100
 SIGMAS = 2.0
@@ -197,10 +200,11 @@ def cell(series: Series, risk: float, scale: float) -> Cell:
     """Return what was stated and what was true, at one risk below which lanes are declared."""
     case = scenario({BELOW: risk} | series.changes)
     blocks = []
-    for block in range(MAX_RUNS // BLOCK_RUNS):
+    runs = MAX_RUNS if series.is_claim else REPORTED_RUNS
+    for block in range(runs // BLOCK_RUNS):
         blocks.append(ae.replicate(case, BLOCK_RUNS, SEED + block))
         one = counted(series, risk, pa.concat_tables(blocks))
-        if one.runs >= scale * needed(one):
+        if one.declared == 0 or one.runs >= scale * needed(one):
             break
     return replace(one, verdict=verdict(one) if series.is_claim else "reported")
 

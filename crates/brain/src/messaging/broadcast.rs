@@ -152,7 +152,7 @@ impl BroadcastState {
 
 /// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed
 /// evenly over the steps of the period.
-fn phase(own: RobotId, period_s: f64) -> f64 {
+pub(crate) fn phase(own: RobotId, period_s: f64) -> f64 {
     let steps = libm::round(BROADCAST_PERIOD_S / period_s).clamp(1.0, 1e9);
     let phase = f64::from(own.index) / steps + KIND_PHASE * f64::from(own.kind);
     phase - libm::floor(phase)

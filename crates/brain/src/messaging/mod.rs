@@ -5,7 +5,7 @@
 //! messages describe them, [`trust`] is the share of their reports that the robot's own
 //! observations confirmed, and [`reports`] combines reports of items by it.
 
-mod broadcast;
+pub(crate) mod broadcast;
 pub(crate) mod commitment;
 pub(crate) mod peers;
 mod receive;

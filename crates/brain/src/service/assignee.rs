@@ -19,6 +19,7 @@ use crate::io::goal_id::GoalId;
 use crate::io::message::{About, Message};
 use crate::io::percept::ReceivedMessage;
 use crate::io::verdict::Verdict;
+use crate::messaging::broadcast::phase;
 use crate::perception::beliefs::Beliefs;
 use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle};
@@ -66,8 +67,15 @@ impl Assignee {
         self.take_results(moment);
         self.aim(ability, moment);
         self.return_goals(ability, moment);
-        for received in self.in_order(ability, moment) {
-            self.receive(received, ability, moment);
+        let inbox = &moment.percept.inbox;
+        if inbox.iter().filter(|received| is_award(received)).count() > 1 {
+            for received in self.in_order(ability, moment) {
+                self.receive(received, ability, moment);
+            }
+        } else {
+            for received in inbox {
+                self.receive(received, ability, moment);
+            }
         }
         self.work(ability, moment);
         self.bid(ability, moment);
@@ -81,17 +89,21 @@ impl Assignee {
         let inbox = moment.percept.inbox.iter();
         for received in inbox.filter(|received| ability.is_controller(received.from)) {
             if let About::Dispatch(Dispatch::Lane(lane)) = received.message.about {
-                let own = moment.percept.id;
-                self.lane.name((lane, own), beliefs, self.now_s);
+                let phase = phase(moment.percept.id, moment.body.period_s);
+                self.lane.name((lane, phase), beliefs, self.now_s);
             }
         }
         if let Some(task) = self.interrogated.take() {
             let within_m = ability.uncertain_m(&task);
             self.lane.state((&task, within_m), moment.body, beliefs);
         }
-        // Not to everyone: other robots would receive fewer of the messages that they need.
         let controllers: Vec<RobotId> = self.schedule.contacts.iter().map(|one| one.id).collect();
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
+            if let Dispatch::Statement(_) = dispatch {
+                self.send(RobotId::EVERYONE, dispatch);
+                continue;
+            }
+            // To everyone, these would be most of the messages that other robots receive.
             for controller in &controllers {
                 self.send(*controller, dispatch);
             }
@@ -199,8 +211,8 @@ impl Assignee {
         }
     }
 
-    /// The messages of a step. Of several awards, the best come last, and first: otherwise the goals of the same
-    /// controller would win whenever there is room for one.
+    /// The messages of a step with several awards: the others, then the awards, the lowest cost first. Otherwise the
+    /// goals of the same controller would win whenever there is room for one.
     fn in_order<'p>(&self, ability: &Ability, moment: &'p Moment) -> Vec<&'p ReceivedMessage> {
         let cost_s = |received: &ReceivedMessage| match received.message.about {
             About::Dispatch(Dispatch::Award(award)) => {
@@ -210,15 +222,11 @@ impl Assignee {
             }
             _ => 0.0,
         };
-        let is_award = |received: &&ReceivedMessage| {
-            matches!(received.message.about, About::Dispatch(Dispatch::Award(_)))
-        };
-        let inbox = &moment.percept.inbox;
-        let mut order: Vec<&ReceivedMessage> = inbox.iter().collect();
-        if inbox.iter().filter(is_award).count() > 1 {
-            order.sort_by(|one, other| cost_s(one).total_cmp(&cost_s(other)));
-        }
-        order
+        let inbox = moment.percept.inbox.iter();
+        let mut costs: Vec<(f64, &ReceivedMessage)> =
+            inbox.map(|received| (cost_s(received), received)).collect();
+        costs.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        costs.into_iter().map(|(_, received)| received).collect()
     }
 
     fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {
@@ -433,6 +441,10 @@ impl Assignee {
         self.jobs.remove(goal);
         self.holder.release(goal);
     }
+}
+
+fn is_award(received: &ReceivedMessage) -> bool {
+    matches!(received.message.about, About::Dispatch(Dispatch::Award(_)))
 }
 
 fn is_there(job: &Job, ability: &Ability, at: Point) -> bool {

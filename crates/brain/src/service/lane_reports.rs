@@ -4,7 +4,7 @@ use super::ability::Moment;
 use super::lane_coverage::LaneCoverage;
 use super::lane_marks::LaneMarks;
 use crate::io::act::{Act, ActKind, MAX_ACTS};
-use crate::io::body::{Body, RobotId};
+use crate::io::body::Body;
 use crate::io::dispatch::{Dispatch, Task};
 use crate::io::lane::{Lane, MarkVerdict, Statement};
 use crate::perception::beliefs::Beliefs;
@@ -26,9 +26,6 @@ const MAX_MARKS: usize = 6;
 
 /// A mark is confirmed from this probability of an item that is to be cleared on.
 const CONFIRM_ABOVE: f64 = 0.5;
-
-/// Multiples of it are spread evenly between whole numbers, whatever their number.
-const GOLDEN_RATIO: f64 = 0.618_033_988_749_895;
 
 /// Each statement is sent this many times.
 const REPEATS: u32 = 6;
@@ -63,14 +60,6 @@ impl Hashed for LaneReports {
     }
 }
 
-/// The part of a period by which a robot's reports are later than a message to all: together, the reports
-/// of all robots would be more than a radio receives in a step.
-fn phase(own: RobotId) -> f64 {
-    let number = f64::from(own.index) + f64::from(own.kind) / 2.0;
-    let turns = number * GOLDEN_RATIO;
-    turns - libm::floor(turns)
-}
-
 #[derive(Debug, Clone)]
 struct Work {
     coverage: LaneCoverage,
@@ -87,8 +76,9 @@ base::hashed!(Work {
 });
 
 impl LaneReports {
-    /// A controller has named a lane. Looks count from the first message on; another lane replaces it.
-    pub(crate) fn name(&mut self, (lane, own): (Lane, RobotId), beliefs: &Beliefs, now_s: f64) {
+    /// A controller has named a lane. Looks count from the first message on; another lane replaces it. Each robot has
+    /// its own phase within the period: together, all reports would be more than a radio receives in a step.
+    pub(crate) fn name(&mut self, (lane, phase): (Lane, f64), beliefs: &Beliefs, now_s: f64) {
         if !lane.is_valid() || beliefs.map.is_none() {
             return;
         }
@@ -99,7 +89,7 @@ impl LaneReports {
                     coverage: LaneCoverage::new(lane),
                     marks: LaneMarks::default(),
                     named_s: now_s,
-                    next_s: now_s + phase(own) * LANE_REPORT_PERIOD_S,
+                    next_s: now_s + phase * LANE_REPORT_PERIOD_S,
                 }));
             }
         }

@@ -262,9 +262,9 @@ fn a_robot_confirms_a_mark_at_which_it_detects_a_mine_and_rejects_others() {
         let mut robot = Robot::new();
         robot.step(&[Dispatch::Lane(LANE)], &[]);
         assert_eq!(robot.interrogate(Work::Interrogate), Ok(()));
-        let sent = robot.steps(60, contacts);
+        let sent = robot.steps(100, contacts);
         let stated = statements(&sent);
-        assert_eq!(stated.len(), 3, "repeated, as messages are lost");
+        assert_eq!(stated.len(), 6, "repeated, as messages are lost");
         assert!(stated.iter().all(|stated| stated.verdict == verdict));
         assert_eq!((stated[0].mark.number, stated[0].at_m), (3, [6.0, 5.0]));
     }

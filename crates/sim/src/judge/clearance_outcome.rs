@@ -11,7 +11,7 @@ pub struct ClearanceOutcome {
     pub is_declared: bool,
     /// Whether it was declared clear and no mine was left in it.
     pub is_clear: bool,
-    /// Whether all controllers gave it up.
+    /// Whether the controllers that work gave it up.
     pub is_given_up: bool,
     /// The risk that was stated when it was declared clear or given up; 1 if it was neither.
     pub stated_risk: f64,

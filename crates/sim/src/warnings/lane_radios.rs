@@ -4,6 +4,7 @@ use crate::radio::RadioSpec;
 use crate::scenario::{Checked, ScenarioSpec};
 use base::document::Place;
 use base::warning::Warning;
+use brain::behaviours::BehaviourSpec;
 use brain::{LANE_REPORT_MESSAGES, LANE_REPORT_PERIOD_S};
 
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
@@ -21,35 +22,27 @@ pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
 fn of_robots(spec: &ScenarioSpec, at: &Place) -> Vec<Warning> {
     let controllers: u32 = spec.controllers.values().map(|kind| kind.count).sum();
     let needed = LANE_REPORT_MESSAGES * controllers;
-    let kinds = spec.robots.iter().filter(|(_, kind)| kind.count > 0);
-    let found = kinds.filter_map(|(name, kind)| {
-        let effect = "that a report about the lane needs: controllers may miss marks and coverage";
-        too_narrow(
-            kind.radio.as_ref()?,
-            needed,
-            effect,
-            &at.key("robots").key(name),
-        )
+    let found = reporting(spec).filter_map(|(name, _, radio)| {
+        let effect = "of a report about the lane: controllers may miss marks and coverage";
+        too_narrow(radio, needed, effect, &at.key("robots").key(name))
     });
     found.collect()
 }
 
-/// Kinds of controllers that cannot receive the reports of all robots.
+/// Kinds of controllers that cannot receive the reports of a step. The robots of a kind report in turn.
 fn of_controllers(spec: &ScenarioSpec, at: &Place) -> Vec<Warning> {
-    let robots: u32 = spec.robots.values().map(|kind| kind.count).sum();
-    let steps = LANE_REPORT_PERIOD_S / spec.clock.step_s;
-    let per_step = f64::from(LANE_REPORT_MESSAGES * robots) / steps.max(1.0);
+    let steps = (LANE_REPORT_PERIOD_S / spec.clock.step_s).round().max(1.0);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a small count"
+        reason = "counts"
     )]
-    let needed = per_step.ceil() as u32;
+    let at_once = reporting(spec).map(|(_, count, _)| (f64::from(count) / steps).ceil() as u32);
+    let needed = LANE_REPORT_MESSAGES.saturating_mul(at_once.sum());
     let kinds = spec.controllers.iter();
     let found = kinds.filter(|(_, kind)| kind.count > 0 && kind.clearance.is_some());
     let found = found.filter_map(|(name, kind)| {
-        let effect =
-            "that the robots report about the lane in a step: marks and coverage may be lost";
+        let effect = "of the reports that arrive in one step: marks and coverage may be lost";
         too_narrow(
             &kind.radio,
             needed,
@@ -60,8 +53,18 @@ fn of_controllers(spec: &ScenarioSpec, at: &Place) -> Vec<Warning> {
     found.collect()
 }
 
+/// The kinds of robots that report about a lane, with their counts and radios.
+fn reporting(spec: &ScenarioSpec) -> impl Iterator<Item = (&String, u32, &RadioSpec)> {
+    let kinds = spec.robots.iter().filter(|(_, kind)| kind.count > 0);
+    kinds.filter_map(|(name, kind)| {
+        let mut behaviours = kind.brain.behaviours.iter();
+        let serves = behaviours.any(|one| matches!(one, BehaviourSpec::Serve(_)));
+        Some((name, kind.count, kind.radio.as_ref().filter(|_| serves)?))
+    })
+}
+
 fn too_narrow(radio: &RadioSpec, needed: u32, effect: &str, at: &Place) -> Option<Warning> {
     let at = at.key("radio").key("messages_per_step");
-    let effect = format!("fewer than the {needed} {effect}");
+    let effect = format!("fewer than the {needed} messages {effect}");
     (radio.messages_per_step < needed).then(|| at.warning(effect))
 }

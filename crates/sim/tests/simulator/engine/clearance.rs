@@ -308,8 +308,8 @@ fn the_first_declaration_of_two_controllers_ends_the_run() {
     );
     // Each controller receives other messages.
     let two = two.replace(
-        "messages_per_step = 50 }\nservice",
-        "messages_per_step = 6 }\nservice",
+        "messages_per_step = 50 }",
+        "messages_per_step = 50, loss_probability = 0.4 }",
     );
     let mut alone = 0;
     for run in 0..10 {
@@ -319,7 +319,7 @@ fn the_first_declaration_of_two_controllers_ends_the_run() {
             .each_lane()
             .filter_map(|lane| lane.statement);
         let risks: Vec<f64> = statements.map(|statement| statement.risk).collect();
-        // Some runs end at the time limit: with narrow radios, messages are lost.
+        // Some runs end at the time limit, as messages are lost.
         let Some(first) = risks.first() else {
             continue;
         };
