@@ -55,7 +55,12 @@ def known(of: Clearance | None) -> Clearance:
 
 def row(**changes: Any) -> dict[str, Any]:
     """Return the outcome of a run whose lane was declared clear and is clear."""
-    stated = {"declared": True, "declared_not_clear": False, "given_up": False, "stated_risk": 0.046}
+    stated = {
+        "declared": True,
+        "declared_not_clear": False,
+        "given_up": False,
+        "stated_risk": 0.046,
+    }
     acts = {"marked": 8, "false_marks": 1, "confirmed": 7, "false_confirmations": 2}
     ends = {"declared_s": 412.2, "neutralised": 6, "left": 0, "robots_lost": 3}
     return {**stated, **acts, **ends, "unmarked_from_air": 2, "met_unmarked": 1, **changes}

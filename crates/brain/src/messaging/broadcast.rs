@@ -1,6 +1,7 @@
 //! Broadcasts: their schedule, their messages, and what the robot sent last.
 
 use super::commitment::Commitment;
+use super::phase::phase;
 use super::visits::OwnVisits;
 use crate::goals::proposal::Destination;
 use crate::io::body::RobotId;
@@ -18,10 +19,6 @@ const BROADCAST_PERIOD_S: f64 = 1.0;
 /// The destination and the items are repeated with every third broadcast only: a new destination is
 /// broadcast at once, and receivers keep destinations for ten seconds and items for good.
 const BROADCASTS_PER_REPEAT: u8 = 3;
-
-/// Offset between the phases of two kinds of robots, as a fraction of [`BROADCAST_PERIOD_S`]:
-/// multiples of the golden ratio are spread evenly.
-const KIND_PHASE: f64 = 0.618_033_988_749_894_9;
 
 /// A robot that has turned by this angle broadcasts its pose at once: receivers assume that it
 /// observed in the last heading that it sent, and a narrow field of view leaves that heading within
@@ -66,7 +63,7 @@ impl BroadcastState {
     /// a step; the remainder counts for the next broadcast, so that the mean rate does not depend
     /// on the steps.
     pub(super) fn is_due(&mut self, own: RobotId, elapsed_s: f64) -> bool {
-        let initial_s = || BROADCAST_PERIOD_S * phase(own, self.period_s);
+        let initial_s = || BROADCAST_PERIOD_S * phase(own, [BROADCAST_PERIOD_S, self.period_s]);
         let age_s = self.age_s.unwrap_or_else(initial_s) + elapsed_s;
         let half_s = elapsed_s.min(BROADCAST_PERIOD_S) / 2.0;
         let is_due = age_s >= BROADCAST_PERIOD_S - half_s;
@@ -148,14 +145,6 @@ impl BroadcastState {
     pub(super) fn is_repeat(&self) -> bool {
         self.count == 0
     }
-}
-
-/// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed
-/// evenly over the steps of the period.
-pub(crate) fn phase(own: RobotId, period_s: f64) -> f64 {
-    let steps = libm::round(BROADCAST_PERIOD_S / period_s).clamp(1.0, 1e9);
-    let phase = f64::from(own.index) / steps + KIND_PHASE * f64::from(own.kind);
-    phase - libm::floor(phase)
 }
 
 /// A message with full confidence.

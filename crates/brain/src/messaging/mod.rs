@@ -5,9 +5,10 @@
 //! messages describe them, [`trust`] is the share of their reports that the robot's own
 //! observations confirmed, and [`reports`] combines reports of items by it.
 
-pub(crate) mod broadcast;
+mod broadcast;
 pub(crate) mod commitment;
 pub(crate) mod peers;
+pub(crate) mod phase;
 mod receive;
 pub(crate) mod reports;
 mod state;

@@ -7,7 +7,7 @@ use super::failures::Failures;
 use super::finished::Finished;
 use super::holder::Holder;
 use super::jobs::{Job, Jobs};
-use super::lane_reports::LaneReports;
+use super::lane_reports::{LANE_REPORT_PERIOD_S, LaneReports};
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
@@ -19,7 +19,7 @@ use crate::io::goal_id::GoalId;
 use crate::io::message::{About, Message};
 use crate::io::percept::ReceivedMessage;
 use crate::io::verdict::Verdict;
-use crate::messaging::broadcast::phase;
+use crate::messaging::phase::phase;
 use crate::perception::beliefs::Beliefs;
 use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle};
@@ -89,7 +89,10 @@ impl Assignee {
         let inbox = moment.percept.inbox.iter();
         for received in inbox.filter(|received| ability.is_controller(received.from)) {
             if let About::Dispatch(Dispatch::Lane(lane)) = received.message.about {
-                let phase = phase(moment.percept.id, moment.body.period_s);
+                let phase = phase(
+                    moment.percept.id,
+                    [LANE_REPORT_PERIOD_S, moment.body.period_s],
+                );
                 self.lane.name((lane, phase), beliefs, self.now_s);
             }
         }
@@ -103,7 +106,7 @@ impl Assignee {
                 self.send(RobotId::EVERYONE, dispatch);
                 continue;
             }
-            // To everyone, these would be most of the messages that other robots receive.
+            // Broadcast, these would be most of the messages that other robots receive.
             for controller in &controllers {
                 self.send(*controller, dispatch);
             }
@@ -223,10 +226,10 @@ impl Assignee {
             _ => 0.0,
         };
         let inbox = moment.percept.inbox.iter();
-        let mut costs: Vec<(f64, &ReceivedMessage)> =
+        let mut ordered: Vec<(f64, &ReceivedMessage)> =
             inbox.map(|received| (cost_s(received), received)).collect();
-        costs.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        costs.into_iter().map(|(_, received)| received).collect()
+        ordered.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        ordered.into_iter().map(|(_, received)| received).collect()
     }
 
     fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {

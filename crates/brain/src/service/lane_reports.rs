@@ -19,10 +19,10 @@ use base::hashed::Hashed;
 pub const LANE_REPORT_PERIOD_S: f64 = 1.0;
 
 /// Maximum number of messages of marks and coverage in a report.
-pub const LANE_REPORT_MESSAGES: u32 = (MAX_COVERAGE + MAX_MARKS) as u32;
+pub const LANE_REPORT_MESSAGES: u32 = MAX_COVERAGE + MAX_MARKS;
 
-const MAX_COVERAGE: usize = 12;
-const MAX_MARKS: usize = 6;
+const MAX_COVERAGE: u32 = 12;
+const MAX_MARKS: u32 = 6;
 
 /// A mark is confirmed from this probability of an item that is to be cleared on.
 const CONFIRM_ABOVE: f64 = 0.5;
@@ -178,7 +178,7 @@ impl LaneReports {
             return Vec::new();
         }
         work.next_s = now_s + LANE_REPORT_PERIOD_S;
-        let marks = work.marks.due(MAX_MARKS);
+        let marks = work.marks.due(MAX_MARKS as usize);
         if moment.body.tool(ActKind::Mark).is_some() {
             let kind = ActKind::Mark;
             let new = marks.iter().filter(|(_, is_new)| *is_new);
@@ -188,7 +188,7 @@ impl LaneReports {
             }));
         }
         let marks = marks.into_iter().map(|(mark, _)| mark);
-        let coverage = work.coverage.due(work.marks.count(), MAX_COVERAGE);
+        let coverage = work.coverage.due(work.marks.count(), MAX_COVERAGE as usize);
         let coverage = coverage.into_iter().map(Dispatch::Coverage);
         marks.map(Dispatch::Mark).chain(coverage).collect()
     }
