@@ -55,8 +55,11 @@ DIRECTION_RUNS, TEAM_RUNS = 300, 100
 SIGMAS = 2.0
 """Without an effect, a paired difference has this many standard errors in 2.3% of the cases."""
 
-CLEAR_SHARE = 0.7
-"""The cheapest team declares the bundled lane clear, rightly, in this share of the runs or more."""
+CLEAR_SHARE, SLOW_M_S = 0.65, 1.5
+"""The cheapest team declares the bundled lane clear, rightly, in this share of the runs or more.
+
+Its air vehicles are slow: then more of them save a second search on the ground.
+"""
 
 LANE = [[8, 4], [68, 24]]
 UNIFORM = {"kind": "uniform", "within_m": LANE}
@@ -274,10 +277,11 @@ def direction(
 
 def dearer(number: int) -> Direction:
     """Return the ground vehicles of the cheapest team, by their price, with the same runs."""
-    teams = [(oavs, ugvs) for oavs in range(1, 5) for ugvs in range(3, 6)]
+    teams = [(oavs, ugvs) for oavs in range(1, 3) for ugvs in range(3, 8)]
+    slow: Changes = {"robots.oav.drive.max_speed_m_s": SLOW_M_S}
     enough = []
     for oavs, ugvs in teams:
-        team = {"robots.oav.count": oavs, "robots.ugv.count": ugvs}
+        team = slow | {"robots.oav.count": oavs, "robots.ugv.count": ugvs}
         clear = column(ae.replicate(scenario(team, lane={}), number, SEED), "declared_clear")
         if float(np.mean(clear)) >= CLEAR_SHARE:
             enough.append((oavs, ugvs))
@@ -287,7 +291,7 @@ def dearer(number: int) -> Direction:
 
     if not enough:
         return Direction("a dearer ground vehicle", "robots.ugv", number, 0, 0, 0, "fails")
-    before, after = cheapest(5_000), cheapest(300_000)
+    before, after = cheapest(1_000), cheapest(300_000)
     passes = "passes" if after < before else "fails"
     return Direction("a dearer ground vehicle", "robots.ugv", number, before, after, 0, passes)
 
