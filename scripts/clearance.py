@@ -36,7 +36,7 @@ SEED = 2
 RISKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9)
 """The risks below which lanes are declared.
 
-The stated risk is lower, as it falls in steps: below 0.9, lanes are declared with about 0.5.
+The stated risk is lower, as it falls in steps: below 0.9, lanes are declared with about 0.4.
 """
 
 MIN_TOLERANCE, TOLERANCE = 0.005, 0.2

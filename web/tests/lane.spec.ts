@@ -1,7 +1,7 @@
 import { copyFile } from "node:fs/promises";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import type { Page } from "@playwright/test";
+import type { Locator, Page } from "@playwright/test";
 import type { Lanes, Point } from "../src/api/protocol";
 import { inkAt, opens, type View } from "./ink";
 import { expect, expectAccessiblePanels, openRun, openTab, type RealServer, test } from "./page";
@@ -16,6 +16,13 @@ async function openLane(page: Page, server: RealServer, tick: number): Promise<v
   await copyFile(small, join(server.folder, "small_lane.toml"));
   const run = `scenario=small_lane.toml&seed=1&run=1&tick=${tick}&${opens(view)}`;
   await openRun(page, server, run, `${(tick / 5).toFixed(1)} s`);
+}
+
+/** Opens the panel of the small lane at a tick. */
+async function openPanel(page: Page, server: RealServer, tick: number): Promise<Locator> {
+  await openLane(page, server, tick);
+  await openTab(page, "Lane");
+  return page.getByRole("tabpanel");
 }
 
 const checkbox = (page: Page, name: string | RegExp) => page.getByRole("checkbox", { name });
@@ -76,9 +83,7 @@ test("the panel has the belief of the chosen controller, and the truth unless it
   page,
   server,
 }) => {
-  await openLane(page, server, 150);
-  await openTab(page, "Lane");
-  const panel = page.getByRole("tabpanel");
+  const panel = await openPanel(page, server, 150);
   await expect(panel.getByText(/^Remaining risk over 99\.9%/)).toBeVisible();
   await expect(panel.getByText("No statement yet: it declares the lane clear below 5%.")).toBeVisible();
   await expect(panel.getByText("3 mines left in the lane.")).toBeVisible();
@@ -89,9 +94,7 @@ test("the panel has the belief of the chosen controller, and the truth unless it
 });
 
 test("what a controller has declared is shown beside the truth", async ({ page, server }) => {
-  await openLane(page, server, 491);
-  await openTab(page, "Lane");
-  const panel = page.getByRole("tabpanel");
+  const panel = await openPanel(page, server, 491);
   await expect(panel.getByText(/^Declared clear at 98\.0 s, at a risk of 2\.\d%\.$/)).toBeVisible();
   await expect(panel.getByText("No mines left in the lane.")).toBeVisible();
   // The outcome has declared and declared_s, which have the same name.
@@ -103,9 +106,7 @@ test("a person ends the mission, and the controllers give the lane up with the r
   page,
   server,
 }) => {
-  await openLane(page, server, 150);
-  await openTab(page, "Lane");
-  const panel = page.getByRole("tabpanel");
+  const panel = await openPanel(page, server, 150);
   const callOff = panel.getByRole("button", { name: "Call off the mission" });
   await callOff.click();
   await page.getByRole("button", { name: "Play" }).click();

@@ -4,15 +4,19 @@ import { plural, seconds } from "./format";
 import { tableOf } from "./world";
 
 /** Whether controllers of a run are to clear a lane. */
-export function hasLane({ document }: Setting): boolean {
-  return Object.values(tableOf(document.controllers)).some((kind) => "clearance" in tableOf(kind));
+export function hasLane(setting: Setting): boolean {
+  return clearingKind(setting) !== undefined;
+}
+
+/** The name of the kind of controllers that are to clear the lane. */
+function clearingKind({ document }: Setting): string | undefined {
+  const kinds = Object.entries(tableOf(document.controllers));
+  return kinds.find(([, kind]) => "clearance" in tableOf(kind))?.[0];
 }
 
 /** The key with which a person ends the mission on the lane. */
-export function calledOffPath({ document }: Setting): string {
-  const kinds = Object.entries(tableOf(document.controllers));
-  const kind = kinds.find(([, table]) => "clearance" in tableOf(table))?.[0] ?? "";
-  return `controllers.${kind}.clearance.called_off`;
+export function calledOffPath(setting: Setting): string {
+  return `controllers.${clearingKind(setting)}.clearance.called_off`;
 }
 
 /** What a controller believes of the lane; that of the first if it is null or does not exist. */

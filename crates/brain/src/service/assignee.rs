@@ -100,15 +100,11 @@ impl Assignee {
             let within_m = ability.uncertain_m(&task);
             self.lane.state((&task, within_m), moment.body, beliefs);
         }
-        let controllers: Vec<RobotId> = self.schedule.contacts.iter().map(|one| one.id).collect();
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
-            if let Dispatch::Statement(_) = dispatch {
-                self.send(RobotId::EVERYONE, dispatch);
-                continue;
-            }
-            // Broadcast, these would be most of the messages that other robots receive.
-            for controller in &controllers {
-                self.send(*controller, dispatch);
+            match dispatch {
+                Dispatch::Statement(_) => self.send(RobotId::EVERYONE, dispatch),
+                // Broadcast, these would be most of the messages that other robots receive.
+                _ => self.send_to_controllers(dispatch),
             }
         }
         self.lane.act(&mut self.acts);
@@ -180,6 +176,12 @@ impl Assignee {
 
     pub(super) fn send(&mut self, to: RobotId, dispatch: Dispatch) {
         self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
+    }
+
+    fn send_to_controllers(&mut self, dispatch: Dispatch) {
+        let each = self.schedule.contacts.iter();
+        let messages = each.map(|contact| Message::to(contact.id, About::Dispatch(dispatch)));
+        self.outbox.extend(messages);
     }
 
     /// Drops the goals whose lease ends before the next step.
