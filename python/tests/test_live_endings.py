@@ -15,7 +15,6 @@ from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.loop import last_resort
 from agent_economy.live.plan import FleetPlan
 from agent_economy.live.readings import STOP, Motion
-from agent_economy.live.warden.connection import MAX_LINES, Connection
 from agent_economy.live.warden.reporter import MAX_EVENTS, Reporter
 from agent_economy.live.warden.robot import Robot
 from agent_economy.live.warden.warden import Warden
@@ -128,19 +127,3 @@ def test_arming_is_refused_in_the_turn_in_which_a_stop_is_requested() -> None:
     stopped.operator.stop = True
     with pytest.raises(ValueError, match="emergency stop has been requested"):
         stopped.arm([])
-
-
-def test_of_a_flood_of_lines_only_the_newest_are_taken(plan: FleetPlan) -> None:
-    taken: list[bytes] = []
-
-    def report(_: str, port: str, line: bytes, __: float, ___: bool) -> None:  # noqa: FBT001
-        assert port == "compass"
-        taken.append(line)
-
-    robot = Robot(plan.robots[0], plan.origin, lambda: 1.0, report)
-    flood = b"".join(b"%d\n" % number for number in range(100_000))
-    connection = Connection(lambda line: robot._received("compass", line))
-    for at in range(0, len(flood), 2**16):
-        connection.data_received(flood[at : at + 2**16])
-    robot.inputs(1.0)
-    assert taken == [b"%d" % number for number in range(100_000 - MAX_LINES, 100_000)]

@@ -4,18 +4,24 @@ import asyncio
 import socket
 import time
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import pytest
+from bare_timer import repeated_if_late
+from live_bench import driving, emulated, fleet_text
+from wire_faults import lanes
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.emulator import packet_loss
 from agent_economy.live.warden import port_link
+from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.name_lookup import NameLookup
 from agent_economy.live.warden.port_link import PortLink
 
 
 def link_to(host: str, port: int, lookup: NameLookup, lines: list[bytes]) -> PortLink:
-    return PortLink((host, port), lookup, lines.append, lambda: None)
+    return PortLink((host, port), lookup, lambda: Connection(lines.append, 20), lambda: None)
 
 
 @pytest.fixture
@@ -90,3 +96,49 @@ def test_a_host_that_refuses_is_tried_again_with_growing_pauses_up_to_a_limit(
     link = asyncio.run(connect())
     assert link.connection.reason == "127.0.0.1:9: Connection refused"
     assert pauses_s == pytest.approx([0.05, 0.1, 0.2, *[0.4] * 7])
+
+
+@pytest.mark.skipif(not packet_loss.IS_SUPPORTED, reason="packets are dropped on Linux only")
+@pytest.mark.parametrize("outage_s", [2.2, 2.7, 3.5])
+@repeated_if_late
+def test_a_half_open_motor_link_is_stopped_soon_after_its_return(
+    tmp_path: Path, outage_s: float
+) -> None:
+    scenario, fleet = lanes(tmp_path, 1), tmp_path / "fleet.toml"
+    with emulated(tmp_path, 1, arguments=("--scenario", str(scenario))) as bench:
+        fleet.write_text(fleet_text(bench, scenario=str(scenario)), encoding="utf-8")
+        with driving(fleet) as drive:
+            bench.wait_for_motion(1)
+            bench.fault(0, "motors", "cut")
+            time.sleep(outage_s)
+            returned_s = bench.fault(0, "motors", "cut", on=False)
+            drive.wait_for_fault("bender/0", "lost_link")
+            time.sleep(4.0)
+            stops_s = bench.stops_after(0, returned_s)
+            assert stops_s[0] - returned_s < 0.5
+            # A motion that was queued during the outage never arrives behind the stop.
+            assert bench.moves_after(0, stops_s[0]) == []
+
+
+def test_a_silent_connection_is_kept_until_another_one_is_established() -> None:
+    async def connect() -> tuple[bool, bool, int]:
+        accepted: list[asyncio.StreamWriter] = []
+        server = await asyncio.start_server(
+            lambda _, writer: accepted.append(writer), "127.0.0.1", 0
+        )
+        port = server.sockets[0].getsockname()[1]
+        link = link_to("127.0.0.1", port, NameLookup("127.0.0.1"), [])
+        task = asyncio.create_task(link.run())
+        while not link.connection.is_up:
+            await asyncio.sleep(0.01)
+        old = link.connection
+        old.lost.set()  # as if nothing were acknowledged
+        was_up = old.is_up
+        while link.connection is old:
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(0.1)
+        task.cancel()
+        server.close()
+        return was_up, old.is_up, len(accepted)
+
+    assert asyncio.run(connect()) == (True, False, 2)

@@ -92,7 +92,7 @@ def test_after_a_new_connection_the_motion_is_written_again() -> None:
     lines = motors()
     assert lines.due(STOP, 0.0, is_empty=True)
     assert not lines.due(STOP, 0.1, is_empty=True)
-    lines.connected()
+    lines.forget()
     assert lines.due(STOP, 0.1, is_empty=True)
 
 

@@ -31,7 +31,15 @@ MINUTES_PER_DEG = 60.0
 
 _LEFT, _RIGHT, _BOTH = 0, 1, 2
 _STOP = b"x,3,\n"
-_NUMBER = re.compile(rb"(?i:[+-]?(\d+\.?\d*(e[+-]?\d+)?|\.\d+(e[+-]?\d+)?|nan|infinity|inf))")
+_NUMBER = re.compile(rb"(?i:[+-]?((\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?|nan|infinity|inf))")
+"""No two adjacent parts take the same characters: a mismatch is found in linear time."""
+
+MAX_NUMBER_LENGTH = 40
+"""Longer numbers are malformed: no receiver writes so many digits."""
+
+COMPASS_DEG = (-360.0, 720.0)
+"""What a compass can send: a turn around either end of its scale."""
+
 _SIGNS = {b"N": 1.0, b"S": -1.0, b"E": 1.0, b"W": -1.0}
 
 
@@ -127,8 +135,8 @@ class Bender(Driver):
         ),
     }
 
-    def parse(self, port: str, line: bytes, settings: Settings) -> Reading | None:
-        """Return the reading of a line without its end, or None if the line is malformed.
+    def reading(self, port: str, line: bytes, settings: Settings) -> Reading | None:
+        """Return the reading of a line, or None if the line is malformed.
 
         A heading of one digit is a reading; the 2002 program ignored lines of one character. A
         line with fewer than six ranges has none for the others; one with more is malformed.
@@ -225,7 +233,10 @@ class Bender(Driver):
         return PortLine(self.motor_port, f"x,{channel},{value},\n".encode())
 
     def _heading(self, line: bytes, settings: Settings) -> Reading:
-        degrees = number(line) - settings["compass_offset_deg"]
+        low, high = COMPASS_DEG
+        raw = number(line)
+        # A value far outside the scale is no heading: taken modulo, it would look possible.
+        degrees = raw - settings["compass_offset_deg"] if low <= raw <= high else math.nan
         return Reading(Quantity.HEADING, (degrees % FULL_TURN_DEG,))
 
     def _position(self, line: bytes, settings: Settings) -> Reading | None:
@@ -271,6 +282,7 @@ def number(text: bytes) -> float:
     Raises:
         ValueError: If it is none.
     """
-    if _NUMBER.fullmatch(text.strip()) is None:
+    text = text.strip()
+    if len(text) > MAX_NUMBER_LENGTH or _NUMBER.fullmatch(text) is None:
         raise ValueError
     return float(text)

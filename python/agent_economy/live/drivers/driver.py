@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from agent_economy.live.drivers.lines import MAX_LINE_BYTES
 from agent_economy.live.readings import Motion, Quantity, Reading
 
 Settings = Mapping[str, Any]
@@ -71,9 +72,22 @@ class Driver(ABC):
     settings: Mapping[str, Setting]
     """Its settings, by key."""
 
-    @abstractmethod
     def parse(self, port: str, line: bytes, settings: Settings) -> Reading | None:
-        """Return the reading of a line without its end, or None if the line is malformed."""
+        """Return the reading of a line without its end, or None if the line is malformed.
+
+        A line that is longer than `MAX_LINE_BYTES` is malformed, whatever it contains: the warden
+        has a bounded time for a line.
+        """
+        if len(line) > MAX_LINE_BYTES:
+            return None
+        return self.reading(port, line, settings)
+
+    @abstractmethod
+    def reading(self, port: str, line: bytes, settings: Settings) -> Reading | None:
+        """Return the reading of a line of bounded length, or None if the line is malformed.
+
+        Its time must be linear in the length of the line.
+        """
 
     @abstractmethod
     def stop(self, settings: Settings) -> tuple[PortLine, ...]:

@@ -11,26 +11,34 @@ from agent_economy.live.drivers.lines import LineSplitter
 
 _SIOCOUTQ = 0x5411 if sys.platform == "linux" else None
 
-MAX_LINES = 20
-"""Lines that are taken of one port at once, and in one turn: a robot that sends more, or has piled
-up more, must not hold up the others."""
+READ_BYTES = 16_384
+"""Bytes that are read of one port in one turn of the warden."""
+
+_RESET = struct.pack("ii", 1, 0)
+"""The option SO_LINGER with which a close resets the connection."""
 
 Received = Callable[[bytes], None]
 
 
-class Connection(asyncio.Protocol):
+class Connection(asyncio.BufferedProtocol):
     """Passes on complete lines as they arrive, and knows what has not been acknowledged.
+
+    It reads once, and then not until the next turn of the warden (`resume`), so that the work per
+    turn is bounded however much all robots send.
 
     Attributes:
         is_up: Whether it is connected.
         reason: Why it is not; empty while it is.
+        closed: Is set when it has ended.
+        lost: Is set when it has ended, or should be replaced because nothing is acknowledged.
     """
 
-    def __init__(self, received: Received) -> None:
-        """Wait to be connected; `received` is called with each line."""
+    def __init__(self, received: Received, max_lines: int) -> None:
+        """Wait to be connected; `received` is called with each line, the newest of each read."""
         self.is_up, self.reason = False, "not connected yet"
-        self.closed = asyncio.Event()
-        self._received, self._splitter = received, LineSplitter()
+        self.closed, self.lost = asyncio.Event(), asyncio.Event()
+        self._received, self._splitter = received, LineSplitter(max_lines)
+        self._buffer = bytearray(READ_BYTES)
         self._transport: asyncio.Transport | None = None
         self._socket: socket.socket | None = None
         self._queued_since_s: float | None = None
@@ -43,16 +51,35 @@ class Connection(asyncio.Protocol):
             self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.is_up, self.reason = True, ""
 
-    def data_received(self, data: bytes) -> None:
-        """Pass on the lines that are complete: of many that came together, only the newest."""
-        for line in self._splitter.feed(data)[-MAX_LINES:]:
-            self._received(line)
+    def get_buffer(self, sizehint: int) -> bytearray:  # noqa: ARG002  (asyncio's signature)
+        """Return where to read to."""
+        return self._buffer
+
+    def buffer_updated(self, count: int) -> None:
+        """Pass on the lines that are complete, and read no more in this turn.
+
+        A full buffer has others behind it: its lines are old, although they have just arrived, and
+        are dropped. A port that sends more than is read therefore gives no value.
+        """
+        assert self._transport is not None  # noqa: S101  (it is connected)
+        self._transport.pause_reading()
+        if count == READ_BYTES:
+            self._splitter.skip()
+            return
+        for line in self._splitter.feed(self._buffer[:count]):
+            self._received(bytes(line))
+
+    def resume(self) -> None:
+        """Read again: a turn has begun."""
+        if self._transport is not None and self.is_up:
+            self._transport.resume_reading()
 
     def connection_lost(self, error: Exception | None) -> None:
         """Note why the connection ended."""
         self.is_up = False
         self.reason = str(error) if error else "closed by the robot"
         self.closed.set()
+        self.lost.set()
 
     def peer(self) -> tuple[str, int] | None:
         """Return the numeric address of the robot; None while it is not connected."""
@@ -98,6 +125,15 @@ class Connection(asyncio.Protocol):
         """Close at once, and drop what is queued here."""
         if self._transport is not None:
             self._transport.abort()
+
+    def reset(self) -> None:
+        """Close at once, and drop everything that the robot's machine has not acknowledged.
+
+        After a close, the kernel would deliver an old motion for minutes.
+        """
+        if self._socket is not None and self.is_up:
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _RESET)
+        self.abort()
 
     def close(self) -> None:
         """Close after what is queued here has been sent."""

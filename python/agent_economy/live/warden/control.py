@@ -88,7 +88,7 @@ class Control:
     # Requests that are never refused.
 
     def _stop(self, _: Body) -> Answer:
-        self._warden.operator.stop = True
+        self._warden.stop()
         return self._note("emergency stop of all robots", "error")
 
     def _hold(self, _: Body) -> Answer:

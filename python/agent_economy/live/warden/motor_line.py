@@ -43,8 +43,8 @@ class MotorLines:
         self._written, self._at_s = lines, now_s
         return lines
 
-    def connected(self) -> None:
-        """Forget what was written: the motor port has been connected again."""
+    def forget(self) -> None:
+        """Forget what was written: the next lines are due at once."""
         self._written, self._at_s = (), float("-inf")
 
     def _lines(self, motion: Motion) -> tuple[PortLine, ...]:

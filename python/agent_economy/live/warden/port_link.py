@@ -2,14 +2,20 @@
 
 import asyncio
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from agent_economy.live.clock import now_s
-from agent_economy.live.warden.connection import Connection, Received
+from agent_economy.live.rules.faults import MAX_UNACKNOWLEDGED_S
+from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.name_lookup import NameLookup
 
 CONNECT_TIMEOUT_S = 2.0
+ATTEMPT_S = 0.3
+"""While nothing answers, another attempt is begun after this time. The system repeats the first
+packet of an attempt after growing pauses only, so that a new one is answered sooner when the robot
+can be reached again. The others go on: an answer may take longer than this."""
+
 FIRST_PAUSE_S, MAX_PAUSE_S = 0.05, 0.4
 """Pauses before connecting again: short, because a robot without its motor port drives on until it
 can be connected and stopped."""
@@ -23,6 +29,9 @@ Address = tuple[str, int]
 class PortLink:
     """Connects to an address, and again with growing pauses when the connection is lost.
 
+    A connection on which nothing is acknowledged is replaced: it stays until another one has been
+    established, and is then reset.
+
     Attributes:
         connection: The current connection; it may be down.
         has_connected: Whether it has ever been connected.
@@ -32,13 +41,13 @@ class PortLink:
         self,
         address: Address,
         lookup: NameLookup,
-        received: Received,
+        new: Callable[[], Connection],
         connected: Callable[[], None],
     ) -> None:
-        """Wait for `run`. `received` is called with each line, `connected` after each connect."""
+        """Wait for `run`. `new` makes a connection; `connected` is called after each connect."""
         self._address, self._lookup = address, lookup
-        self._received, self._connected = received, connected
-        self.connection, self.has_connected = Connection(received), False
+        self._new, self._connected = new, connected
+        self.connection, self.has_connected = new(), False
 
     async def run(self) -> None:
         """Keep the port connected, until cancelled."""
@@ -47,33 +56,68 @@ class PortLink:
             began_s = now_s()
             is_connected = await self._connect()
             if is_connected:
-                await self.connection.closed.wait()
+                await self.connection.lost.wait()
             # A robot that accepts and closes at once is not tried more often than one that refuses.
             pause_s = FIRST_PAUSE_S if is_connected and now_s() - began_s > STABLE_S else pause_s
             await asyncio.sleep(pause_s)
             pause_s = min(2 * pause_s, MAX_PAUSE_S)
 
+    def unacknowledged_s(self, time_s: float) -> float:
+        """Return for how long nothing has been acknowledged; let a silent connection be replaced.
+
+        One on which everything is acknowledged after all is kept.
+        """
+        connection = self.connection
+        waiting_s = connection.unacknowledged_s(time_s)
+        if waiting_s >= MAX_UNACKNOWLEDGED_S:
+            connection.lost.set()
+        elif connection.is_up:
+            connection.lost.clear()
+        return waiting_s
+
     async def _connect(self) -> bool:
+        """Connect; return False if the address refuses. While nothing answers, it tries on."""
+        attempts: set[asyncio.Task[Connection | None]] = set()
+        try:
+            while self.connection.lost.is_set() or not self.connection.is_up:
+                attempts.add(asyncio.create_task(self._attempt()))
+                wait = asyncio.FIRST_COMPLETED
+                done, attempts = await asyncio.wait(attempts, timeout=ATTEMPT_S, return_when=wait)
+                found = [each for task in done if (each := task.result()) is not None]
+                if found:
+                    self._replace(found)
+                    return True
+        except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
+            self._lookup.forget()
+            host, port = self._address
+            self.connection.reason = f"{host}:{port}: {_words(error)}"
+            return False
+        finally:
+            for task in attempts:
+                task.cancel()
+        return True
+
+    def _replace(self, found: Sequence[Connection]) -> None:
+        """Take the first of new connections, and reset the others and the one before."""
+        for each in (self.connection, *found[1:]):
+            each.reset()
+        self.connection, self.has_connected = found[0], True
+        self._connected()
+
+    async def _attempt(self) -> Connection | None:
+        """Return a new connection; None if nothing has answered."""
         host, port = self._address
-        new = Connection(self._received)
-        loop = asyncio.get_running_loop()
-        numeric = None
+        new, numeric = self._new(), None
         try:
             async with asyncio.timeout(CONNECT_TIMEOUT_S):
                 numeric = await self._lookup.address()
-                await loop.create_connection(lambda: new, numeric, port)
+                await asyncio.get_running_loop().create_connection(lambda: new, numeric, port)
         except TimeoutError:
             what = "no answer from" if numeric else "no answer to the lookup of the name of"
             self.connection.reason = f"{what} {host}:{port} within {CONNECT_TIMEOUT_S:g} s"
             self._lookup.forget()
-            return False
-        except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
-            self._lookup.forget()
-            self.connection.reason = f"{host}:{port}: {_words(error)}"
-            return False
-        self.connection, self.has_connected = new, True
-        self._connected()
-        return True
+            return None
+        return new
 
     async def end(self) -> None:
         """Close the connection after what is queued has been sent."""

@@ -6,20 +6,29 @@ from collections.abc import Callable
 from functools import partial
 
 from agent_economy.live.drivers import DRIVERS, PortLine
+from agent_economy.live.drivers.lines import MAX_LINES
 from agent_economy.live.plan import Origin, RobotPlan
 from agent_economy.live.readings import Motion, Quantity, Reading
 from agent_economy.live.rules import Link, RobotInputs, Sample, Setpoint
-from agent_economy.live.warden.connection import MAX_LINES
+from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.geometry import world_of
 from agent_economy.live.warden.motor_line import MotorLines
 from agent_economy.live.warden.name_lookup import NameLookup
 from agent_economy.live.warden.port_link import PortLink
 
-ABORT_S = 2.0
-"""Time without an acknowledgement after which a connection is opened again."""
+MAX_TURN_LINES = 200
+"""Lines that are taken in one turn of the warden, of all ports of all robots together."""
+
+MIN_PORT_LINES = 4
+"""Lines of one port that are taken in one turn at least, however many ports there are."""
 
 LineReport = Callable[[str, str, bytes, float, bool], None]
 """Takes the robot, the port, a line, its time, and whether it was written."""
+
+
+def lines_per_port(ports: int) -> int:
+    """Return the number of lines of one port in one turn: an equal share of `MAX_TURN_LINES`."""
+    return max(MIN_PORT_LINES, min(MAX_LINES, MAX_TURN_LINES // ports))
 
 
 class Robot:
@@ -43,7 +52,12 @@ class Robot:
     written: tuple[str, float] | None
 
     def __init__(
-        self, plan: RobotPlan, origin: Origin, stamp_s: Callable[[], float], report: LineReport
+        self,
+        plan: RobotPlan,
+        origin: Origin,
+        stamp_s: Callable[[], float],
+        report: LineReport,
+        max_lines: int = MAX_LINES,
     ) -> None:
         """Create it without connecting.
 
@@ -52,6 +66,7 @@ class Robot:
             origin: The geographic origin of the world.
             stamp_s: Returns the time stamp of a line that is read now.
             report: Is called with each line.
+            max_lines: Lines that are taken of one port in one turn; of more, the newest.
         """
         self.plan, self.setpoint, self.manual = plan, None, None
         self.readings, self.written = {}, None
@@ -62,7 +77,7 @@ class Robot:
         self._has_moved = False
         self._samples: dict[str, Sample] = {}
         self._arrived: dict[str, deque[tuple[bytes, float]]] = {
-            port: deque(maxlen=MAX_LINES) for port in plan.ports
+            port: deque(maxlen=max_lines) for port in plan.ports
         }
         self._motors = MotorLines(self.driver, plan.settings, origin, plan.repeat_s)
         lookup = NameLookup(plan.host)
@@ -70,7 +85,7 @@ class Robot:
             port: PortLink(
                 (plan.host, number),
                 lookup,
-                partial(self._received, port),
+                partial(Connection, partial(self._received, port), max_lines),
                 partial(self._connected, port),
             )
             for port, number in plan.ports.items()
@@ -82,9 +97,10 @@ class Robot:
             tasks.create_task(link.run())
 
     def inputs(self, now_s: float) -> RobotInputs:
-        """Return what the rules have to know, after the lines that have arrived."""
-        for port in self._arrived:
+        """Return what the rules have to know, after the lines that have arrived; then read on."""
+        for port, link in self.links.items():
             self._take_lines(port)
+            link.connection.resume()
         links = {port: self._link(port, now_s) for port in self.links}
         return RobotInputs(links, dict(self._samples), self.setpoint, self.manual)
 
@@ -102,6 +118,10 @@ class Robot:
         )
         if text and self._motor_link.connection.is_up:
             self.written = (text, now_s)
+
+    def write_again(self) -> None:
+        """Write the next motor line at once, also if it is the same as the last one."""
+        self._motors.forget()
 
     def is_acknowledged(self) -> bool:
         """Whether the robot's machine is known to have acknowledged its newest motor line."""
@@ -133,7 +153,7 @@ class Robot:
 
     async def end(self) -> None:
         """Write stop behind everything, also behind a turn of the coprocessor; then close."""
-        self._motors.connected()
+        self._motors.forget()
         self.command(Motion(), self._stamp_s())
         await asyncio.gather(*(link.end() for link in self.links.values()))
 
@@ -147,18 +167,16 @@ class Robot:
             self._report(self.plan.name, line.port, line.data, now_s, True)  # noqa: FBT003
 
     def _link(self, port: str, now_s: float) -> Link:
-        connection = self.links[port].connection
-        waiting_s = connection.unacknowledged_s(now_s)
-        if waiting_s > ABORT_S:
-            connection.abort()
-        return Link(connection.is_up, waiting_s, connection.reason)
+        link = self.links[port]
+        waiting_s = link.unacknowledged_s(now_s)
+        return Link(link.connection.is_up, waiting_s, link.connection.reason)
 
     def _connected(self, port: str) -> None:
         self._arrived[port].clear()
         self._samples.pop(port, None)
         self.readings.pop(port, None)
         if port == self.driver.motor_port:
-            self._motors.connected()
+            self._motors.forget()
             self.command(Motion(), self._stamp_s())
 
     def _received(self, port: str, line: bytes) -> None:

@@ -141,7 +141,7 @@ async def numeric(host: str) -> str:
 
 def _stopper(warden: Warden, report: Report) -> Callable[[], None]:
     def stop() -> None:
-        warden.operator.stop = True
+        warden.stop()
         report({"type": "message", "message": "Emergency stop (Ctrl-Z); Ctrl-C ends the drive."})
 
     return stop

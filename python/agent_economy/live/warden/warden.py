@@ -15,7 +15,7 @@ from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.loop_process import LoopProcess
 from agent_economy.live.warden.mission import Mission
 from agent_economy.live.warden.operator import Operator
-from agent_economy.live.warden.robot import Robot
+from agent_economy.live.warden.robot import Robot, lines_per_port
 
 TURN_S = 0.02
 """Time between two turns."""
@@ -77,8 +77,9 @@ class Warden:
 
     async def drive(self, plan: FleetPlan) -> End:
         """Drive the robots until the drive ends; then stop them, and close everything."""
+        lines = lines_per_port(sum(len(robot.ports) for robot in plan.robots))
         for each in plan.robots:
-            self.robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line)
+            self.robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line, lines)
         async with asyncio.TaskGroup() as tasks:
             connecting = tasks.create_task(self._connect())
             try:
@@ -139,10 +140,17 @@ class Warden:
         """End the loop of a drive that has not begun."""
         await self._loop.end()
 
+    def stop(self) -> None:
+        """Stop all robots in the next turn; stop is written then also to those that stand."""
+        self.operator.stop = True
+        for robot in self.robots.values():
+            robot.write_again()
+
     def interrupt(self) -> None:
         """Stop all robots and end the drive. A second time: without waiting for confirmation."""
         self._is_impatient = self._end is End.INTERRUPTED
-        self._end, self.operator.stop = End.INTERRUPTED, True
+        self._end = End.INTERRUPTED
+        self.stop()
         if self._planned is not None and not self._planned.done():
             self._planned.set_result(None)
 
