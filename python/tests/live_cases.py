@@ -159,6 +159,11 @@ CASES = (
     at(faults.EVENT_LOOP_GAP, "reported", sets(gap_s=1.001)),
     at(faults.OUTSIDE_FENCE, "moved fence", sets(plan=with_fence(FAR_FENCE))),
     at(
+        faults.OUTSIDE_WORLD,
+        "another world",
+        lambda story: setattr(story, "plan", replace(story.plan, size_m=(100.0, 100.0))),
+    ),
+    at(
         faults.IMPOSSIBLE_VALUE,
         "not a number",
         alters("compass", lambda _: (math.nan,)),
@@ -229,7 +234,13 @@ CASES = (
 ALL_CASES = pytest.mark.parametrize(
     "case", CASES, ids=lambda each: f"{each.fault.name}: {each.name}"
 )
-STOPPED_ELSEWHERE = {faults.MISSING_INPUT, faults.MODE_CHANGED, faults.NOT_ARMED, faults.HELD}
+STOPPED_ELSEWHERE = {
+    faults.MISSING_INPUT,
+    faults.MODE_CHANGED,
+    faults.NOT_ARMED,
+    faults.HELD,
+    faults.CONTROLS_DEFLECTED,
+}
 
 
 def stops(fault: Fault, mode: Mode) -> bool:

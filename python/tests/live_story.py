@@ -31,7 +31,9 @@ STEP_S = 0.02
 LEAP_S = 0.25
 NOISE = {"compass": 0.5, "gps": 0.1, "sonar": 0.02, "battery": 0.0}
 PERIODS_S = {"compass": 0.1, "gps": 1.0, "sonar": 0.2, "battery": 1.0}
-FENCE_M = ((-100.0, -100.0), (100.0, -100.0), (100.0, 100.0), (-100.0, 100.0))
+SIZE_M = (400.0, 400.0)
+START_M = (200.0, 200.0)
+FENCE_M = ((100.0, 100.0), (300.0, 100.0), (300.0, 300.0), (100.0, 300.0))
 
 PLAN = FleetPlan(
     Origin(0.0, 0.0),
@@ -55,6 +57,7 @@ PLAN = FleetPlan(
         ),
     ),
     period_s=0.1,
+    size_m=SIZE_M,
 )
 
 Values = tuple[float | None, ...]
@@ -89,7 +92,7 @@ class Story:
     def __post_init__(self) -> None:
         self.random = random.Random(self.seed)  # noqa: S311  (no secret)
         self.memory = initial(self.plan)
-        self.pose = (0.0, 0.0, 0.0)
+        self.pose = (*START_M, 0.0)
         self.samples: dict[str, Sample] = {}
         self.due_s = {
             port: self.time_s + self.random.uniform(0.0, period)
@@ -144,12 +147,19 @@ class Story:
         return self
 
     def started(self) -> "Story":
-        """Let the robot become healthy, arm it, and let it drive."""
+        """Let the robot become healthy, arm it with neutral controls, and let it drive."""
         self.step(Requests(mode={ROBOT: self.mode}))
-        self.run(3.0)
+        self.controls_neutral().run(3.0)
         self.arm()
         assert self.now.action is Action.MOVE, self.now
+        self.setpoint = DRIVE
         return self.run(1.0)
+
+    def controls_neutral(self) -> "Story":
+        """Let an operator release the controls; the loop has none."""
+        if self.mode is Mode.MANUAL:
+            self.setpoint = STOP
+        return self
 
     def leaps(self, until_s: float, requests: Requests | None = None) -> Iterator[Decision]:
         """Yield the decisions of large steps; the last one is at a time, or a small step before."""
@@ -181,10 +191,12 @@ class Story:
         return fault in self.active() or fault in self.now.latched
 
     def heal(self) -> None:
-        """Let everything be healthy from now on."""
+        """Let everything be healthy from now on; the controls of a stopped robot are released."""
         self.silent, self.altered, self.links, self.loop = set(), {}, {}, {}
         self.plan, self.setpoint, self.gap_s = PLAN, DRIVE, STEP_S
         self.is_loop_silent, self.pushed = False, None
+        if self.now.action is not Action.MOVE:
+            self.controls_neutral()
 
     def _link(self, port: str) -> Link:
         return self.links[port](self) if port in self.links else Link(is_up=True)

@@ -42,7 +42,7 @@ def test_a_fault_stops_or_warns_in_time_at_every_phase(case: Case, mode: Mode) -
         else:
             assert decision.action is Action.MOVE, decision
             assert decision.warnings == (case.fault,)
-            is_slow = case.fault.in_manual is InManual.SLOW
+            is_slow = case.fault.in_manual in (InManual.SLOW, InManual.SLOW_NOT_ARMED)
             speed_m_s = decision.motion.speed_m_s
             assert speed_m_s == (0.2 if is_slow else story.setpoint.speed_m_s)  # type: ignore[union-attr]
 

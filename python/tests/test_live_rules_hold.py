@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from live_cases import BOTH, forks
-from live_story import LEAP_S, ROBOT, STEP_S, Story
+from live_story import DRIVE, LEAP_S, ROBOT, STEP_S, Story
 
 from agent_economy.live.drivers import DRIVERS
 from agent_economy.live.readings import STOP, Motion
@@ -19,19 +19,21 @@ def test_held_robots_stand_at_once_and_move_one_second_after_the_resume(mode: Mo
         assert story.step(HOLD).motion == STOP
         assert story.now.faults == (faults.HELD,)
         assert story.now.is_armed
-        story.run(0.9)
+        story.controls_neutral().run(0.9)
         story.step(RESUME)
+        resumed_s = story.time_s
         while story.now.action is not Action.MOVE:
-            resumed = story.run(STEP_S)
-            assert resumed.now.is_armed
-        assert story.now.motion == Motion(0.5, 0.3)
+            assert story.step().is_armed
+            assert story.time_s <= resumed_s + 1.0 + 2 * STEP_S
+        story.setpoint = DRIVE
+        assert story.step().motion == DRIVE
 
 
 @BOTH
 def test_a_hold_of_a_minute_is_no_long_stop(mode: Mode) -> None:
     story = forks(mode, 1)[0]
     story.step(HOLD)
-    story.run(60.0, LEAP_S)
+    story.controls_neutral().run(60.0, LEAP_S)
     assert story.now.latched == ()
     story.step(RESUME)
     story.run(1.1)
@@ -150,3 +152,44 @@ def test_the_estimate_of_the_battery_falls_faster_while_the_robot_drives() -> No
     assert driver.used_charge(3600.0, 0.0, hours) == pytest.approx(1 / 8)
     assert driver.used_charge(0.0, 3600.0, hours) == pytest.approx(1 / 2)
     assert driver.used_charge(1e9, 1e9, hours) == 1.0
+
+
+def test_a_robot_is_not_armed_while_its_controls_are_deflected() -> None:
+    story = Story(1, Mode.MANUAL)
+    story.step(Requests(mode={ROBOT: Mode.MANUAL}))
+    story.run(5.0)
+    assert story.arm().blockers == (faults.CONTROLS_DEFLECTED,)
+    story.controls_neutral().run(1.1)
+    assert story.arm().action is Action.MOVE
+    story.setpoint = DRIVE
+    assert story.step().motion == DRIVE
+
+
+@pytest.mark.parametrize("requests", [HOLD, Requests(stop=True), Requests()])
+def test_deflected_controls_move_nothing_before_they_have_been_neutral(requests: Requests) -> None:
+    """After a hold, a stop and an interruption, the same deflection has no effect any more."""
+    for story in forks(Mode.MANUAL, 10):
+        if requests == Requests():
+            story.setpoint = None
+            story.run(1.0)
+            story.setpoint = DRIVE
+        story.step(requests)
+        for _ in range(3):
+            story.step(replace(RESUME, release=True))
+            story.run(2.0, LEAP_S)
+            assert story.arm().action is not Action.MOVE
+        story.controls_neutral().run(1.1)
+        story.arm()
+        assert story.step().action is Action.MOVE
+        story.setpoint = DRIVE
+        assert story.step().motion == DRIVE
+
+
+def test_deflected_controls_are_no_long_stop() -> None:
+    story = forks(Mode.MANUAL, 1)[0]
+    story.setpoint = None
+    story.run(1.0)
+    story.setpoint = DRIVE
+    story.run(20.0, LEAP_S)
+    assert story.now.faults == (faults.CONTROLS_DEFLECTED,)
+    assert story.now.is_armed

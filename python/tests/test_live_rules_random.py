@@ -1,11 +1,12 @@
 """The safety rules under any inputs and requests, in any order."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from live_story import PLAN, ROBOT
+from live_story import PLAN, ROBOT, START_M
 
 from agent_economy.live.readings import STOP, Motion
 from agent_economy.live.rules import (
@@ -47,6 +48,7 @@ def moments(draw: st.DrawFn) -> dict[str, Any]:
     for name in ("down", "dead", "no_setpoint", "no_sample", "stop", "release", "full", "unknown"):
         breaks[name] = not draw(MOSTLY)
     breaks["arm"] = draw(st.booleans())
+    breaks["neutral"] = draw(st.booleans())
     breaks["mode"] = None if draw(MOSTLY) else draw(st.sampled_from(Mode))
     breaks["port"] = draw(st.sampled_from(["compass", "gps", "sonar"]))
     return breaks
@@ -55,7 +57,7 @@ def moments(draw: st.DrawFn) -> dict[str, Any]:
 def inputs_of(moment: dict[str, Any], time_s: float) -> Inputs:
     motion = Motion(moment.get("motion", 0.5), 0.0)
     setpoint = None if moment["no_setpoint"] else Setpoint(motion, 0, time_s, 0.3)
-    values = {"compass": (90.0,), "gps": (0.0, 0.0), "sonar": (4.0,) * 6, "battery": (0.9,)}
+    values = {"compass": (90.0,), "gps": START_M, "sonar": (4.0,) * 6, "battery": (0.9,)}
     samples = {port: Sample(time_s, each) for port, each in values.items()}
     port = moment["port"]
     age_s, value = moment.get("age_s", 0.0), moment.get("value")
@@ -67,7 +69,8 @@ def inputs_of(moment: dict[str, Any], time_s: float) -> Inputs:
     links[port] = Link(
         is_up=not moment["down"], unacknowledged_s=moment.get("unacknowledged_s", 0.0)
     )
-    known = RobotInputs(links, samples, setpoint, setpoint)
+    neutral = setpoint and replace(setpoint, motion=STOP)
+    known = RobotInputs(links, samples, setpoint, neutral if moment["neutral"] else setpoint)
     loop = LoopInputs(
         is_alive=not moment["dead"],
         last_message_s=time_s,
@@ -93,8 +96,8 @@ def must_stand(moment: dict[str, Any], mode: Mode) -> bool:
     if mode is Mode.MANUAL:
         return bool(always)
     limit_s = {"compass": 1.0, "gps": 3.0, "sonar": 0.5}[moment["port"]]
-    value = moment.get("value", 1.0)
-    possible = {"compass": 0.0 <= value <= 360.0, "gps": abs(value) < 100.0}
+    value = moment.get("value", 200.0 if moment["port"] == "gps" else 1.0)
+    possible = {"compass": 0.0 <= value <= 360.0, "gps": 100.0 < value < 300.0}
     possible["sonar"] = 0.0 <= value <= 10.0 or value == math.inf
     return bool(
         always

@@ -14,7 +14,7 @@ from live_cases import (
     freezes,
     with_fence,
 )
-from live_story import LEAP_S, PLAN, ROBOT, STEP_S, Story
+from live_story import DRIVE, LEAP_S, PLAN, ROBOT, STEP_S, Story
 
 from agent_economy.live.readings import STOP, Motion
 from agent_economy.live.rules import (
@@ -56,7 +56,7 @@ def test_a_short_stop_ends_one_second_after_its_cause(port: str | None) -> None:
 @BOTH
 def test_nothing_moves_until_it_is_armed(mode: Mode) -> None:
     for seed in range(PHASES):
-        story = Story(seed, mode)
+        story = Story(seed, mode).controls_neutral()
         story.step(Requests(mode={ROBOT: mode}, release=True))
         for _ in range(16):
             assert story.step(elapsed_s=LEAP_S).action is Action.LATCHED_STOP
@@ -67,7 +67,7 @@ def test_nothing_moves_until_it_is_armed(mode: Mode) -> None:
 @BOTH
 def test_a_robot_is_not_armed_before_every_input_has_been_fresh_for_a_second(mode: Mode) -> None:
     for seed in range(PHASES):
-        story = Story(seed, mode)
+        story = Story(seed, mode).controls_neutral()
         complete_s = story.time_s if mode is Mode.MANUAL else max(story.due_s.values())
         story.step(Requests(mode={ROBOT: mode}))
         arming = Requests(arm=frozenset({ROBOT}))
@@ -93,12 +93,13 @@ def test_an_input_that_never_came_blocks_arming_and_is_named() -> None:
 
 
 def test_a_robot_whose_gps_never_came_is_driven_slowly_by_hand() -> None:
-    story = Story(1, Mode.MANUAL)
+    story = Story(1, Mode.MANUAL).controls_neutral()
     story.silent.add("gps")
     story.step(Requests(mode={ROBOT: Mode.MANUAL}))
     story.run(3.0)
     assert story.arm().action is Action.MOVE
-    assert story.now.motion == Motion(0.2, 0.3)
+    story.setpoint = DRIVE
+    assert story.step().motion == Motion(0.2, 0.3)
     assert story.now.warnings == (faults.MISSING_INPUT,)
 
 
@@ -116,6 +117,7 @@ def test_switching_modes_stops_and_never_moves_by_itself(mode: Mode) -> None:
     for story in forks(mode):
         other = SWITCHED[mode]
         story.mode = other
+        story.controls_neutral()
         request = Requests(mode={ROBOT: other}, arm=frozenset({ROBOT}))
         assert story.step(request).action is Action.LATCHED_STOP
         assert story.now.faults == (faults.MODE_CHANGED,)
@@ -132,6 +134,7 @@ def test_a_switch_to_the_same_mode_changes_nothing() -> None:
 @BOTH
 def test_emergency_stop_wins_over_every_other_request(mode: Mode) -> None:
     for story in forks(mode, 10):
+        story.setpoint = STOP
         everything = Requests(
             stop=True, release=True, arm=frozenset({ROBOT}), mode={ROBOT: Mode.MANUAL}
         )
@@ -197,9 +200,12 @@ def test_outside_the_fence_only_manual_mode_drives_back() -> None:
     story.run(2.0)
     assert story.arm().action is Action.LATCHED_STOP
     story.mode = Mode.MANUAL
+    story.controls_neutral()
     story.step(Requests(mode={ROBOT: Mode.MANUAL}))
     story.run(2.0)
-    assert story.arm().motion == Motion(0.2, 0.3)
+    assert story.arm().action is Action.MOVE
+    story.setpoint = DRIVE
+    assert story.step().motion == Motion(0.2, 0.3)
     story.plan = PLAN
     assert story.run(2.0).now.motion == Motion(0.5, 0.3)
 
@@ -219,6 +225,7 @@ def test_a_clock_that_goes_backwards_latches(mode: Mode) -> None:
             assert story.step(elapsed_s=-back_s).action is Action.LATCHED_STOP
             assert faults.EVENT_LOOP_GAP in story.now.latched
             story.due_s = dict.fromkeys(story.due_s, story.time_s)
+            story.controls_neutral()
             assert story.run(4.0, LEAP_S).now.action is Action.LATCHED_STOP
             assert story.arm().action is Action.MOVE
 
@@ -240,17 +247,6 @@ def test_a_healthy_robot_drives_for_minutes_without_a_fault(mode: Mode) -> None:
                 story.step(elapsed_s=0.09)
                 assert not story.active(), story.now
                 assert story.now.motion == motion
-
-
-def test_a_standstill_is_confirmed_after_three_seconds_of_still_inputs() -> None:
-    for story in forks(Mode.AUTO):
-        story.step(Requests(stop=True))
-        first_s = max(story.due_s[port] for port in ("compass", "gps", "sonar"))
-        while not story.now.is_confirmed:
-            assert story.time_s <= first_s + 3.0 + LEAP_S
-            story.step(elapsed_s=0.1)
-        assert story.time_s >= first_s + 3.0
-        assert faults.MOVES_WHILE_STOPPED not in story.now.latched
 
 
 @pytest.mark.parametrize("pushed", [Motion(0.5, 0.0), Motion(0.0, 0.3), Motion(-0.2, 0.1)])

@@ -98,7 +98,7 @@ def test_after_a_new_connection_the_motion_is_written_again() -> None:
 
 def decision(*latched: Any, faults: tuple[Any, ...] = ()) -> Decision:
     action = Action.LATCHED_STOP if latched else Action.MOVE
-    return Decision(action, STOP, faults, latched, not latched, faults, (), is_confirmed=False)
+    return Decision(action, STOP, faults, latched, not latched, faults, ())
 
 
 def test_a_mission_arms_each_robot_once_as_soon_as_it_can_be_armed() -> None:

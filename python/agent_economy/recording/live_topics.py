@@ -39,6 +39,10 @@ _SCHEMAS = {
             "mode": {"enum": ["auto", "manual"]},
             "is_armed": {"type": "boolean"},
             "is_confirmed": {"type": "boolean", "description": "Whether it is known to stand."},
+            "unseen_speed_m_s": {
+                "type": ["number", "null"],
+                "description": "The fastest motion that a confirmed standstill does not exclude.",
+            },
             "faults": _FAULTS | {"description": "What stops it now, with reasons."},
             "latched": _FAULTS | {"description": "Why it has to be armed."},
             "blockers": _FAULTS | {"description": "Why it cannot be armed."},

@@ -13,6 +13,7 @@ from agent_economy.live.rules.interface import (
     RobotInputs,
     Sample,
     Setpoint,
+    Unseen,
 )
 from agent_economy.live.rules.rules import Memory, initial, update
 
@@ -33,6 +34,7 @@ __all__ = [
     "RobotInputs",
     "Sample",
     "Setpoint",
+    "Unseen",
     "initial",
     "update",
 ]

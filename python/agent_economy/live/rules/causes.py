@@ -3,9 +3,10 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
-from agent_economy.live.plan import FleetPlan, RobotPlan
+from agent_economy.live.plan import FleetPlan, InputPlan, Point, RobotPlan
 from agent_economy.live.readings import Motion, Quantity
 from agent_economy.live.rules.faults import (
+    CONTROLS_DEFLECTED,
     EVENT_LOOP_GAP,
     LOOP_DEAD,
     LOOP_LATE,
@@ -16,7 +17,9 @@ from agent_economy.live.rules.faults import (
     MAX_SILENCE_S,
     MAX_UNACKNOWLEDGED_S,
     NO_SETPOINT,
+    NOISE_SIGMAS,
     OUTSIDE_FENCE,
+    OUTSIDE_WORLD,
     RECORDING_ERROR,
     TURN_DOES_NOT_END,
     TURN_MARGIN_S,
@@ -25,6 +28,8 @@ from agent_economy.live.rules.faults import (
 from agent_economy.live.rules.geometry import is_inside
 from agent_economy.live.rules.interface import Link, LoopInputs, Setpoint
 from agent_economy.live.rules.monitors import age_s
+
+M_PER_KM = 1000.0
 
 
 def gap(elapsed_s: float, gap_s: float) -> Iterator[Fault]:
@@ -73,6 +78,32 @@ def fence(plan: RobotPlan, positions_m: Iterable[tuple[float, ...]]) -> Iterator
     for x_m, y_m in positions_m:
         if not is_inside((x_m, y_m), plan.fence_m):
             yield OUTSIDE_FENCE.because(f"({x_m:.1f}, {y_m:.1f}) m is outside the fence")
+
+
+def world(
+    size_m: Point | None, plan: InputPlan, positions_m: Iterable[tuple[float, ...]]
+) -> Iterator[Fault]:
+    """Yield a fault if the robot is outside the world by more than the noise of its position."""
+    if size_m is None:
+        return
+    for x_m, y_m in positions_m:
+        outside_m = math.hypot(max(-x_m, 0.0, x_m - size_m[0]), max(-y_m, 0.0, y_m - size_m[1]))
+        if outside_m > NOISE_SIGMAS * plan.noise:
+            origin_m = math.hypot(x_m, y_m)
+            yield OUTSIDE_WORLD.because(
+                f"{plan.port}: {_distance(outside_m)} outside the world and "
+                f"{_distance(origin_m)} from the origin of the scenario: is world.origin right?"
+            )
+
+
+def _distance(distance_m: float) -> str:
+    return f"{distance_m:.1f} m" if distance_m < M_PER_KM else f"{distance_m / M_PER_KM:,.0f} km"
+
+
+def controls(newest: Setpoint | None, *, were_neutral: bool) -> Iterator[Fault]:
+    """Yield a fault if controls that have not been neutral yet request a motion."""
+    if newest is not None and not newest.motion.is_stop and not were_neutral:
+        yield CONTROLS_DEFLECTED.because("the controls are not neutral: release them first")
 
 
 def battery(plan: RobotPlan, charges: Iterable[tuple[float, ...]]) -> Iterator[Fault]:

@@ -28,6 +28,17 @@ SETTLING_S = 1.0
 STILL_S = 3.0
 """Time for which the inputs must not change before a standstill is confirmed."""
 
+STANDSTILL_S = 10.0
+"""Time over which the means of positions and headings must not change for that, too."""
+
+MOVES_SIGMAS, STANDS_SIGMAS, MISSED_SIGMAS = 6.5, 3.5, 3.0
+"""A slope of positions or headings shows a motion above the first number of standard deviations of
+the slope, plus the drift; up to the second, it confirms a standstill. A motion that is faster by
+the third is noticed in 998 of 1000 cases."""
+
+DRIFT_M_S, DRIFT_DEG_S = 0.1, 1.0
+"""Positions and headings of a robot that stands may drift as fast as this."""
+
 FROZEN_S = 3.0
 """Time of commanded motion in which an input has to change."""
 
@@ -71,6 +82,7 @@ class InManual(StrEnum):
 
     STOP = "stop"
     SLOW = "warn, limit speed"
+    SLOW_NOT_ARMED = "warn, limit speed, not armed"
     WARN = "warn"
 
 
@@ -81,18 +93,25 @@ class Fault:
     Attributes:
         name: Its name. Faults are equal if their rows are, whatever their reasons.
         cause: When it is active.
-        delay: Time from the cause to the stop, beyond one turn of the warden.
+        delay_s: Time from the cause to the stop, beyond one turn of the warden.
         clears: What ends the stop.
         in_manual: What it does in manual mode.
+        delay_note: What the delay depends on.
         reason: The cause with its values; empty in the table.
     """
 
     name: str
     cause: str
-    delay: str
+    delay_s: float
     clears: Clears
     in_manual: InManual
+    delay_note: str = ""
     reason: str = field(default="", compare=False)
+
+    @property
+    def delay(self) -> str:
+        """The delay with its note, as the table prints it."""
+        return f"{self.delay_s:g} s{self.delay_note}"
 
     @property
     def latches(self) -> bool:
@@ -107,116 +126,134 @@ class Fault:
 EMERGENCY_STOP = Fault(
     "emergency_stop",
     "An operator pressed emergency stop.",
-    "none",
+    0.0,
     Clears.RELEASE,
     InManual.STOP,
 )
 MOVES_WHILE_STOPPED = Fault(
     "moves_while_stopped",
-    "Heading, position or two ranges changed by more than 8 standard deviations of their noise "
-    "within 3 s, although stop has been commanded.",
-    "1 s of settling, then until the change exceeds the noise",
+    f"Heading, position or two ranges changed by more than {NOISE_SIGMAS:g} standard deviations of "
+    f"their noise within {STILL_S:g} s, or means of positions or headings by more than "
+    f"{DRIFT_M_S:g} m/s or {DRIFT_DEG_S:g} degrees/s and {MOVES_SIGMAS:g} standard deviations of "
+    "their slope, although stop has been commanded.",
+    SETTLING_S,
     Clears.ARMING,
     InManual.STOP,
+    " of settling, then until the change exceeds the noise",
 )
 LOST_LINK = Fault(
     "lost_link",
-    "A port is not connected, or the robot has acknowledged nothing for 0.3 s.",
-    "0.3 s if the connection is half open",
+    "A port is not connected, or the robot has acknowledged nothing for "
+    f"{MAX_UNACKNOWLEDGED_S:g} s.",
+    0.0,
     Clears.ARMING,
     InManual.STOP,
 )
 EVENT_LOOP_GAP = Fault(
     "event_loop_gap",
-    "More than 1 s passed between two turns of the warden, or its clock went backwards.",
-    "none; stop is sent when the warden runs again",
+    f"More than {MAX_GAP_S:g} s passed between two turns of the warden, or its clock went "
+    "backwards.",
+    0.0,
     Clears.ARMING,
     InManual.STOP,
+    "; stop is sent when the warden runs again",
 )
 OUTSIDE_FENCE = Fault(
     "outside_fence",
     "The position is outside the fence, or there is a fence and no input for positions.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.SLOW,
+)
+OUTSIDE_WORLD = Fault(
+    "outside_world",
+    f"The position is outside the world by more than {NOISE_SIGMAS:g} standard deviations of its "
+    "noise. No robot is armed there, in either mode.",
+    0.0,
+    Clears.ARMING,
+    InManual.SLOW_NOT_ARMED,
 )
 IMPOSSIBLE_VALUE = Fault(
     "impossible_value",
     "A value is not a number or out of its bounds, or a line has the wrong number of values.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.SLOW,
 )
 JUMP = Fault(
     "jump",
     "Heading or position changed by more than the maximum turn rate or speed allows in the time "
-    "between two lines plus 0.3 s, and 8 standard deviations of the noise.",
-    "none",
+    f"between two lines plus {JITTER_S:g} s, and {NOISE_SIGMAS:g} standard deviations of the "
+    "noise. Active until it is back, or an operator has confirmed the value.",
+    0.0,
     Clears.ARMING,
     InManual.SLOW,
 )
 FROZEN = Fault(
     "frozen",
-    "Three lines or more had equal values although a change of more than 8 standard deviations "
-    "of the noise was commanded: turning for headings, driving for positions and ranges.",
-    "3 s of commanded motion, or longer until the commanded change exceeds the noise",
+    f"{FROZEN_LINES} lines or more had equal values although a change of more than "
+    f"{NOISE_SIGMAS:g} standard deviations of the noise was commanded: turning for headings, "
+    "driving for positions and ranges. Active until the values have changed, or an operator has "
+    "confirmed them.",
+    FROZEN_S,
     Clears.ARMING,
     InManual.SLOW,
+    " of commanded motion, or longer until the commanded change exceeds the noise",
 )
 TURN_DOES_NOT_END = Fault(
     "turn_does_not_end",
-    "A turn to a heading takes longer than a full turn at the maximum turn rate plus 5 s. Turns "
-    "with less than 1 s between them are one.",
-    "none",
+    "A turn to a heading takes longer than a full turn at the maximum turn rate plus "
+    f"{TURN_MARGIN_S:g} s. Turns with less than {TURN_GAP_S:g} s between them are one.",
+    0.0,
     Clears.ARMING,
     InManual.STOP,
 )
 LOOP_DEAD = Fault(
     "loop_dead",
     "The process of the loop has ended.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.WARN,
 )
 LOOP_SILENT = Fault(
     "loop_silent",
-    "The loop has sent no message for more than 0.3 s.",
-    "none",
+    f"The loop has sent no message for more than {MAX_SILENCE_S:g} s.",
+    0.0,
     Clears.ARMING,
     InManual.WARN,
 )
 LOOP_LATE = Fault(
     "loop_late",
     "A step of the loop was late by more than `max_lateness_s`.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.WARN,
 )
 RECORDING_ERROR = Fault(
     "recording_error",
     "The recording cannot be written.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.WARN,
 )
 LOW_BATTERY = Fault(
     "low_battery",
     "The robot reports a charge below `min_battery`.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.WARN,
 )
 MISSING_INPUT = Fault(
     "missing_input",
     "An input has had no line since the start.",
-    "none",
+    0.0,
     Clears.ITSELF,
     InManual.SLOW,
 )
 STALE_INPUT = Fault(
     "stale_input",
     "The newest value of an input is older than its `max_age_s`.",
-    "none",
+    0.0,
     Clears.ITSELF,
     InManual.SLOW,
 )
@@ -224,7 +261,15 @@ NO_SETPOINT = Fault(
     "no_setpoint",
     "There is no valid setpoint: none has come, it has expired, or it is not a number. In manual "
     "mode the operator's counts, otherwise the loop's.",
-    "none",
+    0.0,
+    Clears.ITSELF,
+    InManual.STOP,
+)
+CONTROLS_DEFLECTED = Fault(
+    "controls_deflected",
+    "In manual mode, the controls of the operator are deflected and have not been neutral since "
+    "the robot could move.",
+    0.0,
     Clears.ITSELF,
     InManual.STOP,
 )
@@ -232,28 +277,29 @@ HELD = Fault(
     "held",
     "An operator holds all robots, or has switched off the navigation of this robot in automatic "
     "mode.",
-    "none",
+    0.0,
     Clears.RESUME,
     InManual.STOP,
 )
 LONG_STOP = Fault(
     "long_stop",
-    "Other faults than `held` stopped the robot for more than 5 s.",
-    "none",
+    "Other faults than `held` and `controls_deflected` stopped the robot for more than "
+    f"{LONG_STOP_S:g} s.",
+    0.0,
     Clears.ARMING,
     InManual.STOP,
 )
 MODE_CHANGED = Fault(
     "mode_changed",
     "An operator switched between automatic and manual mode.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.STOP,
 )
 NOT_ARMED = Fault(
     "not_armed",
     "The robot has not been armed since the start, or since the emergency stop was released.",
-    "none",
+    0.0,
     Clears.ARMING,
     InManual.STOP,
 )
@@ -264,6 +310,7 @@ FAULTS: tuple[Fault, ...] = (
     LOST_LINK,
     EVENT_LOOP_GAP,
     OUTSIDE_FENCE,
+    OUTSIDE_WORLD,
     IMPOSSIBLE_VALUE,
     JUMP,
     FROZEN,
@@ -276,6 +323,7 @@ FAULTS: tuple[Fault, ...] = (
     MISSING_INPUT,
     STALE_INPUT,
     NO_SETPOINT,
+    CONTROLS_DEFLECTED,
     HELD,
     LONG_STOP,
     MODE_CHANGED,

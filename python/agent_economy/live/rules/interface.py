@@ -4,7 +4,7 @@ Times are seconds of one clock, which runs on while the machine sleeps. Robots a
 links and samples by port.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 
@@ -140,6 +140,7 @@ class Requests:
         hold: Hold of all robots: they stand, and stay armed. It wins over a resume.
         resume: End of the hold.
         navigate: Whether robots follow their plans in automatic mode, by name.
+        confirm: The ports whose doubted values are confirmed by hand, by name of the robot.
     """
 
     stop: bool = False
@@ -149,6 +150,20 @@ class Requests:
     hold: bool = False
     resume: bool = False
     navigate: Mapping[str, bool] = field(default_factory=dict)
+    confirm: Mapping[str, Collection[str]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Unseen:
+    """The fastest motion that the inputs of a robot with a confirmed standstill do not exclude.
+
+    Attributes:
+        speed_m_s: Its speed.
+        turn_rate_rad_s: Its turn rate; None without an input for headings.
+    """
+
+    speed_m_s: float
+    turn_rate_rad_s: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,9 +178,10 @@ class Decision:
         is_armed: Whether it moves when it has no fault.
         blockers: Why it cannot be armed now.
         warnings: The faults that do not stop it in its mode.
-        is_confirmed: Whether its inputs confirm its standstill.
+        unseen: The motion that its inputs do not exclude; None unless they confirm its standstill.
         mode: Its mode.
         navigates: Whether it follows its plan in automatic mode.
+        doubted: The ports whose values have to change, or to be confirmed by hand.
     """
 
     action: Action
@@ -175,9 +191,15 @@ class Decision:
     is_armed: bool
     blockers: tuple[Fault, ...]
     warnings: tuple[Fault, ...]
-    is_confirmed: bool
+    unseen: Unseen | None = None
     mode: Mode = Mode.AUTO
     navigates: bool = True
+    doubted: tuple[str, ...] = ()
+
+    @property
+    def is_confirmed(self) -> bool:
+        """Whether its inputs confirm its standstill."""
+        return self.unseen is not None
 
 
 @dataclass(frozen=True, slots=True)

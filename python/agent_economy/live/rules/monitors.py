@@ -4,32 +4,30 @@ Each monitor looks at the newest sample and remembers what it needs of earlier o
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 from agent_economy.live.plan import InputPlan, RobotPlan
 from agent_economy.live.readings import Motion, Quantity
+from agent_economy.live.rules.differences import Values, differs
+from agent_economy.live.rules.doubts import NONE as NO_DOUBTS
+from agent_economy.live.rules.doubts import Commanded as CommandedChange
+from agent_economy.live.rules.doubts import Doubts, after_jump, dispelled, if_frozen
 from agent_economy.live.rules.faults import (
-    FROZEN,
-    FROZEN_LINES,
-    FROZEN_S,
     IMPOSSIBLE_VALUE,
-    JITTER_S,
-    JUMP,
     MISSING_INPUT,
-    NOISE_SIGMAS,
     SETTLING_S,
     STALE_INPUT,
     STILL_S,
     Fault,
 )
 from agent_economy.live.rules.interface import Sample
+from agent_economy.live.rules.standstill import NOTHING as NO_STANDSTILL
+from agent_economy.live.rules.standstill import Standstill, observed
 
 MAX_AHEAD_S = 0.1
 """A stamp may be this much ahead of the time of the update."""
-
-Values = tuple[float | None, ...]
 
 _COUNTS = {Quantity.HEADING: 1, Quantity.POSITION: 2, Quantity.BATTERY: 1}
 _BOUNDS = {
@@ -79,6 +77,7 @@ class Conditions:
         commanded: The motion commanded until now.
         is_held: Whether the rules have stopped the robot.
         stopped_since_s: Since when stop has been commanded; None while the robot moves.
+        confirmed: The ports whose values an operator confirms by hand.
     """
 
     robot: RobotPlan
@@ -86,6 +85,7 @@ class Conditions:
     commanded: Commanded
     is_held: bool
     stopped_since_s: float | None
+    confirmed: Collection[str] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +100,8 @@ class InputMemory:
         commanded: The motion commanded until then.
         reference: The sample that a standing robot must not differ from.
         still_since_s: Since when the input shows no motion.
+        doubts: Why it is doubted.
+        standstill: What the samples since the robot was stopped show of slow motion.
     """
 
     newest: Sample | None = None
@@ -109,9 +111,14 @@ class InputMemory:
     commanded: Commanded = NOTHING
     reference: Sample | None = None
     still_since_s: float | None = None
+    doubts: Doubts = NO_DOUBTS
+    standstill: Standstill = NO_STANDSTILL
 
-    def is_still(self, time_s: float) -> bool:
-        """Return whether it has shown no motion for `STILL_S`."""
+    def is_still(self, time_s: float, quantity: Quantity) -> bool:
+        """Return whether it has shown no motion: for `STILL_S`, slow ones for longer."""
+        has_slope = quantity in (Quantity.POSITION, Quantity.HEADING)
+        if has_slope and self.standstill.unseen is None:
+            return False
         return self.still_since_s is not None and time_s - self.still_since_s >= STILL_S
 
 
@@ -135,16 +142,19 @@ def judge(
 ) -> Judgement:
     """Return what the newest sample of an input shows; None if there is none."""
     memory = _restarted(memory, now)
-    faults: list[Fault] = []
+    if plan.port in now.confirmed:
+        memory = replace(memory, doubts=NO_DOUBTS)
     has_moved = False
     if sample is not None and _is_new(sample, memory):
         if _impossible(sample.values, plan):
             times = _value_times_s(memory, sample)
             memory = replace(memory, newest=sample, value_times_s=times)
         else:
-            faults, has_moved = _evidence(memory, sample, plan, now)
-            memory = _after(memory, sample, plan, now)
-    faults += _freshness(memory, plan, now.time_s)
+            before, memory = memory, _after(memory, sample, plan, now)
+            has_moved = not _is_jump(memory, sample) and (
+                _moves_while_stopped(before, sample, plan, now) or memory.standstill.moves
+            )
+    faults = [*memory.doubts.faults(), *_freshness(memory, plan, now.time_s)]
     if memory.newest is not memory.possible and memory.newest is not None:
         faults.append(IMPOSSIBLE_VALUE.because(f"{plan.port}: {memory.newest.values}"))
     return Judgement(memory, tuple(faults), has_moved)
@@ -169,8 +179,9 @@ def _value_times_s(memory: InputMemory, sample: Sample) -> tuple[float | None, .
 def _after(memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions) -> InputMemory:
     """Return the memory after a possible sample."""
     is_equal = memory.possible is not None and memory.possible.values == sample.values
+    doubts = _doubts(memory, sample, plan, now)
     reference, still_since_s = _reference(memory, sample, plan, now)
-    return InputMemory(
+    after = InputMemory(
         newest=sample,
         possible=sample,
         value_times_s=_value_times_s(memory, sample),
@@ -178,7 +189,10 @@ def _after(memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions
         commanded=memory.commanded if is_equal else now.commanded,
         reference=reference,
         still_since_s=still_since_s,
+        doubts=doubts,
+        standstill=memory.standstill,
     )
+    return replace(after, standstill=_standstill(after, sample, plan, now))
 
 
 # Freshness. Ranges are judged one by one: a sonar that was there once must not disappear.
@@ -215,37 +229,18 @@ def _is_possible(value: float, plan: InputPlan) -> bool:
 # What a possible sample shows, compared with earlier ones.
 
 
-def _evidence(
-    memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions
-) -> tuple[list[Fault], bool]:
-    jumps = list(_jump(memory, sample, plan, now))
-    has_moved = not jumps and _moves_while_stopped(memory, sample, plan, now)
-    return [*jumps, *_frozen(memory, sample, plan, now)], has_moved
+def _doubts(memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions) -> Doubts:
+    """Return the doubts about an input after a possible sample."""
+    before, robot = memory.possible, now.robot
+    doubts = after_jump(memory.doubts, before, sample, plan, robot)
+    if before is not None and before.values == sample.values:
+        commanded = _commanded_change(plan, memory.commanded, now.commanded)
+        doubts = if_frozen(doubts, sample, memory.equal_lines + 1, commanded, plan)
+    return dispelled(doubts, sample, plan, robot, is_driven=now.stopped_since_s is None)
 
 
-def _jump(memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions) -> Iterator[Fault]:
-    before, rate = memory.possible, _max_rate(plan, now.robot)
-    if before is None or rate is None:
-        return
-    limit = rate * (max(sample.time_s - before.time_s, 0.0) + JITTER_S) + _margin(plan)
-    change = _change(before.values, sample.values, plan.quantity)
-    if change > limit:
-        yield JUMP.because(f"{plan.port}: changed by {change:.1f} (limit {limit:.1f})")
-
-
-def _frozen(
-    memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions
-) -> Iterator[Fault]:
-    before = memory.possible
-    if before is None or before.values != sample.values or not _has_number(sample.values):
-        return
-    equal_s, change = _commanded_change(plan, memory.commanded, now.commanded)
-    is_enough = equal_s >= FROZEN_S and change > _margin(plan)
-    if is_enough and memory.equal_lines + 1 >= FROZEN_LINES:
-        yield FROZEN.because(
-            f"{plan.port}: no change in {equal_s:.1f} s of commanded motion: "
-            "it is frozen, or the robot does not move"
-        )
+def _is_jump(memory: InputMemory, sample: Sample) -> bool:
+    return memory.doubts.jumped_s == sample.time_s
 
 
 def _restarted(memory: InputMemory, now: Conditions) -> InputMemory:
@@ -255,17 +250,22 @@ def _restarted(memory: InputMemory, now: Conditions) -> InputMemory:
     return replace(memory, equal_lines=0, commanded=now.commanded)
 
 
-def _commanded_change(plan: InputPlan, before: Commanded, after: Commanded) -> tuple[float, float]:
+def _commanded_change(plan: InputPlan, before: Commanded, after: Commanded) -> CommandedChange:
     """Return the time for which a change of an input was commanded, and the change.
 
     Headings may be constant while the robot drives, and positions while it turns.
     """
     match plan.quantity:
         case Quantity.HEADING:
-            return after.turning_s - before.turning_s, after.turned_deg - before.turned_deg
+            time_s, change = (
+                after.turning_s - before.turning_s,
+                after.turned_deg - before.turned_deg,
+            )
         case Quantity.POSITION | Quantity.RANGES:
-            return after.driving_s - before.driving_s, after.driven_m - before.driven_m
-    return 0.0, 0.0
+            time_s, change = after.driving_s - before.driving_s, after.driven_m - before.driven_m
+        case _:
+            return CommandedChange(0.0, 0.0)
+    return CommandedChange(time_s, change)
 
 
 # Standstill.
@@ -277,7 +277,17 @@ def _moves_while_stopped(
     reference, settled_s = memory.reference, _settled_s(now)
     if reference is None or settled_s is None or reference.time_s < settled_s:
         return False
-    return _differs(reference.values, sample.values, plan)
+    return differs(reference.values, sample.values, plan)
+
+
+def _standstill(
+    memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions
+) -> Standstill:
+    """Return what the samples since the robot has settled show of slow motion."""
+    settled_s = _settled_s(now)
+    if settled_s is None or sample.time_s < settled_s or _is_jump(memory, sample):
+        return NO_STANDSTILL
+    return observed(memory.standstill, sample, plan)
 
 
 def _reference(
@@ -291,7 +301,7 @@ def _reference(
     settled_s, before = _settled_s(now), memory.reference
     if settled_s is None:
         return None, None
-    if before is None or _differs(before.values, sample.values, plan):
+    if before is None or differs(before.values, sample.values, plan):
         return sample, sample.time_s
     is_settled = before.time_s < settled_s <= sample.time_s
     is_old = sample.time_s - before.time_s >= STILL_S
@@ -300,43 +310,3 @@ def _reference(
 
 def _settled_s(now: Conditions) -> float | None:
     return None if now.stopped_since_s is None else now.stopped_since_s + SETTLING_S
-
-
-# Differences of values.
-
-
-def _differs(before: Values, after: Values, plan: InputPlan) -> bool:
-    if plan.quantity is not Quantity.RANGES:
-        return _change(before, after, plan.quantity) > _margin(plan)
-    # One sonar may see a person pass.
-    changed = [
-        abs(new - old) > _margin(plan)
-        for old, new in zip(before, after, strict=False)
-        if old is not None and new is not None and math.isfinite(old) and math.isfinite(new)
-    ]
-    return sum(changed) >= max(1, min(2, len(after)))
-
-
-def _change(before: Values, after: Values, quantity: Quantity) -> float:
-    changes = [(new or 0.0) - (old or 0.0) for old, new in zip(before, after, strict=False)]
-    if quantity is Quantity.HEADING:
-        return abs((changes[0] + 180.0) % 360.0 - 180.0)
-    return math.hypot(*changes)
-
-
-def _margin(plan: InputPlan) -> float:
-    return NOISE_SIGMAS * plan.noise
-
-
-def _has_number(values: Values) -> bool:
-    return any(each is not None and math.isfinite(each) for each in values)
-
-
-def _max_rate(plan: InputPlan, robot: RobotPlan) -> float | None:
-    """Return the fastest change of an input, per second; None where it is not limited."""
-    match plan.quantity:
-        case Quantity.HEADING:
-            return math.degrees(robot.max_turn_rate_rad_s)
-        case Quantity.POSITION:
-            return robot.max_speed_m_s
-    return None

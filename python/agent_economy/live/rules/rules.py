@@ -8,11 +8,12 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from agent_economy.live.plan import FleetPlan, RobotPlan
+from agent_economy.live.plan import FleetPlan, InputPlan, Point, RobotPlan
 from agent_economy.live.readings import STOP, Motion, Quantity
 from agent_economy.live.rules import causes
 from agent_economy.live.rules.faults import (
     CLEAR_S,
+    CONTROLS_DEFLECTED,
     EMERGENCY_STOP,
     HELD,
     LONG_STOP,
@@ -23,6 +24,7 @@ from agent_economy.live.rules.faults import (
     MOVES_WHILE_STOPPED,
     NOT_ARMED,
     OUTSIDE_FENCE,
+    OUTSIDE_WORLD,
     TURN_GAP_S,
     Fault,
     InManual,
@@ -36,10 +38,19 @@ from agent_economy.live.rules.interface import (
     Outputs,
     Requests,
     RobotInputs,
+    Sample,
+    Setpoint,
+    Unseen,
 )
 from agent_economy.live.rules.monitors import NOTHING, Commanded, Conditions, InputMemory, judge
 
 _UNKNOWN = RobotInputs({}, {}, None)
+_SLOW = (InManual.SLOW, InManual.SLOW_NOT_ARMED)
+_PATIENT = (HELD, CONTROLS_DEFLECTED)
+"""Faults after which a robot need not be armed, however long they last."""
+
+_PLACES = (OUTSIDE_FENCE, OUTSIDE_WORLD)
+"""Faults of what an input states, not of the input."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +78,7 @@ class RobotMemory:
         blocked_since_s: Since when faults other than a hold stop it; None while none does.
         turning_since_s: Since when it turns to a heading by itself; None if it does not.
         turned_s: When it did so last.
+        were_neutral: Whether the operator's controls have been neutral since it could move.
     """
 
     mode: Mode = Mode.AUTO
@@ -81,6 +93,7 @@ class RobotMemory:
     blocked_since_s: float | None = None
     turning_since_s: float | None = None
     turned_s: float = -math.inf
+    were_neutral: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +172,7 @@ def _decide(
     memory, judged = _judge_inputs(memory, plan, inputs, turn)
     is_manual = memory.mode is Mode.MANUAL
     setpoint = inputs.manual if is_manual else inputs.setpoint
+    were_neutral = memory.were_neutral or not is_manual
     lifetime_s = MANUAL_LIFETIME_S if is_manual else turn.plan.setpoint_lifetime_s
     now = gravest_first(
         (
@@ -167,8 +181,10 @@ def _decide(
             *turn.faults,
             *causes.links(plan, inputs.links),
             *causes.fence(plan, _values(memory, plan, Quantity.POSITION)),
+            *_outside_world(memory, plan, turn.plan.size_m),
             *causes.battery(plan, _values(memory, plan, Quantity.BATTERY)),
             *causes.setpoint(setpoint, lifetime_s, turn.time_s),
+            *causes.controls(setpoint, were_neutral=were_neutral),
             *_hold_of(memory, turn),
             *causes.turning(plan, memory.turning_since_s, turn.time_s),
         )
@@ -180,22 +196,52 @@ def _decide(
     if action is Action.MOVE and setpoint is not None:
         motion = _limited(setpoint.motion, plan, is_slow=_is_slow(warnings))
     memory = _after_motion(memory, action, motion, turn.time_s)
-    is_blocked = bool(memory.latched) or any(each != HELD for each in faults)
-    blocked_since_s = _since(memory.blocked_since_s, turn.time_s, is_true=is_blocked)
-    memory = replace(memory, blocked_since_s=blocked_since_s)
+    memory = replace(
+        memory,
+        blocked_since_s=_blocked_since_s(memory, faults, turn.time_s),
+        were_neutral=_were_neutral(memory, faults, setpoint),
+    )
     decision = Decision(
         action=action,
         motion=motion,
         faults=faults,
         latched=memory.latched,
         is_armed=not memory.latched,
-        blockers=faults,
+        blockers=_blockers(faults, warnings),
         warnings=warnings,
-        is_confirmed=_is_confirmed(memory, plan, turn.time_s),
+        unseen=_unseen(memory, plan, turn.time_s),
         mode=memory.mode,
         navigates=memory.navigates,
+        doubted=tuple(port for port, each in memory.inputs.items() if each.doubts.faults()),
     )
     return memory, decision
+
+
+def _outside_world(memory: RobotMemory, plan: RobotPlan, size_m: Point | None) -> Iterator[Fault]:
+    for each in plan.inputs:
+        sample = memory.inputs[each.port].possible
+        if each.quantity is Quantity.POSITION and sample is not None:
+            yield from causes.world(size_m, each, [_numbers(sample)])
+
+
+def _blocked_since_s(memory: RobotMemory, faults: tuple[Fault, ...], time_s: float) -> float | None:
+    is_blocked = bool(memory.latched) or any(each not in _PATIENT for each in faults)
+    return _since(memory.blocked_since_s, time_s, is_true=is_blocked)
+
+
+def _were_neutral(
+    memory: RobotMemory, faults: tuple[Fault, ...], setpoint: Setpoint | None
+) -> bool:
+    """Return whether the controls of a robot that could move are or have been neutral."""
+    can_move = not memory.latched and all(each == CONTROLS_DEFLECTED for each in faults)
+    is_neutral = setpoint is not None and setpoint.motion.is_stop
+    return memory.mode is Mode.MANUAL and can_move and (memory.were_neutral or is_neutral)
+
+
+def _blockers(faults: tuple[Fault, ...], warnings: tuple[Fault, ...]) -> tuple[Fault, ...]:
+    """Return why a robot cannot be armed, gravest first."""
+    others = (each for each in warnings if each.in_manual is InManual.SLOW_NOT_ARMED)
+    return gravest_first((*faults, *others))
 
 
 def _hold_of(memory: RobotMemory, turn: _Turn) -> Iterator[Fault]:
@@ -244,12 +290,13 @@ def _after_faults(
     for fault in now:
         if fault.latches and _stops(fault, memory.mode):
             latched = _with(latched, fault)
-    if is_arming and not faults:
+    if is_arming and not _blockers(faults, warnings):
         latched = ()
     since_s = memory.blocked_since_s
     is_long = since_s is not None and turn.time_s - since_s > LONG_STOP_S
     if is_long and faults and not latched:
-        reason = "stopped for more than 5 s: " + ", ".join(each.name for each in faults)
+        names = ", ".join(each.name for each in faults)
+        reason = f"stopped for more than {LONG_STOP_S:g} s: {names}"
         latched = (LONG_STOP.because(reason),)
     if latched is not memory.latched:
         memory = replace(memory, latched=latched)
@@ -298,7 +345,7 @@ def _stops(fault: Fault, mode: Mode) -> bool:
 
 
 def _is_slow(warnings: Iterable[Fault]) -> bool:
-    return any(each.in_manual is InManual.SLOW for each in warnings)
+    return any(each.in_manual in _SLOW for each in warnings)
 
 
 def _with(latched: tuple[Fault, ...], fault: Fault) -> tuple[Fault, ...]:
@@ -336,6 +383,7 @@ def _judge_inputs(
         commanded=commanded,
         is_held=memory.action is not Action.MOVE,
         stopped_since_s=memory.stopped_since_s,
+        confirmed=turn.requests.confirm.get(plan.name, ()),
     )
     judged = {
         each.port: judge(
@@ -351,14 +399,30 @@ def _judge_inputs(
     return replace(memory, inputs=memories, commanded=commanded), tuple(faults)
 
 
-def _is_confirmed(memory: RobotMemory, plan: RobotPlan, time_s: float) -> bool:
-    ports = [each.port for each in plan.inputs if each.quantity is not Quantity.BATTERY]
+def _unseen(memory: RobotMemory, plan: RobotPlan, time_s: float) -> Unseen | None:
+    """Return the motion that the inputs of a robot do not exclude; None if it may move faster.
+
+    Without positions nothing excludes that it drives straight on in open ground.
+    """
+    inputs = [each for each in plan.inputs if each.quantity is not Quantity.BATTERY]
     is_known = not any(
-        each.fault.in_manual is InManual.SLOW and each.fault != OUTSIDE_FENCE
-        for each in memory.held.values()
+        each.fault.in_manual in _SLOW and each.fault not in _PLACES for each in memory.held.values()
     )
-    is_still = bool(ports) and all(memory.inputs[port].is_still(time_s) for port in ports)
-    return memory.motion.is_stop and is_known and is_still
+    is_still = all(memory.inputs[each.port].is_still(time_s, each.quantity) for each in inputs)
+    if not (memory.motion.is_stop and is_known and is_still):
+        return None
+    speed_m_s = _slowest(memory, inputs, Quantity.POSITION)
+    if speed_m_s is None or speed_m_s >= plan.max_speed_m_s:
+        return None
+    turn_rate_deg_s = _slowest(memory, inputs, Quantity.HEADING)
+    return Unseen(speed_m_s, None if turn_rate_deg_s is None else math.radians(turn_rate_deg_s))
+
+
+def _slowest(memory: RobotMemory, inputs: Iterable[InputPlan], quantity: Quantity) -> float | None:
+    """Return the unseen rate of the best input of a quantity."""
+    found = (memory.inputs[each.port] for each in inputs if each.quantity is quantity)
+    rates = [each.standstill.unseen for each in found if each.standstill.unseen is not None]
+    return min(rates, default=None)
 
 
 def _values(
@@ -368,4 +432,8 @@ def _values(
     for each in plan.inputs:
         sample = memory.inputs[each.port].possible
         if each.quantity is quantity and sample is not None:
-            yield tuple(value for value in sample.values if value is not None)
+            yield _numbers(sample)
+
+
+def _numbers(sample: Sample) -> tuple[float, ...]:
+    return tuple(value for value in sample.values if value is not None)

@@ -66,8 +66,8 @@ class Connection(asyncio.BufferedProtocol):
         if count == READ_BYTES:
             self._splitter.skip()
             return
-        for line in self._splitter.feed(self._buffer[:count]):
-            self._received(bytes(line))
+        for line in self._splitter.feed(bytes(self._buffer[:count])):
+            self._received(line)
 
     def resume(self) -> None:
         """Read again: a turn has begun."""

@@ -61,6 +61,7 @@ class Control:
             "/mode": self._mode,
             "/waypoint": self._waypoint,
             "/navigate": self._navigate,
+            "/confirm": self._confirm,
         }
         others = {path: self._guarded(action) for path, action in guarded.items()}
         return {path: self._seen(action) for path, action in (free | own | others).items()}
@@ -200,6 +201,22 @@ class Control:
         self._warden.operator.navigate[robot] = is_on
         state = "on" if is_on else "off: it stands, and keeps its waypoints"
         return self._note(f"{robot}: navigation is {state}", robot=robot)
+
+    def _confirm(self, body: Body) -> Answer:
+        """Take the word of the operator that the value of a doubted input is right."""
+        robot, port = self._robot(body), body.get("port")
+        ports = [each.port for each in robot.inputs]
+        if port not in ports:
+            message = f"port must be one of {', '.join(ports)}"
+            raise ValueError(message)
+        decision = self._warden.outputs.robots.get(robot.name)
+        doubted = [] if decision is None else decision.doubted
+        if port not in doubted:
+            message = f"{port} of {robot.name} is not doubted: there is nothing to confirm"
+            raise ValueError(message)
+        self._warden.operator.confirm.setdefault(robot.name, set()).add(port)
+        text = f"{robot.name}: an operator confirms the value of {port}"
+        return self._note(text, "warning", robot.name)
 
     def _waypoint(self, body: Body) -> Answer:
         robot = self._robot(body)

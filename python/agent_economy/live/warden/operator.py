@@ -16,6 +16,7 @@ class Operator:
     arm: set[str] = field(default_factory=set)
     mode: dict[str, Mode] = field(default_factory=dict)
     navigate: dict[str, bool] = field(default_factory=dict)
+    confirm: dict[str, set[str]] = field(default_factory=dict)
 
     def take(self) -> Requests:
         """Return the requests, and forget them."""
@@ -27,7 +28,8 @@ class Operator:
             hold=self.hold,
             resume=self.resume,
             navigate=self.navigate,
+            confirm=self.confirm,
         )
         self.stop = self.release = self.hold = self.resume = False
-        self.arm, self.mode, self.navigate = set(), {}, {}
+        self.arm, self.mode, self.navigate, self.confirm = set(), {}, {}, {}
         return taken

@@ -38,7 +38,7 @@ def server(event: Mapping[str, Any]) -> str:
 def confirmation(event: Mapping[str, Any]) -> str:
     """Return which robots are known to be stationary."""
     if not event["unconfirmed"]:
-        return " All robots are stationary."
+        return f" All robots stand: slower than {event['unseen_speed_m_s']:.2f} m/s."
     return f" Not confirmed as stationary: {', '.join(event['unconfirmed'])}."
 
 
@@ -58,7 +58,9 @@ def robot_sentence(event: Mapping[str, Any]) -> str:
         return f"{name}: moves" + reasons(event, "warnings", "with a warning")
     if event["is_armed"]:
         return f"{name}: stopped" + reasons(event, "faults", "because of")
-    state = "stopped (standstill confirmed)" if event["is_confirmed"] else "stopped"
+    state = "stopped"
+    if event["is_confirmed"]:
+        state = f"stopped (standstill confirmed: slower than {event['unseen_speed_m_s']:.2f} m/s)"
     why = reasons(event, "faults", "because of") or reasons(event, "latched", "since")
     return f"{name}: {state}, not armed{why}"
 

@@ -101,6 +101,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
             "reason": end.reason,
             "exit_code": end.exit_code,
             "unconfirmed": warden.unconfirmed(),
+            "unseen_speed_m_s": warden.unseen_speed_m_s,
             "late_steps": warden.late_steps,
             "behind_s": warden.behind_s,
         }

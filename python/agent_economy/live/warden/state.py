@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from typing import Any
 
 from agent_economy.live.plan import InputPlan, Origin
@@ -32,6 +33,8 @@ def robot_state(
         "requested": _requested(robot, decision.mode, now_s),
         "written": _written(robot, now_s),
         "is_standing": decision.is_confirmed,
+        "unseen": None if decision.unseen is None else asdict(decision.unseen),
+        "doubted": list(decision.doubted),
         "faults": _reasons(decision.faults),
         "latched": _reasons(decision.latched),
         "blockers": _reasons(decision.blockers),

@@ -11,6 +11,7 @@ from agent_economy.live.clock import now_s
 from agent_economy.live.plan import FleetPlan, Point, plan_of
 from agent_economy.live.readings import Motion
 from agent_economy.live.rules import Action, Decision, Inputs, LoopInputs, Outputs, Setpoint
+from agent_economy.live.rules.faults import SETTLING_S, STANDSTILL_S
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.loop_process import LoopProcess
 from agent_economy.live.warden.mission import Mission
@@ -23,7 +24,7 @@ TURN_S = 0.02
 LATE_S = 0.2
 """After a longer gap between two turns, lines that are read first may be as old as the gap."""
 
-CONFIRM_S = 8.0
+CONFIRM_S = SETTLING_S + STANDSTILL_S + 4.0
 """Time for which the end of a drive waits until all robots have a confirmed standstill."""
 
 Report = Callable[[Mapping[str, Any]], None]
@@ -93,6 +94,12 @@ class Warden:
     def unconfirmed(self) -> list[str]:
         """Return the robots whose standstill the inputs do not confirm."""
         return [name for name, each in self.outputs.robots.items() if not each.is_confirmed]
+
+    @property
+    def unseen_speed_m_s(self) -> float | None:
+        """The fastest motion that the inputs of a robot do not exclude; None if one may move."""
+        found = [each.unseen for each in self.outputs.robots.values()]
+        return max((each.speed_m_s for each in found if each is not None), default=None)
 
     @property
     def end_of_load(self) -> End:
@@ -280,7 +287,9 @@ class Warden:
         before = self.outputs.robots.get(name)
         if before is not None and _shown(before) == _shown(decision):
             return
+        speed_m_s = None if decision.unseen is None else decision.unseen.speed_m_s
         event = {"type": "event", "t": now, "robot": name, **_shown(decision)}
+        event["unseen_speed_m_s"] = speed_m_s
         event["reasons"] = {
             fault.name: fault.reason
             for fault in (*decision.latched, *decision.warnings, *decision.faults)
