@@ -55,10 +55,9 @@ def test_legs_between_places_of_a_convex_fence_stay_inside(start: Point, end: Po
 def test_a_leg_that_stays_inside_has_no_place_outside(start: Point, end: Point) -> None:
     if not (is_within(start, NOTCHED) and is_within(end, NOTCHED)):
         return
+    (x, y), (end_x, end_y) = start, end
     shares = [index / 200 for index in range(201)]
-    places = [
-        tuple(a + share * (b - a) for a, b in zip(start, end, strict=True)) for share in shares
-    ]
+    places = [(x + share * (end_x - x), y + share * (end_y - y)) for share in shares]
     # What is a millionth outside is on the edge.
     outside = [
         place
@@ -88,7 +87,8 @@ def test_a_point_nearer_to_a_wall_than_the_margin_is_near_it(
     wall: Wall, point: Point, distance_m: float | None
 ) -> None:
     found = Walls([wall]).near(point, 0.5)
-    assert found == (None if distance_m is None else (wall, pytest.approx(distance_m)))
+    assert (found is None) == (distance_m is None)
+    assert found is None or found == (wall, pytest.approx(distance_m))
 
 
 @pytest.mark.parametrize(

@@ -60,9 +60,7 @@ def _warn_of_robot(findings: Findings, fleet: Document, entry: Entry) -> None:
         findings.warn(fleet, (*entry.path, "deadman_s"), effect)
 
 
-def _warn_of_place(
-    findings: Findings, fleet: Document, entry: Entry, world: ScenarioWorld
-) -> None:
+def _warn_of_place(findings: Findings, fleet: Document, entry: Entry, world: ScenarioWorld) -> None:
     """Warn of settings that contradict the origin of the scenario."""
     origin = world.origin or {}
     latitude_deg, longitude_deg = origin["latitude_deg"], origin["longitude_deg"]
