@@ -87,8 +87,12 @@ def test_a_point_nearer_to_a_wall_than_the_margin_is_near_it(
     wall: Wall, point: Point, distance_m: float | None
 ) -> None:
     found = Walls([wall]).near(point, 0.5)
-    assert (found is None) == (distance_m is None)
-    assert found is None or found == (wall, pytest.approx(distance_m))
+    if distance_m is None:
+        assert found is None
+    else:
+        assert found is not None
+        assert found[0] == wall
+        assert found[1] == pytest.approx(distance_m)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Requests that change nothing are refused with the reason; those that wait say for what."""
+"""Requests that change nothing are refused with the reason; those that wait state for what."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -67,7 +67,7 @@ def test_a_release_together_with_a_stop_is_refused_because_the_stop_wins(served:
     assert refused(served, "/release") == "no emergency stop is latched"
 
 
-def test_a_stop_and_a_hold_say_if_they_are_active_already(served: Served) -> None:
+def test_a_stop_and_a_hold_state_if_they_are_active_already(served: Served) -> None:
     for path, latched in (
         ("/stop", "emergency stop: already latched"),
         ("/hold", "hold: already active"),
@@ -296,13 +296,13 @@ def test_a_way_across_a_wall_is_accepted_with_a_warning(notched: Served) -> None
     assert "crosses" not in accepted(notched, "/waypoint", **to(15, 9))
 
 
-def test_a_world_with_too_many_walls_for_a_plan_is_said_to_be_unchecked() -> None:
+def test_a_world_with_too_many_walls_for_a_plan_is_reported_as_unchecked() -> None:
     with serving(replace(PLAN, walls=None)) as served:
         text = accepted(served, "/waypoint", **to(15, 5))
     assert "it was not compared with the obstacles: the world has too many" in text
 
 
-def test_a_waypoint_that_has_to_wait_says_for_what(served: Served) -> None:
+def test_the_answer_to_an_order_states_what_it_waits_for(served: Served) -> None:
     position(served, 5, 5)
     assert accepted(served, "/waypoint", **to(10, 10)) == (
         "bender/0: waypoint [10.00, 10.00] ordered; queued: bender/0 is not armed"

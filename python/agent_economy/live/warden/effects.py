@@ -68,12 +68,12 @@ def check_release(warden: Warden) -> None:
     Raises:
         ValueError: If the release has no effect.
     """
-    asked = warden.operator
+    requested = warden.operator
     _refuse_if(
-        asked.stop, "an emergency stop has just been requested: release it once it is latched"
+        requested.stop, "an emergency stop has just been requested: release it once it is latched"
     )
     _refuse_if(not is_latched(warden), "no emergency stop is latched")
-    _refuse_if(asked.release, "the release has been requested already")
+    _refuse_if(requested.release, "the release has been requested already")
 
 
 def check_resume(warden: Warden) -> None:
@@ -82,10 +82,10 @@ def check_resume(warden: Warden) -> None:
     Raises:
         ValueError: If the resume has no effect.
     """
-    asked = warden.operator
-    _refuse_if(asked.hold, "a hold has just been requested: resume once it is active")
+    requested = warden.operator
+    _refuse_if(requested.hold, "a hold has just been requested: resume once it is active")
     _refuse_if(not warden.outputs.is_held, "the robots are not held")
-    _refuse_if(asked.resume, "the resume has been requested already")
+    _refuse_if(requested.resume, "the resume has been requested already")
 
 
 def check_mode(warden: Warden, name: str, mode: Mode) -> None:
