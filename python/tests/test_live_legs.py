@@ -1,5 +1,7 @@
 """Straight ways against fences and walls."""
 
+import time
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -43,7 +45,9 @@ def test_a_leg_leaves_a_concave_fence_where_it_is_outside_first(
     assert found == (None if left_m is None else pytest.approx(left_m))
 
 
-PLACES = st.tuples(*[st.floats(0, 10, allow_nan=False)] * 2)
+COORDINATES = st.floats(0, 10, allow_nan=False) | st.integers(0, 20).map(lambda each: each / 2)
+PLACES = st.tuples(COORDINATES, COORDINATES)
+"""Halves are often on edges and corners."""
 
 
 @given(PLACES, PLACES)
@@ -65,6 +69,13 @@ def test_a_leg_that_stays_inside_has_no_place_outside(start: Point, end: Point) 
         if not is_in and not is_within(place, NOTCHED)
     ]
     assert not (outside and exit_of((start, end), NOTCHED) is None)
+
+
+def test_a_leg_that_touches_many_corners_of_a_fence_takes_the_warden_some_milliseconds() -> None:
+    teeth = [(float(x), 100.0 if x % 2 else 1.0) for x in range(1, 999)]
+    began_s = time.monotonic()
+    assert exit_of(((0.5, 1.0), (998.0, 1.0)), [(0.0, 0.0), *teeth, (999.0, 0.0)]) is None
+    assert time.monotonic() - began_s < 0.2
 
 
 BOX = Wall("box", ((4.0, 4.0), (6.0, 4.0), (6.0, 6.0), (4.0, 6.0)))

@@ -4,6 +4,7 @@ Only the standard library is used, because the warden checks orders with it.
 """
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
@@ -21,12 +22,53 @@ Box = tuple[float, float, float, float]
 def exit_of(leg: Leg, fence: Sequence[Point]) -> Point | None:
     """Return where a leg that begins inside a fence leaves it; None if it stays inside.
 
-    Between two places at which the leg meets an edge, it is either inside or outside.
+    Between two places at which the leg meets an edge, it is either inside or outside. All of these
+    parts are judged together, because a fence may have many edges and a leg may meet many of them.
     """
-    for before, after in pairwise(sorted({0.0, 1.0, *_meetings(leg, fence)})):
-        if not is_within(_place(leg, (before + after) / 2), fence):
-            return _place(leg, before)
+    length_m = math.dist(*leg)
+    if length_m == 0.0:
+        return None
+    edges = list(_edges([_seen_from(leg, length_m, corner) for corner in fence]))
+    cuts = sorted({0.0, length_m, *(at for at in _zeros(edges) if 0.0 < at < length_m)})
+    parts = list(pairwise(cuts))
+    is_in = _are_in([(before + after) / 2 for before, after in parts], edges)
+    for (before, after), is_part_in in zip(parts, is_in, strict=True):
+        # What is shorter is due to rounding.
+        if not is_part_in and after - before > EDGE_M:
+            return _place(leg, before / length_m)
     return None
+
+
+def _seen_from(leg: Leg, length_m: float, point: Point) -> Point:
+    """Return a point in the frame of a leg: along it from its begin, and to its left."""
+    (x, y), (end_x, end_y) = leg
+    along, across = (end_x - x) / length_m, (end_y - y) / length_m
+    dx, dy = point[0] - x, point[1] - y
+    return dx * along + dy * across, dy * along - dx * across
+
+
+def _zeros(edges: Iterable[Leg]) -> Iterator[float]:
+    """Yield where edges in the frame of a leg meet it."""
+    for (u, v), (next_u, next_v) in edges:
+        if abs(v) <= EDGE_M:
+            yield u
+        if (v > 0.0) != (next_v > 0.0):
+            yield u + v / (v - next_v) * (next_u - u)
+
+
+def _are_in(places: Sequence[float], edges: Iterable[Leg]) -> list[bool]:
+    """Return whether places on a leg, in order, are inside a fence or on its edge.
+
+    A place is inside if the number of edges to its left is odd.
+    """
+    is_odd, is_on_edge = [False] * len(places), [False] * len(places)
+    for (u, v), (next_u, next_v) in edges:
+        low, high = sorted((u, next_u))
+        for index in range(bisect_left(places, low), bisect_left(places, high)):
+            left_m = v + (places[index] - u) / (next_u - u) * (next_v - v)
+            is_on_edge[index] |= abs(left_m) <= EDGE_M
+            is_odd[index] ^= left_m > 0.0
+    return [odd or on_edge for odd, on_edge in zip(is_odd, is_on_edge, strict=True)]
 
 
 def is_within(point: Point, fence: Sequence[Point]) -> bool:
@@ -50,7 +92,7 @@ class Walls:
         """Return the first wall that is nearer to a leg than a margin, and its distance."""
         around = _box(leg, margin_m)
         for box, wall in self._walls:
-            if _is_overlapping(around, box):
+            if _is_overlapping(around, box) and _is_along(leg, margin_m, box):
                 distance_m = _clearance_m(leg, wall)
                 if distance_m < margin_m - EDGE_M or distance_m == 0.0:
                     return wall, distance_m
@@ -66,37 +108,24 @@ def _clearance_m(leg: Leg, wall: Wall) -> float:
 
 
 def _gap_m(leg: Leg, edge: Leg) -> float:
-    if any(True for _ in _meetings(leg, edge)):
+    """Return the distance of two lines; parallel ones that overlap have an end on the other."""
+    if _is_crossing(leg, edge):
         return 0.0
     (start, end), (corner, next_corner) = leg, edge
     ends = ((start, edge), (end, edge), (corner, leg), (next_corner, leg))
     return min(_distance_m(point, line) for point, line in ends)
 
 
-def _meetings(leg: Leg, corners: Sequence[Point]) -> Iterator[float]:
-    """Yield where a leg meets the edges of a polygon, as fractions of its length."""
+def _is_crossing(leg: Leg, edge: Leg) -> bool:
     (x, y), (end_x, end_y) = leg
-    along, across = end_x - x, end_y - y
-    for (x1, y1), (x2, y2) in _edges(corners):
-        edge_x, edge_y = x2 - x1, y2 - y1
-        turn = along * edge_y - across * edge_x
-        if turn == 0.0:
-            # Parallel: the corners may be on the leg.
-            yield from _projections(leg, ((x1, y1), (x2, y2)))
-            continue
-        at_leg = ((x1 - x) * edge_y - (y1 - y) * edge_x) / turn
-        at_edge = ((x1 - x) * across - (y1 - y) * along) / turn
-        if 0.0 <= at_leg <= 1.0 and 0.0 <= at_edge <= 1.0:
-            yield at_leg
-
-
-def _projections(leg: Leg, points: Iterable[Point]) -> Iterator[float]:
-    (x, y), (end_x, end_y) = leg
-    along, across = end_x - x, end_y - y
-    length = along * along + across * across
-    for point in points:
-        if length > 0.0 and _distance_m(point, leg) <= EDGE_M:
-            yield ((point[0] - x) * along + (point[1] - y) * across) / length
+    (x1, y1), (x2, y2) = edge
+    along, across, edge_x, edge_y = end_x - x, end_y - y, x2 - x1, y2 - y1
+    turn = along * edge_y - across * edge_x
+    if turn == 0.0:
+        return False
+    at_leg = ((x1 - x) * edge_y - (y1 - y) * edge_x) / turn
+    at_edge = ((x1 - x) * across - (y1 - y) * along) / turn
+    return 0.0 <= at_leg <= 1.0 and 0.0 <= at_edge <= 1.0
 
 
 def _distance_m(point: Point, line: Leg) -> float:
@@ -135,3 +164,10 @@ def _box(points: Sequence[Point], margin_m: float) -> Box:
 
 def _is_overlapping(one: Box, other: Box) -> bool:
     return one[0] <= other[2] and other[0] <= one[2] and one[1] <= other[3] and other[1] <= one[3]
+
+
+def _is_along(leg: Leg, margin_m: float, box: Box) -> bool:
+    """Return whether a leg passes the circle around a box: long oblique legs overlap many boxes."""
+    low_x, low_y, high_x, high_y = box
+    reach_m = math.hypot(high_x - low_x, high_y - low_y) / 2
+    return _distance_m(((low_x + high_x) / 2, (low_y + high_y) / 2), leg) <= reach_m + margin_m
