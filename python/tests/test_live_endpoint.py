@@ -17,6 +17,7 @@ from bare_timer import repeated_if_late
 
 from agent_economy.live import fleet, rules
 from agent_economy.live.clock import now_s
+from agent_economy.live.plan import FleetPlan
 from agent_economy.live.rules import Inputs, LoopInputs, Mode, Requests
 from agent_economy.live.warden import authority
 from agent_economy.live.warden.control import Control, Drive
@@ -63,14 +64,14 @@ class Served:
 
 
 @contextmanager
-def serving() -> Iterator[Served]:
+def serving(plan: FleetPlan = PLAN) -> Iterator[Served]:
     """Serve a warden in a thread with an event loop of its own."""
     warden, events, orders = Warden(lambda _: None, is_headless=False), EventLog(), []
     warden.robots = {
-        each.name: Robot(each, PLAN.origin, now_s, lambda *_: None) for each in PLAN.robots
+        each.name: Robot(each, plan.origin, now_s, lambda *_: None) for each in plan.robots
     }
     warden.order = lambda robot, point_m: orders.append((robot, point_m))  # type: ignore[method-assign]
-    control = Control(warden, Drive(PLAN, "bender.toml", "bender.mcap"), events)
+    control = Control(warden, Drive(plan, "bender.toml", "bender.mcap"), events)
     endpoint = Endpoint(control.actions())
     loop = asyncio.new_event_loop()
     thread = threading.Thread(target=loop.run_forever, daemon=True)
@@ -187,6 +188,9 @@ GUARDED: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("path", GUARDED)
 def test_another_client_is_refused_while_one_is_the_operator(served: Served, path: str) -> None:
     served.ask("/operator", client="a", take=True)
+    served.ask("/stop")
+    served.ask("/hold")
+    served.turn()
     status, answer = served.ask(path, client="b", **GUARDED[path])
     assert (status, answer["message"]) == (409, "another client is the operator")
     status, answer = served.ask(path, client="a", **GUARDED[path])
@@ -239,10 +243,14 @@ def test_a_control_acts_for_the_operator_in_manual_mode_only(served: Served) -> 
     assert by_hand(served, 2, client="b")[0] == 409
 
 
-def test_a_request_that_a_newer_one_overtook_is_ignored(manual: Served) -> None:
+def test_a_request_that_a_newer_one_overtook_is_refused(manual: Served) -> None:
     assert by_hand(manual, 5, 170)[0] == 200
     for late in (4, 5):
-        assert by_hand(manual, late, 200)[0] == 200
+        status, answer = by_hand(manual, late, 200)
+        assert status == 409
+        assert answer["message"] == (
+            f"number {late} is overtaken: a request with number 5 came before"
+        )
         assert tracks(manual) == (170, 150)
     by_hand(manual, 6, 180)
     assert tracks(manual) == (180, 150)

@@ -1,7 +1,7 @@
 """Driving by hand on the wire: what each control sends, and that silence sends stop."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -45,19 +45,31 @@ class Hand:
 
     def start(self) -> "Hand":
         """Switch to manual mode and arm the robot; return itself."""
-        self.ask("/operator", take=True)
-        self.ask("/mode", robot=ROBOT, mode="manual")
-        time.sleep(0.1)  # the next turn
+        if self.ask("/state")["operator"] != "you":
+            self.ask("/operator", take=True)
+        if self.robot()["mode"] != "manual":
+            self.ask("/mode", robot=ROBOT, mode="manual")
+            time.sleep(0.1)  # the next turn
+        self.arm(lambda: self.hold(150, 150, 0.2))
         deadline_s = now_s() + 20
-        while self.drive.ask("/arm", client="hand")[0] != 200:
-            assert now_s() < deadline_s, self.state["blockers"]
-            self.hold(150, 150, 0.2)
         self.hold(150, 150, 0.3)
         while self.state["warnings"]:  # a stale input limits the speed
             assert now_s() < deadline_s, self.state["warnings"]
             self.hold(150, 150, 0.2)
         assert self.state["is_armed"], self.state
         return self
+
+    def robot(self) -> dict[str, Any]:
+        """Return the state of the robot."""
+        return dict(self.ask("/state")["robots"][0])
+
+    def arm(self, wait: Callable[[], object]) -> None:
+        """Arm the robot as soon as nothing stops it."""
+        deadline_s = now_s() + 20
+        while not (robot := self.robot())["is_armed"] or robot["blockers"]:
+            assert now_s() < deadline_s, robot["blockers"]
+            self.drive.ask("/arm", client="hand")
+            wait()
 
 
 @pytest.fixture(scope="module")
@@ -152,12 +164,11 @@ def test_an_ordered_waypoint_is_in_the_state_and_the_recording_replays(
 ) -> None:
     del tmp_path
     hand.ask("/waypoint", robot=ROBOT, point_m=[20, 22])
-    hand.ask("/mode", robot=ROBOT, mode="auto")
-    hand.ask("/navigate", robot=ROBOT, is_on=True)
-    deadline_s = now_s() + 20
-    while hand.drive.ask("/arm", client="hand")[0] != 200:
-        assert now_s() < deadline_s
-        time.sleep(0.2)
+    if hand.robot()["mode"] != "auto":
+        hand.ask("/mode", robot=ROBOT, mode="auto")
+    if not hand.robot()["navigates"]:
+        hand.ask("/navigate", robot=ROBOT, is_on=True)
+    hand.arm(lambda: time.sleep(0.2))
     hand.drive.wait_for(lambda each: each["type"] == "goal" and each["at_m"] == [20, 22])
     ordered = hand.ask("/state")["robots"][0]["waypoints"][-1]
     assert (ordered["x_m"], ordered["y_m"], ordered["verdict"]) == (20, 22, "pending")

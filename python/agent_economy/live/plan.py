@@ -1,6 +1,6 @@
 """What the warden has to know of a fleet: plain values, as the loop sends them when it starts."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -39,6 +39,21 @@ class InputPlan:
 
 
 @dataclass(frozen=True)
+class Wall:
+    """An obstacle of the world, or a part of one.
+
+    Attributes:
+        name: Its path in the scenario.
+        corners_m: Its corners in order; the centre of a circle.
+        radius_m: The radius of a circle; 0 for others.
+    """
+
+    name: str
+    corners_m: tuple[Point, ...]
+    radius_m: float = 0.0
+
+
+@dataclass(frozen=True)
 class RobotPlan:
     """One robot of a fleet.
 
@@ -58,6 +73,7 @@ class RobotPlan:
             has no such timer.
         repeat_s: Time between two motor lines of the same motion.
         takes_orders: Whether its brain visits waypoints that an operator orders.
+        radius_m: Radius of its body; None if it flies over walls.
     """
 
     name: str
@@ -74,6 +90,7 @@ class RobotPlan:
     deadman_s: float | None = None
     repeat_s: float = 0.2
     takes_orders: bool = True
+    radius_m: float | None = None
 
 
 @dataclass(frozen=True)
@@ -87,6 +104,7 @@ class FleetPlan:
         setpoint_lifetime_s: Time for which a setpoint is valid.
         max_lateness_s: Lateness of the loop at which all robots stop.
         size_m: Width and height of the world; None if they are unknown.
+        walls: The obstacles of the world; None if there are too many for a plan.
     """
 
     origin: Origin
@@ -96,6 +114,7 @@ class FleetPlan:
     max_lateness_s: float = 0.5
     warnings: tuple[str, ...] = field(default=())
     size_m: Point | None = None
+    walls: tuple[Wall, ...] | None = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the plan as plain values, for JSON."""
@@ -108,13 +127,24 @@ def plan_of(values: Mapping[str, Any]) -> FleetPlan:
     rest = {key: value for key, value in values.items() if key not in ("origin", "robots")}
     rest["warnings"] = tuple(rest.get("warnings", ()))
     rest["size_m"] = rest.get("size_m") and tuple(rest["size_m"])
+    # Recordings of older drives have none.
+    walls = rest.get("walls", ())
+    rest["walls"] = None if walls is None else tuple(_wall(each) for each in walls)
     return FleetPlan(origin=Origin(**values["origin"]), robots=robots, **rest)
+
+
+def _wall(values: Mapping[str, Any]) -> Wall:
+    return Wall(values["name"], _points(values["corners_m"]), values["radius_m"])
+
+
+def _points(values: Iterable[tuple[float, float]]) -> tuple[Point, ...]:
+    return tuple((float(x), float(y)) for x, y in values)
 
 
 def _robot(values: Mapping[str, Any]) -> RobotPlan:
     inputs = tuple(_input(each) for each in values["inputs"])
     fence = values.get("fence_m")
-    fence_m = fence and tuple((float(x), float(y)) for x, y in fence)
+    fence_m = fence and _points(fence)
     return RobotPlan(**{**values, "inputs": inputs, "fence_m": fence_m})
 
 

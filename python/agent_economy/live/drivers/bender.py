@@ -8,7 +8,7 @@ Units that the source leaves open are settings. Their defaults are guesses.
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from agent_economy.live.drivers.driver import Driver, Port, PortLine, Setting, Settings
@@ -26,7 +26,8 @@ SLIDER_VALUES = (100, 200)
 SECONDS_PER_HOUR = 3600.0
 SONARS = 6
 POSITION_FIELDS = 5
-FULL_TURN_DEG = 360.0
+FULL_TURN_DEG, HALF_TURN_DEG = 360.0, 180.0
+EARTH_RADIUS_M = 6_371_000.0
 MINUTES_PER_DEG = 60.0
 
 _LEFT, _RIGHT, _BOTH = 0, 1, 2
@@ -210,6 +211,22 @@ class Bender(Driver):
         width_m = settings["track_width_m"]
         return Motion((left + right) / 2, (right - left) / width_m)
 
+    def contradictions(
+        self, settings: Settings, latitude_deg: float, longitude_deg: float
+    ) -> Iterator[tuple[str, str]]:
+        """Yield the hemisphere if the origin of the world is in the other one."""
+        east_deg = (longitude_deg + HALF_TURN_DEG) % FULL_TURN_DEG - HALF_TURN_DEG
+        given = settings["hemisphere"]
+        letter = "W" if east_deg < 0 else "E"
+        if letter != given and east_deg % HALF_TURN_DEG != 0:
+            distance = _distance(_mirrored_m(latitude_deg, east_deg))
+            effect = (
+                f"the origin of the scenario is at {abs(east_deg):.4g} {letter}: a receiver that "
+                f"sends no letter is taken to be at {abs(east_deg):.4g} {given}, {distance} from "
+                f'the origin; set hemisphere = "{letter}"'
+            )
+            yield "hemisphere", effect
+
     def _values(self, motion: Motion, settings: Settings) -> tuple[int, int]:
         half_m_s = motion.turn_rate_rad_s * settings["track_width_m"] / 2
         speeds = (motion.speed_m_s - half_m_s, motion.speed_m_s + half_m_s)
@@ -266,6 +283,17 @@ class Bender(Driver):
             return math.inf
         # Infinity is a range only where a setting states that it means nothing seen.
         return value * settings["range_unit_m"] if math.isfinite(value) else math.nan
+
+
+def _mirrored_m(latitude_deg: float, east_deg: float) -> float:
+    """Return the distance of a place from the one at the opposite longitude."""
+    half = math.cos(math.radians(latitude_deg)) * math.sin(math.radians(east_deg))
+    return 2 * EARTH_RADIUS_M * math.asin(min(1.0, abs(half)))
+
+
+def _distance(distance_m: float) -> str:
+    whole_km = round(distance_m / 1000)
+    return f"{whole_km:,} km" if whole_km > 0 else f"{distance_m:.0f} m"
 
 
 def _angle_deg(degrees: bytes, minutes: bytes) -> float:

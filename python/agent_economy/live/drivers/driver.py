@@ -5,7 +5,7 @@ and rules are the warden's.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -119,3 +119,18 @@ class Driver(ABC):
     @abstractmethod
     def motion(self, motion: Motion, settings: Settings) -> Motion:
         """Return the motion that the lines of `move` cause, as far as the settings describe it."""
+
+    def contradictions(
+        self,
+        settings: Settings,  # noqa: ARG002  (of drivers that have some)
+        latitude_deg: float,  # noqa: ARG002
+        longitude_deg: float,  # noqa: ARG002
+    ) -> Iterable[tuple[str, str]]:
+        """Return settings that contradict the place of the world, each with its effect and a fix.
+
+        Args:
+            settings: The settings of a robot.
+            latitude_deg: Latitude of the origin of the world.
+            longitude_deg: Longitude of the origin, positive to the east.
+        """
+        return ()

@@ -1,7 +1,7 @@
 """All checks of robots whose values are valid, each by itself."""
 
 from agent_economy._core import Document
-from agent_economy.live.fleet_file.area import check_area
+from agent_economy.live.fleet_file.area import check_area, check_room
 from agent_economy.live.fleet_file.entry import Entry
 from agent_economy.live.fleet_file.findings import Findings
 from agent_economy.live.fleet_file.network import check_network
@@ -17,6 +17,7 @@ def check_entries(
     kinds = {each.kind: world.kind(each.kind) for each in entries}
     for kind in kinds.values():
         _check_drive(findings, kind)
+        check_room(findings, kind)
     check_network(findings, fleet, entries)
     check_lifetime(findings, fleet, entries, kinds)
     # A kind may have robots with different drivers; each pair is reported for its first robot.

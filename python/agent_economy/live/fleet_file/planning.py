@@ -8,6 +8,7 @@ from agent_economy.live.fleet_file.entry import Entry
 from agent_economy.live.fleet_file.scenario_kind import ScenarioKind, ScenarioWorld
 from agent_economy.live.fleet_file.sensors import input_plan
 from agent_economy.live.fleet_file.timing import lateness_s, lifetime_s
+from agent_economy.live.fleet_file.walls import for_plan
 from agent_economy.live.plan import FleetPlan, Origin, RobotPlan
 from agent_economy.scenario import ScenarioWarning
 
@@ -35,6 +36,7 @@ def fleet_plan(
         max_lateness_s=lateness_s(given),
         warnings=tuple(map(str, warnings)),
         size_m=(float(width_m), float(height_m)),
+        walls=for_plan(world.walls),
     )
 
 
@@ -56,5 +58,6 @@ def _robot(entry: Entry, kind: ScenarioKind) -> RobotPlan:
         fence_m=entry.fence_m,
         deadman_s=deadman_s,
         takes_orders=kind.takes_orders,
+        radius_m=kind.radius_m,
         repeat_s=REPEAT_S if deadman_s is None else min(REPEAT_S, deadman_s / LINES_PER_DEADMAN),
     )

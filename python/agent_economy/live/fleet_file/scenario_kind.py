@@ -8,7 +8,9 @@ from typing import Any
 from agent_economy import _core
 from agent_economy._core import Document
 from agent_economy.live.fleet_file.findings import Path
-from agent_economy.live.plan import Point
+from agent_economy.live.fleet_file.walls import walls_of
+from agent_economy.live.legs import Walls
+from agent_economy.live.plan import Point, Wall
 from agent_economy.scenario import Scenario
 
 DEFAULT_STEP_S = 0.1
@@ -50,6 +52,16 @@ class ScenarioWorld:
     def step_s(self) -> float:
         """Its time step."""
         return float(self.values["clock"].get("step_s", DEFAULT_STEP_S))
+
+    @cached_property
+    def walls(self) -> tuple[Wall, ...]:
+        """Its obstacles."""
+        return walls_of(self.scenario, self.world.get("obstacles", []))
+
+    @cached_property
+    def indexed_walls(self) -> Walls:
+        """Its obstacles, for questions about many points and ways."""
+        return Walls(self.walls)
 
     def contains(self, point: Point) -> bool:
         """Return whether a point is in the world."""
@@ -112,14 +124,21 @@ class ScenarioKind:
         """Whether its brain visits waypoints that an operator orders."""
         return any(each["kind"] == "correct" for _, each in self.behaviours())
 
+    @property
+    def radius_m(self) -> float | None:
+        """The radius of its body; None if it flies over obstacles."""
+        return float(self.given["radius_m"]) if self.given.get("layer") != "air" else None
+
+    def waypoints(self) -> Iterator[tuple[Path, Point]]:
+        """Yield each waypoint of its brain, with its path in the scenario."""
+        for path, behaviour in self.behaviours():
+            if behaviour["kind"] in WAYPOINT_BEHAVIOURS:
+                for index, (x, y) in enumerate(behaviour.get("waypoints_m", [])):
+                    yield (*path, "waypoints_m", index), (float(x), float(y))
+
     def waypoints_m(self) -> list[Point]:
         """Return the waypoints of its brain."""
-        found = [
-            each.get("waypoints_m", [])
-            for _, each in self.behaviours()
-            if each["kind"] in WAYPOINT_BEHAVIOURS
-        ]
-        return [(float(x), float(y)) for points in found for x, y in points]
+        return [point for _, point in self.waypoints()]
 
     def start_m(self, index: int) -> Point | None:
         """Return where a robot of the kind starts, if the scenario gives a fixed place."""

@@ -1,10 +1,12 @@
 """Warnings about fleets: what is allowed, and dangerous or probably not meant."""
 
+import json
 from collections.abc import Iterable
 
 from agent_economy._core import Document
 from agent_economy.live.fleet_file.entry import Entry
 from agent_economy.live.fleet_file.findings import Findings, listed
+from agent_economy.live.fleet_file.leg_warnings import warn_of_exits, warn_of_walls
 from agent_economy.live.fleet_file.scenario_kind import (
     DEFAULT_WITHIN_M,
     ScenarioKind,
@@ -30,8 +32,12 @@ def fleet_warnings(
         findings.warn(fleet, ("robots",), effect)
     for entry in entries:
         _warn_of_robot(findings, fleet, entry)
-    for kind in sorted({entry.kind for entry in entries}):
-        _warn_of_waypoints(findings, world.kind(kind))
+        _warn_of_place(findings, fleet, entry, world)
+        warn_of_exits(findings, fleet, entry, world.kind(entry.kind))
+    for name in sorted({entry.kind for entry in entries}):
+        kind = world.kind(name)
+        _warn_of_waypoints(findings, kind)
+        warn_of_walls(findings, fleet, [each for each in entries if each.kind == name], kind)
     return tuple(findings.warnings)
 
 
@@ -52,6 +58,17 @@ def _warn_of_robot(findings: Findings, fleet: Document, entry: Entry) -> None:
             "stops it; keep a person at its own switch"
         )
         findings.warn(fleet, (*entry.path, "deadman_s"), effect)
+
+
+def _warn_of_place(findings: Findings, fleet: Document, entry: Entry, world: ScenarioWorld) -> None:
+    """Warn of settings that contradict the origin of the scenario."""
+    origin = world.origin or {}
+    latitude_deg, longitude_deg = origin["latitude_deg"], origin["longitude_deg"]
+    found = entry.driver.contradictions(entry.settings, latitude_deg, longitude_deg)
+    for key, effect in found:
+        is_given = key in entry.given.get("settings", {})
+        default = "" if is_given else f"without it, it is {json.dumps(entry.settings[key])}; "
+        findings.warn(fleet, (*entry.path, "settings", key), default + effect)
 
 
 def _warn_of_waypoints(findings: Findings, kind: ScenarioKind) -> None:

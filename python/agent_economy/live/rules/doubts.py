@@ -32,8 +32,8 @@ class Doubts:
         frozen_reason: What was found.
         origin: The values before a jump; None without one.
         jump_reason: What was found.
-        jumped_s: When the last sample came that does not continue those before: after a jump, or when
-            a frozen input changed.
+        jumped_s: When the last sample came that does not continue those before it: after a jump,
+            or when a frozen input changed.
         was_driven: Whether the robot has been driven since; its values before are no evidence then.
     """
 

@@ -38,19 +38,14 @@ class Authority:
             ValueError: If it has no valid id, or another client is the operator and is not to be
                 replaced.
         """
-        if not isinstance(client, str) or not 0 < len(client) <= MAX_CLIENT_LENGTH:
-            message = f"client must be a string of 1 to {MAX_CLIENT_LENGTH} characters"
-            raise ValueError(message)
+        name = check_client(client)
         if not take_over:
-            self.check(client, now_s)
-        self._client, self._seen_s = client, now_s
+            self.check(name, now_s)
+        self._client, self._seen_s = name, now_s
 
-    def give_up(self, client: object, now_s: float) -> bool:
-        """Let a client be the operator no more; return whether it was."""
-        was_operator = self.role(client, now_s) == "you"
-        if was_operator:
-            self._client = ""
-        return was_operator
+    def give_up(self) -> None:
+        """Let there be no operator."""
+        self._client = ""
 
     def check(self, client: object, now_s: float) -> None:
         """Refuse a client while another one is the operator.
@@ -61,3 +56,15 @@ class Authority:
         if self.role(client, now_s) == "other":
             message = "another client is the operator"
             raise ValueError(message)
+
+
+def check_client(client: object) -> str:
+    """Return the id of a client.
+
+    Raises:
+        ValueError: If it is no string, empty or too long.
+    """
+    if not isinstance(client, str) or not 0 < len(client) <= MAX_CLIENT_LENGTH:
+        message = f"client must be a string of 1 to {MAX_CLIENT_LENGTH} characters"
+        raise ValueError(message)
+    return client

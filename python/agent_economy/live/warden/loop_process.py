@@ -61,11 +61,16 @@ class LoopProcess:
         """Its process id."""
         return self._process.pid if self._process else None
 
-    def send(self, message: Message) -> None:
-        """Send a message, or queue it; nothing more is queued for a loop that does not read."""
-        if not self.has_ended and len(self._queue) < MAX_QUEUE_BYTES:
+    def send(self, message: Message) -> bool:
+        """Send a message, or queue it; return whether it was.
+
+        Nothing more is queued for a loop that does not read.
+        """
+        is_taken = not self.has_ended and len(self._queue) < MAX_QUEUE_BYTES
+        if is_taken:
             self._queue += encode(message)
             self._write()
+        return is_taken
 
     async def end(self) -> int | None:
         """Let it close the recording and end, or kill it; return its exit code."""

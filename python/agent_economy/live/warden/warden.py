@@ -117,10 +117,14 @@ class Warden:
         Raises:
             ValueError: If nothing takes orders any more.
         """
-        if self._end is not None or not self._loop_state().is_alive:
-            message = "no order is taken: the drive ends, or the process of the loop has ended"
+        order = {"type": "order", "t": now_s(), "robot": robot, "at_m": list(point_m)}
+        is_possible = self._end is None and self._loop_state().is_alive
+        if not is_possible or not self._loop.send(order):
+            message = (
+                "no order is taken: the drive ends, or the process of the loop has ended or does "
+                "not read"
+            )
             raise ValueError(message)
-        self._loop.send({"type": "order", "t": now_s(), "robot": robot, "at_m": list(point_m)})
 
     def arm(self, robots: Sequence[str]) -> str:
         """Arm robots in the next turn; return an answer in words.

@@ -16,6 +16,8 @@ import { readable } from "./words";
 const maxEvents = 1000;
 const limit_ms = 2000;
 const manualLimit_ms = 300;
+/** A request that is the same as the last one within this time is the second half of a double click. */
+const doubleClick_ms = 500;
 
 /** The page's side of the warden: its newest state, and requests. */
 export class WardenSession {
@@ -30,6 +32,7 @@ export class WardenSession {
   private readonly poller: Poller;
   private readonly cleanups: (() => void)[] = [];
   private number = 0;
+  private last = { key: "", sent_ms: -Infinity, answer: Promise.resolve(false) };
 
   constructor(readonly drive: Drive) {
     const state = (signal: AbortSignal) =>
@@ -86,8 +89,17 @@ export class WardenSession {
     return this.canSend && this.robot?.is_armed === true;
   }
 
-  /** Sends a request of the operator; true if the warden has accepted it. */
-  async request(path: string, body: object = {}): Promise<boolean> {
+  /** Sends a request of the operator, once for a double click; true if the warden has accepted it. */
+  request(path: string, body: object = {}): Promise<boolean> {
+    const [key, sent_ms] = [JSON.stringify([path, body]), performance.now()];
+    // The warden refuses what changes nothing, such as taking control for a second time.
+    if (key !== this.last.key || sent_ms - this.last.sent_ms >= doubleClick_ms) {
+      this.last = { key, sent_ms, answer: this.send(path, body) };
+    }
+    return this.last.answer;
+  }
+
+  private async send(path: string, body: object): Promise<boolean> {
     const signal = AbortSignal.timeout(limit_ms);
     const answer = await ask(this.drive.warden, path, { client: this.client, ...body }, signal);
     this.refusal = refusalOf(answer);

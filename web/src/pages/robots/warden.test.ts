@@ -8,6 +8,8 @@ const ahead = { left: 175, right: 175 };
 const isAhead = ({ left }: Record<string, unknown>) => left === ahead.left;
 
 let bodies: Record<string, unknown>[];
+/** The paths of the requests that only change something once. */
+let taken: string[];
 /** The time at which the warden's time no longer advances. */
 let stuckAt_ms: number;
 let session: WardenSession;
@@ -20,12 +22,14 @@ function state(): WardenState {
 
 beforeEach(async () => {
   vi.useFakeTimers();
-  [bodies, stuckAt_ms] = [[], Infinity];
+  [bodies, taken, stuckAt_ms] = [[], [], Infinity];
   vi.stubGlobal("addEventListener", () => undefined);
   vi.stubGlobal("removeEventListener", () => undefined);
   vi.stubGlobal("document", { addEventListener: () => undefined, removeEventListener: () => undefined });
   vi.stubGlobal("fetch", async (url: string, { body }: { body: string }) => {
     if (url.endsWith("/manual")) bodies.push(JSON.parse(body) as Record<string, unknown>);
+    const isRepeated = url.endsWith("/operator") && taken.push(url) > 1;
+    if (isRepeated) return { ok: false, status: 409, json: async () => ({ message: "already" }) };
     return { ok: true, status: 200, json: async () => state() };
   });
   session = new WardenSession(drive);
@@ -55,4 +59,17 @@ test("motion ends within 0.6 s of the newest state, and does not begin again wit
   stuckAt_ms = Infinity;
   await vi.advanceTimersByTimeAsync(1000);
   expect(bodies.slice(length).some(isAhead)).toBe(false);
+});
+
+test("a double click is one request, and shows no refusal", async () => {
+  const clicks = [session.request("/operator", { take: true }), session.request("/operator", { take: true })];
+  await vi.advanceTimersByTimeAsync(0);
+  expect(await Promise.all(clicks)).toEqual([true, true]);
+  await vi.advanceTimersByTimeAsync(150);
+  expect(await session.request("/operator", { take: true })).toBe(true);
+  expect(taken).toHaveLength(1);
+  expect(session.refusal).toBe("");
+  await vi.advanceTimersByTimeAsync(500);
+  expect(await session.request("/operator", { take: true })).toBe(false);
+  expect(session.refusal).toContain("already");
 });
