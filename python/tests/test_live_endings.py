@@ -5,7 +5,6 @@ import socket
 import threading
 import time
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -99,9 +98,8 @@ def test_a_robot_that_moved_has_no_stop_while_its_motor_port_is_down(plan: Fleet
 
 
 def test_the_last_resort_keeps_other_drives_from_its_robots(
-    plan: FleetPlan, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    plan: FleetPlan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     monkeypatch.setattr(last_resort, "LAST_S", 0.5)
     with socket.create_server(("127.0.0.1", 0)) as server:
         address = server.getsockname()[:2]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.warden.connection import Connection, Received
 from agent_economy.live.warden.name_lookup import NameLookup
 
@@ -34,9 +35,18 @@ class PortLink:
         lookup: NameLookup,
         received: Received,
         connected: Callable[[], None],
+        locks: AddressLocks | None = None,
     ) -> None:
-        """Wait for `run`. `received` is called with each line, `connected` after each connect."""
-        self._address, self._lookup = address, lookup
+        """Wait for `run`.
+
+        Args:
+            address: The host and the port.
+            lookup: Looks up the host.
+            received: Is called with each line.
+            connected: Is called after each connect.
+            locks: Take the lock of the numeric address before each connect; None without a lock.
+        """
+        self._address, self._lookup, self._locks = address, lookup, locks
         self._received, self._connected = received, connected
         self.connection, self.has_connected = Connection(received), False
 
@@ -61,11 +71,19 @@ class PortLink:
         try:
             async with asyncio.timeout(CONNECT_TIMEOUT_S):
                 numeric = await self._lookup.address()
+                if self._locks is not None:
+                    # Of this address: the name may have had another one when the drive started.
+                    self._locks.take([(numeric, port)])
                 await loop.create_connection(lambda: new, numeric, port)
         except TimeoutError:
             what = "no answer from" if numeric else "no answer to the lookup of the name of"
             self.connection.reason = f"{what} {host}:{port} within {CONNECT_TIMEOUT_S:g} s"
             self._lookup.forget()
+            return False
+        except LockedError as error:
+            self._lookup.forget()
+            # In a thread: the name of a user may be looked up on a server.
+            self.connection.reason = await loop.run_in_executor(None, str, error)
             return False
         except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
             self._lookup.forget()

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial
 
 from agent_economy.live.drivers import DRIVERS, PortLine
+from agent_economy.live.locks import AddressLocks
 from agent_economy.live.plan import Origin, RobotPlan
 from agent_economy.live.readings import Motion, Quantity, Reading
 from agent_economy.live.rules import Link, RobotInputs, Sample, Setpoint
@@ -43,7 +44,12 @@ class Robot:
     written: tuple[str, float] | None
 
     def __init__(
-        self, plan: RobotPlan, origin: Origin, stamp_s: Callable[[], float], report: LineReport
+        self,
+        plan: RobotPlan,
+        origin: Origin,
+        stamp_s: Callable[[], float],
+        report: LineReport,
+        locks: AddressLocks | None = None,
     ) -> None:
         """Create it without connecting.
 
@@ -52,6 +58,8 @@ class Robot:
             origin: The geographic origin of the world.
             stamp_s: Returns the time stamp of a line that is read now.
             report: Is called with each line.
+            locks: Its locks, which have to be held while its motor port is connected; they are
+                closed by the caller. By default, new ones.
         """
         self.plan, self.setpoint, self.manual = plan, None, None
         self.readings, self.written = {}, None
@@ -65,13 +73,14 @@ class Robot:
             port: deque(maxlen=MAX_LINES) for port in plan.ports
         }
         self._motors = MotorLines(self.driver, plan.settings, origin, plan.repeat_s)
-        lookup = NameLookup(plan.host)
+        lookup, locks = NameLookup(plan.host), locks or AddressLocks()
         self.links = {
             port: PortLink(
                 (plan.host, number),
                 lookup,
                 partial(self._received, port),
                 partial(self._connected, port),
+                locks if port == self.driver.motor_port else None,
             )
             for port, number in plan.ports.items()
         }

@@ -1,0 +1,155 @@
+"""Finds the drives that run on this machine, whatever the environment is, and stops them."""
+
+import os
+import threading
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from agent_economy.live.discovery import entry_file
+from agent_economy.live.discovery.entry_socket import (
+    Contact,
+    NamedSocket,
+    contact,
+    entry_of,
+    named_sockets,
+)
+from agent_economy.live.discovery.running_drive import RunningDrive
+
+MAX_THREADS = 64
+
+WAIT_S = 1.0
+"""Time to wait for a place where too many connections wait."""
+
+NO_ENTRY = "no answer: it is suspended or busy"
+
+
+@dataclass(frozen=True)
+class Stopped:
+    """A drive that has been found, and what it answered to a stop.
+
+    Attributes:
+        pid: Its process.
+        uid: Its user.
+        fleet: Its fleet file; None if it has not answered.
+        is_stopped: Whether it has accepted the stop.
+        message: The answer in words.
+    """
+
+    pid: int
+    uid: int
+    fleet: str | None
+    is_stopped: bool
+    message: str
+
+
+class Search:
+    """Stops the drives of a user, or all if that is root, or one.
+
+    Each is stopped as soon as it is found: one that does not answer must not delay the others.
+
+    Attributes:
+        others: Drives of other users, which only these or root can stop, by process and user.
+    """
+
+    def __init__(self, uid: int, process: int | None = None) -> None:
+        """Create it without looking; `process` limits it to one drive."""
+        self._uid, self._process = uid, process
+        self._seen: set[str] = set()
+        self._guard = threading.Lock()
+        self.others: list[tuple[int, int]] = []
+
+    def stop(self) -> list[Stopped]:
+        """Find the drives, and stop them all at the same time."""
+        named = named_sockets()
+        found = [(each, contact(each, 0.0)) for each in _by_turns(named) if self._is_ours(each)]
+        # Those that have no place for a connection wait behind those that have.
+        found.sort(key=lambda pair: pair[1] is not None and pair[1].link is None)
+        work = [
+            *(partial(self._stop_listed, drive) for drive in self._listed()),
+            *(partial(self._stop_named, *pair) for pair in found),
+        ]
+        with ThreadPoolExecutor(min(MAX_THREADS, max(1, len(work)))) as pool:
+            answers = [each for each in pool.map(lambda call: call(), work) if each is not None]
+        if not answers:
+            self.others = sorted(set(_others(named, self._uid)))
+        return sorted(_merged(answers), key=lambda each: (each.uid, each.pid))
+
+    def _is_ours(self, named: NamedSocket) -> bool:
+        return self._uid in (named.uid, 0)
+
+    def _listed(self) -> Iterator[RunningDrive]:
+        for drive in entry_file.read_all(entry_file.folders_to_read()):
+            if self._process in (None, drive.pid):
+                yield drive
+
+    def _stop_listed(self, drive: RunningDrive) -> Stopped | None:
+        return self._request(drive, drive.pid, self._uid)
+
+    def _stop_named(self, named: NamedSocket, found: Contact | None) -> Stopped | None:
+        if found is not None and found.link is None:
+            found = contact(named, WAIT_S)
+        if found is None:
+            return None
+        if found.link is None or found.peer is None:
+            is_known = _owner(named.pid) == named.uid and self._process in (None, named.pid)
+            return _silent(named.pid, named.uid) if is_known else None
+        pid = found.peer.pid or named.pid
+        if self._process not in (None, pid):
+            found.link.close()
+            return None
+        drive = entry_of(found.link)
+        if drive is None:
+            return _silent(pid, named.uid)
+        return self._request(drive, pid, named.uid)
+
+    def _request(self, drive: RunningDrive, pid: int, uid: int) -> Stopped | None:
+        """Stop a drive; None if that is done already: it may be found in several places."""
+        with self._guard:
+            if drive.token in self._seen:
+                return None
+            self._seen.add(drive.token)
+        return Stopped(pid, uid, drive.fleet, *drive.request("/stop"))
+
+
+def _silent(pid: int, uid: int) -> Stopped:
+    return Stopped(pid, uid, None, is_stopped=False, message=NO_ENTRY)
+
+
+def _by_turns(named: list[NamedSocket]) -> list[NamedSocket]:
+    """Return sockets of all users by turns: one with thousands must not delay those of others."""
+    ranks: Counter[int] = Counter()
+    ranked = []
+    for each in named:
+        ranked.append((ranks[each.uid], each))
+        ranks[each.uid] += 1
+    return [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
+
+
+def _merged(answers: list[Stopped]) -> list[Stopped]:
+    """Return one answer per drive: of one that sent no entry, that by its file."""
+    known = {each.pid for each in answers if each.fleet is not None}
+    return [each for each in answers if each.fleet is not None or each.pid not in known]
+
+
+def _others(named: list[NamedSocket], uid: int) -> Iterator[tuple[int, int]]:
+    for each in named:
+        found = contact(each, 0.0) if each.uid != uid else None
+        if found is not None and found.link is not None and found.peer is not None:
+            found.link.close()
+            yield found.peer.pid or each.pid, each.uid
+
+
+def _owner(pid: int) -> int | None:
+    try:
+        return Path(f"/proc/{pid}").stat().st_uid
+    except OSError:
+        return None
+
+
+def user() -> int:
+    """Return the user whose drives are stopped."""
+    return os.geteuid()
