@@ -18,7 +18,7 @@ needs_root = pytest.mark.skipif(os.geteuid() != 0, reason="needs root, to act as
 # Everything is imported before: the other user may not be allowed to read the installation.
 AS_USER = """
 import os, socket, struct, sys, time
-if {uid} is not None:
+if {uid}:
     os.setgroups([])
     os.setgid({uid})
     os.setuid({uid})
@@ -28,7 +28,7 @@ if {uid} is not None:
 @contextmanager
 def program(code: str, *arguments: str, uid: int | None = None) -> Iterator[subprocess.Popen[str]]:
     """Run a program until the block ends; it has printed a line when the block begins."""
-    command = [sys.executable, "-c", AS_USER.format(uid=uid) + code, *arguments]
+    command = [sys.executable, "-c", AS_USER.format(uid=uid or 0) + code, *arguments]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     try:
