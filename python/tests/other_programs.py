@@ -37,3 +37,30 @@ def program(code: str, *arguments: str, uid: int | None = None) -> Iterator[subp
     finally:
         process.kill()
         process.wait(10)
+
+
+ALONE = """
+import fcntl, os, socket, struct, sys
+with socket.socket() as link:
+    name, up = b"lo", 1
+    fcntl.ioctl(link, 0x8914, struct.pack("16sh22x", name, up))
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+"""Switches on the loopback interface of a new network, and becomes another program."""
+
+
+def in_own_network(*command: str) -> list[str]:
+    """Return a command that runs in a network of its own, in which no other program is found."""
+    rights = ["--net"] if os.geteuid() == 0 else ["--net", "--map-root-user"]
+    return ["unshare", *rights, sys.executable, "-c", ALONE, *command]
+
+
+def _has_networks() -> bool:
+    try:
+        done = subprocess.run(in_own_network("/bin/true"), capture_output=True, check=False)
+    except OSError:
+        return False
+    return done.returncode == 0
+
+
+needs_network = pytest.mark.skipif(not _has_networks(), reason="needs networks of its own")

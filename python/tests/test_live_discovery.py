@@ -17,7 +17,7 @@ from bare_timer import repeated_if_late
 from other_programs import OTHER_UID, needs_abstract, needs_root, program
 
 from agent_economy.live import local_socket
-from agent_economy.live.discovery import entry_file, entry_socket
+from agent_economy.live.discovery import contact, entry_file
 from agent_economy.live.discovery.publication import published
 from agent_economy.live.discovery.running_drive import RunningDrive, drive_of
 from agent_economy.live.discovery.search import NO_ENTRY, Search, Stopped
@@ -93,7 +93,7 @@ def eventually(path: Path) -> None:
 
 
 def drives_named(pid: int) -> list[str]:
-    return [each.name for each in entry_socket.named_sockets() if each.pid == pid]
+    return [each.name for each in contact.named_sockets() if each.pid == pid]
 
 
 @needs_abstract
@@ -245,7 +245,7 @@ while True:
 @pytest.mark.parametrize("kind", ["silent", "garbage", "endless"])
 def test_a_drive_that_sends_no_entry_is_reported_with_its_process(kind: str) -> None:
     # The name has another process: in a container, it is not that which this machine knows.
-    name = f"{entry_socket.PREFIX}/{os.geteuid()}/1-{os.urandom(16).hex()}"
+    name = f"{contact.PREFIX}/{os.geteuid()}/1-{os.urandom(16).hex()}"
     with program(LISTENER, name, kind) as listener:
         began_s = time.monotonic()
         [answer] = Search(os.geteuid(), listener.pid).stop()
@@ -259,7 +259,7 @@ def test_a_drive_that_sends_no_entry_is_reported_with_its_process(kind: str) -> 
 def test_a_program_of_another_user_with_a_forged_name_is_ignored(
     drive: RunningDrive, kind: str
 ) -> None:
-    names = [f"{entry_socket.PREFIX}/0/{os.getpid()}-{os.urandom(16).hex()}" for _ in range(2)]
+    names = [f"{contact.PREFIX}/0/{os.getpid()}-{os.urandom(16).hex()}" for _ in range(2)]
     with (
         program(LISTENER, names[0], kind, uid=OTHER_UID),
         serving(drive),
@@ -273,10 +273,10 @@ def test_a_program_of_another_user_with_a_forged_name_is_ignored(
 
 @needs_abstract
 def test_names_with_line_ends_and_spaces_forge_nothing_that_is_not_verified() -> None:
-    real = f"{entry_socket.PREFIX}/{os.geteuid()}/7-{'0' * 32}"
+    real = f"{contact.PREFIX}/{os.geteuid()}/7-{'0' * 32}"
     with program(LISTENER, f"x\n0: 0 0 0 0 0 0 @{real}\n", "silent"):
-        named = [each for each in entry_socket.named_sockets() if each.name == real]
-        assert [entry_socket.contact(each, 0.0) for each in named] == [None] * len(named)
+        named = [each for each in contact.named_sockets() if each.name == real]
+        assert [contact.contact(each, 0.0) for each in named] == [None] * len(named)
 
 
 READER = """
@@ -308,7 +308,7 @@ def test_another_user_does_not_get_the_token_and_is_reported_as_the_driver(
 @needs_abstract
 @needs_root
 def test_root_finds_the_drives_of_other_users() -> None:
-    name = f"{entry_socket.PREFIX}/{OTHER_UID}/1-{os.urandom(16).hex()}"
+    name = f"{contact.PREFIX}/{OTHER_UID}/1-{os.urandom(16).hex()}"
     with program(LISTENER, name, "silent", uid=OTHER_UID) as listener:
         [answer] = Search(0, listener.pid).stop()
         assert (answer.pid, answer.uid) == (listener.pid, OTHER_UID)
@@ -352,14 +352,14 @@ def test_a_flood_of_connections_delays_neither_the_warden_nor_a_stop(
 
 @needs_abstract
 def test_many_readers_at_once_all_get_the_entry(drive: RunningDrive) -> None:
-    def read(named: entry_socket.NamedSocket) -> RunningDrive | None:
-        found = entry_socket.contact(named, 5.0)
+    def read(named: contact.NamedSocket) -> RunningDrive | None:
+        found = contact.contact(named, 5.0)
         assert found is not None
         assert found.link is not None
-        return entry_socket.entry_of(found.link)
+        return contact.entry_of(found.link)
 
     with serving(drive):
-        [named] = [each for each in entry_socket.named_sockets() if each.pid == os.getpid()]
+        [named] = [each for each in contact.named_sockets() if each.pid == os.getpid()]
         with ThreadPoolExecutor(50) as pool:
             assert list(pool.map(read, [named] * 500)) == [drive] * 500
 

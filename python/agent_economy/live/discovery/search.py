@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from agent_economy.live.discovery import entry_file
-from agent_economy.live.discovery.entry_socket import (
+from agent_economy.live.discovery.contact import (
     Contact,
     NamedSocket,
     contact,

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from agent_economy.live import local_socket
 from agent_economy.live.discovery import entry_file
-from agent_economy.live.discovery.entry_socket import PREFIX
+from agent_economy.live.discovery.contact import PREFIX
 from agent_economy.live.discovery.search import Search, Stopped, user
 
 NOT_STOPPED = 1
