@@ -37,7 +37,12 @@ def stop() -> None:
         run_command()
     else:
         process, as_json = options
-        sys.exit(stop_drives(process, as_json=as_json))
+        report = stop_drives(process, as_json=as_json)
+        for stream, lines in ((sys.stdout, report.output), (sys.stderr, report.errors)):
+            if stream is not None:  # closed by the parent
+                stream.writelines(f"{line}\n" for line in lines)
+                stream.flush()
+        sys.exit(report.exit_code)
 
 
 def run_command() -> None:

@@ -1,7 +1,7 @@
 """The command stop with real drives, from other environments than theirs.
 
-Only in a network of its own may a test stop all drives: elsewhere it would stop those of whoever
-runs the tests.
+Only in a network of its own may a test stop all drives: elsewhere it would stop those of the user
+that runs the tests.
 """
 
 import json
@@ -18,9 +18,10 @@ import pytest
 from bare_timer import repeated_if_late
 from command_line import COMMAND
 from live_bench import Bench, driving, emulated, fleet_text
-from other_programs import HAS_ABSTRACT, in_own_network, needs_abstract, needs_network
+from other_programs import in_own_network, needs_abstract, needs_network
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.local_socket import HAS_ABSTRACT
 
 VARIABLES = ("XDG_RUNTIME_DIR", "TMPDIR", "HOME", "USER")
 

@@ -32,4 +32,9 @@ def stop(
 
     Example: agent-economy stop
     """
-    raise typer.Exit(stop_drives(process, as_json=as_json))
+    report = stop_drives(process, as_json=as_json)
+    for line in report.output:
+        typer.echo(line)
+    for line in report.errors:
+        typer.echo(line, err=True)
+    raise typer.Exit(report.exit_code)

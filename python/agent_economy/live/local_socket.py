@@ -98,7 +98,7 @@ def holder_of(name: str) -> Peer | None:
 def names(pattern: str) -> list[str]:
     """Return the names of sockets of this machine that match a regular expression, each once.
 
-    Any program can choose any name: who listens there is known from `peer_of` only.
+    Any program can choose any name: only `peer_of` shows which program listens there.
     """
     try:
         table = Path("/proc/net/unix").read_bytes().decode("latin-1")

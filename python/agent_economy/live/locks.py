@@ -47,8 +47,8 @@ class LockedError(Exception):
         text = f"{host}:{port} is being driven by another"
         if self.holder is not None and self.holder.pid == os.getpid():
             return f"{text} robot of this fleet"
-        who = f" ({self.holder})" if self.holder else ""
-        return f"{text} program{who}{self._doubt}: end that one first"
+        holder = f" ({self.holder})" if self.holder else ""
+        return f"{text} program{holder}{self._doubt}: end that one first"
 
 
 class AddressLocks:

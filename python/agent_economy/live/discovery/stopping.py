@@ -4,8 +4,8 @@ An emergency stop has to reach the robots soon, also on a slow machine.
 """
 
 import json
-import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from agent_economy.live import local_socket
@@ -38,43 +38,43 @@ def options_of(words: Sequence[str]) -> tuple[int | None, bool] | None:
     return process, as_json
 
 
-def stop_drives(process: int | None, *, as_json: bool) -> int:
-    """Stop the drives of this user, or that of one process; print, and return the exit code."""
+@dataclass(frozen=True)
+class Report:
+    """What the command prints, and its exit code."""
+
+    exit_code: int
+    output: list[str]
+    errors: list[str]
+
+
+def stop_drives(process: int | None, *, as_json: bool) -> Report:
+    """Stop all drives of this user, or that of one process."""
     search = Search(user(), process)
     answers = search.stop()
+    exit_code = 0 if answers and all(each.is_stopped for each in answers) else NOT_STOPPED
     if as_json:
-        print_line(json.dumps([_row(each) for each in answers], indent=2))
-    else:
-        for each in answers:
-            print_line(_sentence(each), is_error=not each.is_stopped)
-        if not answers:
-            for line in nothing_found(user(), process, search.others):
-                print_line(line, is_error=True)
-    return 0 if answers and all(each.is_stopped for each in answers) else NOT_STOPPED
+        return Report(exit_code, [json.dumps([_row(each) for each in answers], indent=2)], [])
+    output = [_sentence(each) for each in answers if each.is_stopped]
+    errors = [_sentence(each) for each in answers if not each.is_stopped]
+    if not answers:
+        errors = nothing_found(user(), process, search.others)
+    return Report(exit_code, output, errors)
 
 
 def nothing_found(uid: int, process: int | None, others: Sequence[tuple[int, int]]) -> list[str]:
     """Return the lines for a search without a result: it cannot be known that no drive runs."""
-    whose = "" if uid == 0 else f" of user {local_socket.user_name(uid)} ({uid})"
+    owner = "" if uid == 0 else f" of user {local_socket.user_name(uid)} ({uid})"
     which = "drive" if process is None else f"drive with process {process}"
     lines = [
-        f"No {which}{whose} was found. Looked at: {_places(uid, entry_file.folders_to_read())}."
+        f"No {which}{owner} was found. Looked at: {_places(uid, entry_file.folders_to_read())}."
     ]
     lines += [
-        f"Process {pid} is a drive of user {local_socket.user_name(owner)} ({owner}): that user "
+        f"Process {pid} is a drive of user {local_socket.user_name(other)} ({other}): that user "
         "stops it with `agent-economy stop`, and root with `sudo agent-economy stop`."
-        for pid, owner in others
+        for pid, other in others
     ]
     elsewhere = "A drive in another container" + ("" if uid == 0 else ", or of another user,")
     return [*lines, f"{elsewhere} is not found this way: {REMAINS}."]
-
-
-def print_line(text: str, *, is_error: bool = False) -> None:
-    """Print a line; a closed output is no reason to fail."""
-    stream = sys.stderr if is_error else sys.stdout
-    if stream is not None:
-        stream.write(f"{text}\n")
-        stream.flush()
 
 
 def _places(uid: int, folders: Sequence[Path]) -> str:
