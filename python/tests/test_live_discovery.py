@@ -3,12 +3,13 @@
 import asyncio
 import json
 import os
+import socket
 import stat
 import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
@@ -17,11 +18,11 @@ from bare_timer import repeated_if_late
 from other_programs import OTHER_UID, needs_abstract, needs_root, program
 
 from agent_economy.live import local_socket
-from agent_economy.live.discovery import contact, entry_file
+from agent_economy.live.discovery import contact, entry_file, running_drive
 from agent_economy.live.discovery.publication import published
 from agent_economy.live.discovery.running_drive import RunningDrive, drive_of
 from agent_economy.live.discovery.search import NO_ENTRY, Search, Stopped
-from agent_economy.live.discovery.stopping import nothing_found, options_of
+from agent_economy.live.discovery.stopping import _sentence, nothing_found, options_of
 
 
 class Warden(BaseHTTPRequestHandler):
@@ -212,10 +213,43 @@ def test_files_of_killed_drives_are_removed_also_if_their_process_number_is_used
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b"{}", b"[]", b"1", b"[" * 60_000, b"\xff", b'{"pid": "1"}', b"nul"]
+    "data",
+    [
+        *(b"", b"{}", b"[]", b"1", b"[" * 60_000, b"\xff", b'{"pid": "1"}', b"nul"),
+        RunningDrive(1, "fleet.toml", "192.0.2.1", 80, "").encoded(),
+        RunningDrive(1, "fleet.toml", "127.0.0.1", 0, "").encoded(),
+    ],
 )
 def test_what_is_no_entry_is_none(data: bytes) -> None:
     assert drive_of(data) is None
+
+
+def test_what_another_user_writes_cannot_control_the_terminal_of_root() -> None:
+    text = _sentence(Stopped(1, OTHER_UID, "\x1b[2Jfleet\n", is_stopped=True, message="\x9b2J"))
+    assert text.isprintable()
+
+
+@pytest.mark.parametrize("answer", [b"[" * 100, b"HTTP/1.1 200 OK\r\n\r\n{", b"\r\n\r\n1", b""])
+def test_an_endpoint_that_answers_garbage_or_without_end_is_reported_in_time(
+    answer: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(running_drive, "TIMEOUT_S", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def serve() -> None:
+            link = server.accept()[0]
+            with link, suppress(OSError):
+                for _ in range(1 if b"{" in answer else 40):
+                    link.sendall(answer)
+                    time.sleep(0.05)
+
+        threading.Thread(target=serve, daemon=True).start()
+        drive = RunningDrive(1, "fleet.toml", "127.0.0.1", server.getsockname()[1], "")
+        began_s = time.monotonic()
+        accepted, text = drive.request("/stop")
+        assert time.monotonic() - began_s < 1.0
+    assert not accepted
+    assert text
 
 
 LISTENER = """

@@ -7,7 +7,6 @@ network of the machine, and names its holder. Elsewhere it is a port of the loop
 import errno
 import os
 import socket
-import threading
 from collections.abc import Sequence
 from ipaddress import IPv6Address, ip_address
 from pathlib import Path
@@ -58,7 +57,6 @@ class AddressLocks:
         """Hold nothing."""
         self._sockets: dict[Address, socket.socket] = {}
         self._holders: dict[Address, Peer | None] = {}
-        self._guard = threading.Lock()
 
     def holds(self, address: Address) -> bool:
         """Whether an address is locked here."""
@@ -71,17 +69,15 @@ class AddressLocks:
             LockedError: If another program, or another robot of this one, has one of them.
             OSError: If the system has no socket left.
         """
-        with self._guard:
-            # In one order, so that of two programs that start at once one gets all.
-            for address in sorted(set(map(_normal, addresses)) - set(self._sockets)):
-                self._sockets[address] = self._locked(address)
+        # In one order, so that of two programs that start at once one gets all.
+        for address in sorted(set(map(_normal, addresses)) - set(self._sockets)):
+            self._sockets[address] = self._locked(address)
 
     def close(self) -> None:
         """Give up all locks."""
-        with self._guard:
-            for each in self._sockets.values():
-                each.close()
-            self._sockets.clear()
+        for each in self._sockets.values():
+            each.close()
+        self._sockets.clear()
 
     def _locked(self, address: Address) -> socket.socket:
         name = f"{PREFIX}/{address[0]}:{address[1]}"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from time import monotonic
 
 from agent_economy.live import local_socket
-from agent_economy.live.discovery.running_drive import MAX_BYTES, RunningDrive, drive_of
+from agent_economy.live.discovery.running_drive import RunningDrive, drive_of, received
 from agent_economy.live.local_socket import Peer
 
 PREFIX = "agent-economy/drive"
@@ -91,12 +91,6 @@ def contact(named: NamedSocket, timeout_s: float) -> Contact | None:
 
 def entry_of(link: socket.socket) -> RunningDrive | None:
     """Return what a drive sends, and close the connection; None if it sends no entry in time."""
-    data, until_s = b"", monotonic() + ANSWER_S
     with link, suppress(OSError):
-        while len(data) < MAX_BYTES and (left_s := until_s - monotonic()) > 0:
-            link.settimeout(left_s)
-            received = link.recv(MAX_BYTES - len(data))
-            if not received:
-                break
-            data += received
-    return drive_of(data)
+        return drive_of(received(link, monotonic() + ANSWER_S))
+    return None

@@ -114,11 +114,9 @@ def folders_to_read() -> list[Path]:
 def read_all(folders: list[Path]) -> Iterator[RunningDrive]:
     """Return the drives that run of some folders; files that killed ones left are removed."""
     for folder in folders:
-        try:
-            paths = sorted((folder / "drives").glob("*.json"))
-        except OSError:
-            continue
-        for path in paths:
+        # Another user may have filled a folder of this name.
+        is_own = all(_is_own_folder(each) for each in (folder, folder / "drives"))
+        for path in sorted((folder / "drives").glob("*.json")) if is_own else []:
             with suppress(OSError):
                 drive = _read(path)
                 if drive is not None:
@@ -160,6 +158,14 @@ def _opened(path: Path, parent: int | None) -> Iterator[int]:
         yield folder
     finally:
         os.close(folder)
+
+
+def _is_own_folder(path: Path) -> bool:
+    try:
+        status = path.lstat()
+    except OSError:
+        return False
+    return stat.S_ISDIR(status.st_mode) and status.st_uid == os.geteuid()
 
 
 def _read(path: Path) -> RunningDrive | None:

@@ -2,7 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 
 from agent_economy.live.discovery.entry_file import EntryFile, folders_to_write
 from agent_economy.live.discovery.entry_socket import EntrySocket
@@ -25,7 +25,8 @@ def published(drive: RunningDrive, report: Callable[[str], None]) -> Iterator[No
     def report_file(reason: str) -> None:
         finds = "`agent-economy stop` finds it" if HAS_ABSTRACT else "nothing finds it there"
         text = f"warning: this drive cannot be listed in {reason}; {finds}"
-        loop.call_soon_threadsafe(report, text)
+        with suppress(RuntimeError):  # the drive has ended meanwhile
+            loop.call_soon_threadsafe(report, text)
 
     with ExitStack() as stack:
         if HAS_ABSTRACT:

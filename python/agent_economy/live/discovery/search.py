@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from agent_economy.live.discovery import entry_file
@@ -68,12 +67,11 @@ class Search:
         found = [(each, contact(each, 0.0)) for each in _by_turns(named) if self._is_ours(each)]
         # Those that have no place for a connection wait behind those that have.
         found.sort(key=lambda pair: pair[1] is not None and pair[1].link is None)
-        work = [
-            *(partial(self._stop_listed, drive) for drive in self._listed()),
-            *(partial(self._stop_named, *pair) for pair in found),
-        ]
-        with ThreadPoolExecutor(min(MAX_THREADS, max(1, len(work)))) as pool:
-            answers = [each for each in pool.map(lambda call: call(), work) if each is not None]
+        with ThreadPoolExecutor(MAX_THREADS) as pool:
+            requests = [pool.submit(self._stop_named, *pair) for pair in found]
+            # Files last: their file system may not answer.
+            requests += [pool.submit(self._stop_listed, each) for each in self._listed()]
+        answers = [each for request in requests if (each := request.result()) is not None]
         if not answers:
             self.others = sorted(set(_others(named, self._uid)))
         return sorted(_merged(answers), key=lambda each: (each.uid, each.pid))

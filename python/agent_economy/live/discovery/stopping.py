@@ -96,4 +96,6 @@ def _row(each: Stopped) -> dict[str, object]:
 def _sentence(each: Stopped) -> str:
     owner = "" if each.uid == user() else f" of user {local_socket.user_name(each.uid)}"
     what = f"{each.fleet or 'A drive'} (process {each.pid}{owner}): {each.message}"
+    # Another user may have written it, for the terminal of root.
+    what = "".join(letter if letter.isprintable() else "?" for letter in what)
     return what if each.is_stopped else f"{what}; {REMAINS}"
