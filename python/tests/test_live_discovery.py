@@ -313,6 +313,14 @@ def test_names_with_line_ends_and_spaces_forge_nothing_that_is_not_verified() ->
         assert [contact.contact(each, 0.0) for each in named] == [None] * len(named)
 
 
+@needs_abstract
+def test_a_drive_in_a_container_where_its_user_has_another_number_is_found() -> None:
+    name = contact.new_name(4242, 1)
+    with program(LISTENER, name, "garbage") as listener:
+        [answer] = Search(os.geteuid(), listener.pid).stop()
+    assert (answer.pid, answer.uid) == (listener.pid, os.geteuid())
+
+
 READER = """
 link = socket.socket(socket.AF_UNIX)
 link.connect("\\0" + sys.argv[1])

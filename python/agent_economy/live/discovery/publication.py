@@ -23,7 +23,7 @@ def published(drive: RunningDrive, report: Callable[[str], None]) -> Iterator[No
     loop = asyncio.get_running_loop()
 
     def report_file(reason: str) -> None:
-        finds = "`agent-economy stop` finds it" if HAS_ABSTRACT else "nothing finds it there"
+        finds = "only `agent-economy stop` finds it" if HAS_ABSTRACT else "nothing finds it there"
         text = f"warning: this drive cannot be listed in {reason}; {finds}"
         with suppress(RuntimeError):  # the drive has ended meanwhile
             loop.call_soon_threadsafe(report, text)

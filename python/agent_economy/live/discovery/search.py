@@ -23,6 +23,8 @@ MAX_THREADS = 64
 WAIT_S = 1.0
 """Time to wait for a place where too many connections wait."""
 
+Named = tuple[NamedSocket, Contact]
+
 NO_ENTRY = "no answer: it is suspended or busy"
 
 
@@ -63,21 +65,35 @@ class Search:
 
     def stop(self) -> list[Stopped]:
         """Find the drives, and stop them all at the same time."""
-        named = named_sockets()
-        found = [(each, contact(each, 0.0)) for each in _by_turns(named) if self._is_ours(each)]
-        # Those that have no place for a connection wait behind those that have.
-        found.sort(key=lambda pair: pair[1] is not None and pair[1].link is None)
+        found = [(each, link) for each in named_sockets() if (link := contact(each, 0.0))]
         with ThreadPoolExecutor(MAX_THREADS) as pool:
-            requests = [pool.submit(self._stop_named, *pair) for pair in found]
+            requests = [pool.submit(self._stop_named, *pair) for pair in self._in_order(found)]
             # Files last: their file system may not answer.
             requests += [pool.submit(self._stop_listed, each) for each in self._listed()]
         answers = [each for request in requests if (each := request.result()) is not None]
-        if not answers:
-            self.others = sorted(set(_others(named, self._uid)))
         return sorted(_merged(answers), key=lambda each: (each.uid, each.pid))
 
-    def _is_ours(self, named: NamedSocket) -> bool:
-        return self._uid in (named.uid, 0)
+    def _in_order(self, found: list[Named]) -> list[Named]:
+        """Return what may be a drive to stop; one user with thousands delays no drive of others.
+
+        What has no place for a connection comes last: it may take a second.
+        """
+        ranks: Counter[int] = Counter()
+        ranked = []
+        for named, each in found:
+            if each.peer is None:
+                if self._is_ours(named.uid):
+                    ranked.append((len(found), (named, each)))
+            elif self._is_ours(each.peer.uid):
+                ranks[each.peer.uid] += 1
+                ranked.append((ranks[each.peer.uid], (named, each)))
+            else:
+                _close(each)
+                self.others.append((each.peer.pid or named.pid, each.peer.uid))
+        return [pair for _, pair in sorted(ranked, key=lambda pair: pair[0])]
+
+    def _is_ours(self, uid: int) -> bool:
+        return self._uid in (uid, 0)
 
     def _listed(self) -> Iterator[RunningDrive]:
         for drive in entry_file.read_all(entry_file.folders_to_read()):
@@ -87,22 +103,19 @@ class Search:
     def _stop_listed(self, drive: RunningDrive) -> Stopped | None:
         return self._request(drive, drive.pid, self._uid)
 
-    def _stop_named(self, named: NamedSocket, found: Contact | None) -> Stopped | None:
-        if found is not None and found.link is None:
-            found = contact(named, WAIT_S)
+    def _stop_named(self, named: NamedSocket, first: Contact) -> Stopped | None:
+        found = first if first.link is not None else contact(named, WAIT_S)
         if found is None:
             return None
         if found.link is None or found.peer is None:
             is_known = _owner(named.pid) == named.uid and self._process in (None, named.pid)
             return _silent(named.pid, named.uid) if is_known else None
-        pid = found.peer.pid or named.pid
-        if self._process not in (None, pid):
-            found.link.close()
+        pid, uid = found.peer.pid or named.pid, found.peer.uid
+        if not self._is_ours(uid) or self._process not in (None, pid):
+            _close(found)
             return None
         drive = entry_of(found.link)
-        if drive is None:
-            return _silent(pid, named.uid)
-        return self._request(drive, pid, named.uid)
+        return _silent(pid, uid) if drive is None else self._request(drive, pid, uid)
 
     def _request(self, drive: RunningDrive, pid: int, uid: int) -> Stopped | None:
         """Stop a drive; None if that is done already: it may be found in several places."""
@@ -117,28 +130,15 @@ def _silent(pid: int, uid: int) -> Stopped:
     return Stopped(pid, uid, None, is_stopped=False, message=NO_ENTRY)
 
 
-def _by_turns(named: list[NamedSocket]) -> list[NamedSocket]:
-    """Return sockets of all users by turns: one with thousands must not delay those of others."""
-    ranks: Counter[int] = Counter()
-    ranked = []
-    for each in named:
-        ranked.append((ranks[each.uid], each))
-        ranks[each.uid] += 1
-    return [each for _, each in sorted(ranked, key=lambda pair: pair[0])]
+def _close(found: Contact) -> None:
+    if found.link is not None:
+        found.link.close()
 
 
 def _merged(answers: list[Stopped]) -> list[Stopped]:
     """Return one answer per drive: of one that sent no entry, that by its file."""
     known = {each.pid for each in answers if each.fleet is not None}
     return [each for each in answers if each.fleet is not None or each.pid not in known]
-
-
-def _others(named: list[NamedSocket], uid: int) -> Iterator[tuple[int, int]]:
-    for each in named:
-        found = contact(each, 0.0) if each.uid != uid else None
-        if found is not None and found.link is not None and found.peer is not None:
-            found.link.close()
-            yield found.peer.pid or each.pid, each.uid
 
 
 def _owner(pid: int) -> int | None:

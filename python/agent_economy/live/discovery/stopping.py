@@ -15,6 +15,9 @@ from agent_economy.live.discovery.search import Search, Stopped, user
 
 NOT_STOPPED = 1
 
+MAX_OTHERS = 10
+"""Drives of other users that are named: any program can pretend to be one."""
+
 REMAINS = "press Ctrl-C in its terminal, or use the robot's own switch"
 
 
@@ -57,7 +60,7 @@ def stop_drives(process: int | None, *, as_json: bool) -> Report:
     output = [_sentence(each) for each in answers if each.is_stopped]
     errors = [_sentence(each) for each in answers if not each.is_stopped]
     if not answers:
-        errors = nothing_found(user(), process, search.others)
+        errors = nothing_found(user(), process, sorted(set(search.others))[:MAX_OTHERS])
     return Report(exit_code, output, errors)
 
 
