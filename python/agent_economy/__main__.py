@@ -6,8 +6,11 @@ import sys
 def main() -> None:
     """Run the command line; Ctrl-C ends it without a traceback, even during imports."""
     try:
+        escape_characters()
         if sys.argv[1:] == ["--version"]:
             print_version()
+        elif sys.argv[1:2] == ["stop"]:
+            stop()
         else:
             run_command()
     except KeyboardInterrupt:
@@ -25,17 +28,37 @@ def print_version() -> None:
     sys.stdout.write(f"agent-economy {__version__}\n")
 
 
+def stop() -> None:
+    """Stop the drives without loading the command line, which takes longer than the stop."""
+    from agent_economy.live.discovery.stopping import options_of, stop_drives  # noqa: PLC0415
+
+    options = options_of(sys.argv[2:])
+    if options is None:  # Help, or a mistake.
+        run_command()
+    else:
+        process, as_json = options
+        report = stop_drives(process, as_json=as_json)
+        for stream, lines in ((sys.stdout, report.output), (sys.stderr, report.errors)):
+            if stream is not None:  # closed by the parent
+                stream.writelines(f"{line}\n" for line in lines)
+                stream.flush()
+        sys.exit(report.exit_code)
+
+
 def run_command() -> None:
     """Load the command line and run it."""
-    import io  # noqa: PLC0415
-
     from agent_economy.cli import app  # noqa: PLC0415  (slow: Ctrl-C must be caught in it)
 
+    app()
+
+
+def escape_characters() -> None:
+    """Escape characters that the terminal's encoding lacks."""
+    import io  # noqa: PLC0415
+
     for stream in (sys.stdout, sys.stderr):
-        # Characters that the terminal's encoding lacks are escaped.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
-    app()
 
 
 if __name__ == "__main__":

@@ -15,8 +15,10 @@ from http.client import HTTPConnection
 from pathlib import Path
 from typing import Any
 
+from command_line import COMMAND
+
 from agent_economy.live.clock import now_s
-from agent_economy.live.running_drives import RunningDrive
+from agent_economy.live.discovery.running_drive import RunningDrive
 
 STOP_LINE = "x,3,"
 PORTS = ("motors", "compass", "gps", "sonar")
@@ -228,9 +230,12 @@ class Drive:
         return response.status, answer
 
     def stop(self) -> float:
-        """Stop all robots by the command; return the time just before."""
+        """Stop its robots by the command; return the time just before.
+
+        Only its own: without the process, the command stops every drive of the user.
+        """
         before_s = now_s()
-        command = [sys.executable, "-m", "agent_economy", "stop"]
+        command = [*COMMAND, "stop", "--process", str(self.process.pid)]
         subprocess.run(command, check=True, env=self.environment, stdout=subprocess.DEVNULL)
         return before_s
 

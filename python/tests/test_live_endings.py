@@ -5,7 +5,6 @@ import socket
 import threading
 import time
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,7 +15,7 @@ from agent_economy.live.loop import last_resort
 from agent_economy.live.plan import FleetPlan
 from agent_economy.live.readings import STOP, Motion
 from agent_economy.live.warden.reporter import MAX_EVENTS, Reporter
-from agent_economy.live.warden.robot import Robot
+from agent_economy.live.warden.robot import DriveContext, Robot
 from agent_economy.live.warden.warden import Warden
 
 
@@ -89,7 +88,7 @@ def test_an_error_in_the_warden_stops_and_closes_all_robots(
 
 
 def test_a_robot_that_moved_has_no_stop_while_its_motor_port_is_down(plan: FleetPlan) -> None:
-    robot = Robot(plan.robots[0], plan.origin, lambda: 1.0, lambda *_: None)
+    robot = Robot(plan.robots[0], DriveContext(plan.origin, lambda: 1.0, lambda *_: None))
     robot.command(STOP, 1.0)
     assert robot.has_stop()
     robot.command(Motion(0.5, 0.0), 1.1)
@@ -98,9 +97,8 @@ def test_a_robot_that_moved_has_no_stop_while_its_motor_port_is_down(plan: Fleet
 
 
 def test_the_last_resort_keeps_other_drives_from_its_robots(
-    plan: FleetPlan, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    plan: FleetPlan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     monkeypatch.setattr(last_resort, "LAST_S", 0.5)
     with socket.create_server(("127.0.0.1", 0)) as server:
         address = server.getsockname()[:2]

@@ -24,7 +24,7 @@ from agent_economy.live.warden.control import Control, Drive
 from agent_economy.live.warden.endpoint import MAX_CONNECTIONS, Endpoint
 from agent_economy.live.warden.event_log import MAX_EVENTS, EventLog
 from agent_economy.live.warden.geometry import geographic_of, world_of
-from agent_economy.live.warden.robot import Robot
+from agent_economy.live.warden.robot import DriveContext, Robot
 from agent_economy.live.warden.warden import Warden
 
 PLAN = fleet.load("bender").plan
@@ -67,9 +67,8 @@ class Served:
 def serving(plan: FleetPlan = PLAN) -> Iterator[Served]:
     """Serve a warden in a thread with an event loop of its own."""
     warden, events, orders = Warden(lambda _: None, is_headless=False), EventLog(), []
-    warden.robots = {
-        each.name: Robot(each, plan.origin, now_s, lambda *_: None) for each in plan.robots
-    }
+    context = DriveContext(plan.origin, now_s, lambda *_: None)
+    warden.robots = {each.name: Robot(each, context) for each in plan.robots}
     warden.order = lambda robot, point_m: orders.append((robot, point_m))  # type: ignore[method-assign]
     control = Control(warden, Drive(plan, "bender.toml", "bender.mcap"), events)
     endpoint = Endpoint(control.actions())

@@ -14,6 +14,7 @@ from wire_faults import lanes
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.emulator import packet_loss
+from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.warden import port_link
 from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.name_lookup import NameLookup
@@ -70,6 +71,41 @@ def test_a_slow_name_is_looked_up_once_for_all_ports_and_delays_no_other_robot(
     assert connected_s < 0.9
     assert lookups.count("slow.invalid") <= 2
     assert any("Name or service not known" in each.connection.reason for each in links)
+
+
+def test_a_motor_port_that_another_program_has_locked_is_not_connected_until_it_is_free() -> None:
+    accepted: list[Any] = []
+
+    async def connect() -> tuple[str, int]:
+        server = await asyncio.start_server(lambda *each: accepted.append(each), "127.0.0.1", 0)
+        port = server.sockets[0].getsockname()[1]
+        others, own = AddressLocks(), AddressLocks()
+        others.take([("127.0.0.1", port)])
+        # By a name: at the start of the drive, its address may have been unknown or another one.
+        link = PortLink(
+            ("localhost", port),
+            NameLookup("localhost"),
+            lambda: Connection(lambda _: None, 20),
+            lambda: None,
+            own,
+        )
+        task = asyncio.create_task(link.run())
+        await asyncio.sleep(0.5)
+        reason, connections = link.connection.reason, len(accepted)
+        assert not link.connection.is_up
+        others.close()
+        while not link.connection.is_up:
+            await asyncio.sleep(0.01)
+        with pytest.raises(LockedError):
+            others.take([("127.0.0.1", port)])
+        task.cancel()
+        own.close()
+        server.close()
+        return reason, connections
+
+    reason, connections = asyncio.run(asyncio.wait_for(connect(), 10))
+    assert "is being driven by another" in reason
+    assert connections == 0
 
 
 def test_a_host_that_refuses_is_tried_again_with_growing_pauses_up_to_a_limit(

@@ -14,7 +14,6 @@ import pytest
 from agent_economy.live import fleet
 from agent_economy.live.channel import Decoder, encode
 from agent_economy.live.drivers import DRIVERS
-from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.plan import Origin
 from agent_economy.live.readings import STOP, Motion
 from agent_economy.live.rules import Action, Decision
@@ -204,20 +203,6 @@ def test_what_is_no_list_of_robots_is_refused(robots: Any) -> None:
     arm = Control(warden, drive, EventLog()).actions()["/arm"]
     with pytest.raises(ValueError, match="robots must be a list of one or more of bender/0"):
         arm({"robots": robots})
-
-
-def test_two_programs_cannot_hold_the_lock_of_one_robot(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Any
-) -> None:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    first, second = AddressLocks(), AddressLocks()
-    first.take([("127.0.0.1", 2000)])
-    second.take([("127.0.0.1", 2010)])
-    with pytest.raises(LockedError, match=r"127.0.0.1:2000 is being driven"):
-        second.take([("127.0.0.1", 2000)])
-    first.close()
-    second.take([("127.0.0.1", 2000)])
-    second.close()
 
 
 def test_messages_survive_any_split_and_keep_every_digit() -> None:

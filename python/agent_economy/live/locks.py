@@ -1,60 +1,132 @@
-"""Locks that keep two programs from driving one robot."""
+"""Locks on the addresses of robots, which keep two programs of a machine from driving one robot.
 
-import fcntl
+On Linux, a lock is an abstract socket: it holds for all users and environments that share the
+network of the machine, and names its holder. Elsewhere it is a port of the loopback interface.
+"""
+
+import errno
 import os
-import re
-import tempfile
+import socket
 from collections.abc import Sequence
+from ipaddress import IPv6Address, ip_address
 from pathlib import Path
-from typing import IO
+from zlib import crc32
+
+from agent_economy.live import local_socket
+from agent_economy.live.local_socket import Peer
+
+Address = tuple[str, int]
+
+PREFIX = "agent-economy/robot"
+
+BACKLOG = 1024
+"""Programs that have been refused: each leaves a connection that is never accepted."""
+
+FIRST_PORT, PORTS = 20_000, 10_000
+"""Ports that are locks where there are no abstract sockets."""
 
 
 class LockedError(Exception):
     """Another program drives a robot at this address."""
 
+    def __init__(self, address: Address, holder: Peer | None = None, doubt: str = "") -> None:
+        """Keep what is known; the words, which may take a lookup of a user, are made on demand.
 
-def runtime_folder() -> Path:
-    """Return the folder of locks and running drives, which only this user can read.
+        Args:
+            address: The address.
+            holder: The other program, if it is known.
+            doubt: What else can be the cause, in words.
+        """
+        super().__init__(address, holder, doubt)
+        self._address, self.holder, self._doubt = address, holder, doubt
 
-    Programs without the variable, such as those that cron starts, find the usual folder too.
-    """
-    usual = Path(f"/run/user/{os.getuid()}")
-    default = str(usual) if usual.is_dir() else tempfile.gettempdir()
-    base = os.environ.get("XDG_RUNTIME_DIR") or default
-    folder = Path(base) / f"agent-economy-{os.getuid()}"
-    folder.mkdir(mode=0o700, exist_ok=True)
-    if folder.stat().st_uid != os.getuid():
-        message = f"{folder}: belongs to another user: remove it, or set XDG_RUNTIME_DIR"
-        raise PermissionError(message)
-    return folder
+    def __str__(self) -> str:
+        """Return the reason in words."""
+        host, port = self._address
+        text = f"{host}:{port} is being driven by another"
+        if self.holder is not None and self.holder.pid == os.getpid():
+            return f"{text} robot of this fleet"
+        holder = f" ({self.holder})" if self.holder else ""
+        return f"{text} program{holder}{self._doubt}: end that one first"
 
 
 class AddressLocks:
-    """Holds locks on addresses until closed, or until this process dies."""
+    """Holds locks on the addresses of one robot until closed, or until this process dies."""
 
     def __init__(self) -> None:
         """Hold nothing."""
-        self._files: list[IO[bytes]] = []
+        self._sockets: dict[Address, socket.socket] = {}
+        self._holders: dict[Address, Peer | None] = {}
 
-    def take(self, addresses: Sequence[tuple[str, int]]) -> None:
-        """Lock all addresses, of which the hosts are numeric if they can be resolved.
+    def holds(self, address: Address) -> bool:
+        """Whether an address is locked here."""
+        return _normal(address) in self._sockets
+
+    def take(self, addresses: Sequence[Address]) -> None:
+        """Lock all addresses, of which the hosts are numeric; those held already stay so.
 
         Raises:
-            LockedError: If another program has one of them.
+            LockedError: If another program, or another robot of this one, has one of them.
+            OSError: If the system has no socket left.
         """
-        for host, port in addresses:
-            name = re.sub(r"[^0-9A-Za-z.:-]", "_", f"{host}:{port}")
-            file = (runtime_folder() / f"{name}.lock").open("ab")
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
-                file.close()
-                message = f"{host}:{port} is being driven by another program: end that one first"
-                raise LockedError(message) from None
-            self._files.append(file)
+        # In one order, so that of two programs that start at once one gets all.
+        for address in sorted(set(map(_normal, addresses)) - set(self._sockets)):
+            self._sockets[address] = self._locked(address)
 
     def close(self) -> None:
         """Give up all locks."""
-        for file in self._files:
-            file.close()
-        self._files.clear()
+        for each in self._sockets.values():
+            each.close()
+        self._sockets.clear()
+
+    def _locked(self, address: Address) -> socket.socket:
+        name = f"{PREFIX}/{address[0]}:{address[1]}"
+        if not local_socket.HAS_ABSTRACT:
+            return _loopback(name, address)
+        try:
+            return local_socket.listen(name, BACKLOG)
+        except OSError as error:
+            if error.errno != errno.EADDRINUSE:
+                raise
+        raise LockedError(address, self._holder(name, address))
+
+    def _holder(self, name: str, address: Address) -> Peer | None:
+        # A robot that is tried again and again must not fill the other program's backlog.
+        known = self._holders.get(address)
+        if known is None or not Path(f"/proc/{known.pid}").exists():
+            known = self._holders[address] = local_socket.holder_of(name)
+        return known
+
+
+def _loopback(name: str, address: Address) -> socket.socket:
+    number = FIRST_PORT + crc32(name.encode()) % PORTS
+    lock = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        lock.bind(("127.0.0.1", number))
+    except OSError as error:
+        lock.close()
+        if error.errno not in (errno.EADDRINUSE, errno.EACCES):
+            raise
+        doubt = f", or one has UDP port {number} of 127.0.0.1"
+        raise LockedError(address, None, doubt) from None
+    return lock
+
+
+def _normal(address: Address) -> Address:
+    """Return one host for all forms of an address: 10.0.0.1 is ::ffff:10.0.0.1 too."""
+    host, port = address
+    number = ip_address(host)
+    if isinstance(number, IPv6Address):
+        if number.ipv4_mapped is not None:
+            return str(number.ipv4_mapped), port
+        if number.scope_id is not None:
+            return f"{IPv6Address(int(number))}%{_interface(number.scope_id)}", port
+    return str(number), port
+
+
+def _interface(scope: str) -> int | str:
+    """Return the number of a network interface, which may be stated as its name."""
+    try:
+        return int(scope) if scope.isdecimal() else socket.if_nametoindex(scope)
+    except OSError:
+        return scope

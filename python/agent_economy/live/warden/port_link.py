@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.rules.faults import MAX_UNACKNOWLEDGED_S
 from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.name_lookup import NameLookup
@@ -43,9 +44,18 @@ class PortLink:
         lookup: NameLookup,
         new: Callable[[], Connection],
         connected: Callable[[], None],
+        locks: AddressLocks | None = None,
     ) -> None:
-        """Wait for `run`. `new` makes a connection; `connected` is called after each connect."""
-        self._address, self._lookup = address, lookup
+        """Wait for `run`.
+
+        Args:
+            address: The host and the port.
+            lookup: Looks up the host.
+            new: Makes a connection.
+            connected: Is called after each connect.
+            locks: Take the lock of the numeric address before each connect; None without a lock.
+        """
+        self._address, self._lookup, self._locks = address, lookup, locks
         self._new, self._connected = new, connected
         self.connection, self.has_connected = new(), False
 
@@ -87,6 +97,12 @@ class PortLink:
                 if found:
                     self._replace(found)
                     return True
+        except LockedError as error:
+            self._lookup.forget()
+            # In a thread: the name of a user may be looked up on a server.
+            loop = asyncio.get_running_loop()
+            self.connection.reason = await loop.run_in_executor(None, str, error)
+            return False
         except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
             self._lookup.forget()
             host, port = self._address
@@ -111,6 +127,9 @@ class PortLink:
         try:
             async with asyncio.timeout(CONNECT_TIMEOUT_S):
                 numeric = await self._lookup.address()
+                if self._locks is not None:
+                    # Of this address: the name may have had another one when the drive started.
+                    self._locks.take([(numeric, port)])
                 await asyncio.get_running_loop().create_connection(lambda: new, numeric, port)
         except TimeoutError:
             what = "no answer from" if numeric else "no answer to the lookup of the name of"

@@ -3,10 +3,12 @@
 import asyncio
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 from agent_economy.live.drivers import DRIVERS, PortLine
 from agent_economy.live.drivers.lines import MAX_LINES
+from agent_economy.live.locks import AddressLocks
 from agent_economy.live.plan import Origin, RobotPlan
 from agent_economy.live.readings import Motion, Quantity, Reading
 from agent_economy.live.rules import Link, RobotInputs, Sample, Setpoint
@@ -31,6 +33,23 @@ def lines_per_port(ports: int) -> int:
     return max(MIN_PORT_LINES, min(MAX_LINES, MAX_TURN_LINES // ports))
 
 
+@dataclass(frozen=True)
+class DriveContext:
+    """What all robots of a drive have in common.
+
+    Attributes:
+        origin: The geographic origin of the world.
+        stamp_s: Returns the time stamp of a line that is read now.
+        report: Is called with each line.
+        max_lines: Lines that are taken of one port in one turn; of more, the newest.
+    """
+
+    origin: Origin
+    stamp_s: Callable[[], float]
+    report: LineReport
+    max_lines: int = MAX_LINES
+
+
 class Robot:
     """One robot, as the warden knows it.
 
@@ -52,41 +71,37 @@ class Robot:
     written: tuple[str, float] | None
 
     def __init__(
-        self,
-        plan: RobotPlan,
-        origin: Origin,
-        stamp_s: Callable[[], float],
-        report: LineReport,
-        max_lines: int = MAX_LINES,
+        self, plan: RobotPlan, context: DriveContext, locks: AddressLocks | None = None
     ) -> None:
         """Create it without connecting.
 
         Args:
             plan: Its entry in the fleet file.
-            origin: The geographic origin of the world.
-            stamp_s: Returns the time stamp of a line that is read now.
-            report: Is called with each line.
-            max_lines: Lines that are taken of one port in one turn; of more, the newest.
+            context: What it has in common with the others.
+            locks: Its locks, which have to be held while its motor port is connected; they are
+                closed by the caller. By default, new ones.
         """
         self.plan, self.setpoint, self.manual = plan, None, None
         self.readings, self.written = {}, None
         self.standing_s = self.driving_s = 0.0
         self._commanded_s: float | None = None
-        self._origin, self._stamp_s, self._report = origin, stamp_s, report
+        self._origin, self._stamp_s = context.origin, context.stamp_s
+        self._report = context.report
         self.driver = DRIVERS[plan.driver]
         self._has_moved = False
         self._samples: dict[str, Sample] = {}
         self._arrived: dict[str, deque[tuple[bytes, float]]] = {
-            port: deque(maxlen=max_lines) for port in plan.ports
+            port: deque(maxlen=context.max_lines) for port in plan.ports
         }
-        self._motors = MotorLines(self.driver, plan.settings, origin, plan.repeat_s)
-        lookup = NameLookup(plan.host)
+        self._motors = MotorLines(self.driver, plan.settings, context.origin, plan.repeat_s)
+        lookup, locks = NameLookup(plan.host), locks or AddressLocks()
         self.links = {
             port: PortLink(
                 (plan.host, number),
                 lookup,
-                partial(Connection, partial(self._received, port), max_lines),
+                partial(Connection, partial(self._received, port), context.max_lines),
                 partial(self._connected, port),
+                locks if port == self.driver.motor_port else None,
             )
             for port, number in plan.ports.items()
         }

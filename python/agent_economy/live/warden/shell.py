@@ -3,6 +3,7 @@
 import asyncio
 import os
 import signal
+import socket
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
@@ -10,10 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from agent_economy.live.discovery.publication import published
+from agent_economy.live.discovery.running_drive import RunningDrive
 from agent_economy.live.drivers import DRIVERS
 from agent_economy.live.locks import AddressLocks, LockedError
-from agent_economy.live.plan import FleetPlan
-from agent_economy.live.running_drives import RunningDrive, registered
+from agent_economy.live.plan import FleetPlan, RobotPlan
 from agent_economy.live.warden.control import Control, Drive
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.endpoint import Endpoint
@@ -79,12 +81,13 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
         return warden.end_of_load
     for text in plan.warnings:
         report({"type": "message", "message": f"warning: {text}"})
-    # A slow lookup of one robot's name must not hold up those of others: a thread for each.
-    loop.set_default_executor(ThreadPoolExecutor(max_workers=2 * len(plan.robots)))
+    # A slow lookup of one robot's name must not hold up those of others: threads for each.
+    loop.set_default_executor(ThreadPoolExecutor(max_workers=3 * len(plan.robots)))
     with ExitStack() as stack:
         try:
             drive = Drive(plan, str(options.fleet), str(options.record))
-            endpoint = await _publish(stack, drive, Control(warden, drive, events))
+            locks = await _locked(stack, plan)
+            endpoint = await _publish(stack, drive, Control(warden, drive, events), report)
         except (LockedError, OSError) as error:
             report({"type": "message", "message": str(error)})
             await warden.close()
@@ -92,7 +95,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
         page = None if warden.run is None else start_page(warden.run, endpoint, report)
         if page is not None:
             warden.page = page.add
-        end = await warden.drive(plan)
+        end = await warden.drive(plan, locks)
         if page is not None:
             await page.end()
     report(
@@ -109,35 +112,44 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
     return end
 
 
-async def _publish(stack: ExitStack, drive: Drive, control: Control) -> Endpoint:
-    """Lock the robots for this drive, and let other programs stop it, until the stack is closed."""
-    locks = AddressLocks()
-    stack.callback(locks.close)
-    locks.take(await addresses(drive.plan))
+async def _locked(stack: ExitStack, plan: FleetPlan) -> dict[str, AddressLocks]:
+    """Lock the robots for this drive until the stack is closed; return the locks of each robot."""
+    found = await asyncio.gather(*(addresses(robot) for robot in plan.robots))
+    locks = {robot.name: AddressLocks() for robot in plan.robots}
+    for own, each in zip(locks.values(), found, strict=True):
+        stack.callback(own.close)
+        own.take(each)
+    return locks
+
+
+async def _publish(stack: ExitStack, drive: Drive, control: Control, report: Report) -> Endpoint:
+    """Let other programs stop this drive until the stack is closed."""
     endpoint = Endpoint(control.actions())
     await endpoint.start()
     stack.callback(endpoint.close)
     host, port = endpoint.address
     entry = RunningDrive(os.getpid(), drive.fleet, host, port, endpoint.token)
-    stack.enter_context(registered(entry))
+
+    def warn(text: str) -> None:
+        report({"type": "message", "message": text})
+
+    stack.enter_context(published(entry, warn))
     return endpoint
 
 
-async def addresses(plan: FleetPlan) -> list[tuple[str, int]]:
-    """Return the address of each motor port, with a numeric host if it can be resolved soon."""
-    hosts = await asyncio.gather(*(numeric(robot.host) for robot in plan.robots))
-    ports = [robot.ports[DRIVERS[robot.driver].motor_port] for robot in plan.robots]
-    return list(zip(hosts, ports, strict=True))
+async def addresses(robot: RobotPlan) -> list[tuple[str, int]]:
+    """Return all numeric addresses of a motor port; none if they are not known within some seconds.
 
-
-async def numeric(host: str) -> str:
-    """Return the address of a host name, or the name if it is not known within some seconds."""
+    What is not known yet is locked when the motor port is connected.
+    """
+    port = robot.ports[DRIVERS[robot.driver].motor_port]
+    lookup = asyncio.get_running_loop().getaddrinfo(robot.host, None, type=socket.SOCK_STREAM)
     try:
         async with asyncio.timeout(RESOLVE_S):
-            found = await asyncio.get_running_loop().getaddrinfo(host, None)
+            found = await lookup
     except (OSError, TimeoutError, UnicodeError):  # no name of a host, such as "a..b"
-        return host
-    return str(found[0][4][0])
+        return []
+    return [(str(each[4][0]), port) for each in found]
 
 
 def _stopper(warden: Warden, report: Report) -> Callable[[], None]:

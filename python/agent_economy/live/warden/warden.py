@@ -8,6 +8,7 @@ from typing import Any
 from agent_economy.live import rules
 from agent_economy.live.channel import BEAT_S
 from agent_economy.live.clock import now_s
+from agent_economy.live.locks import AddressLocks
 from agent_economy.live.plan import FleetPlan, Point, plan_of
 from agent_economy.live.readings import Motion
 from agent_economy.live.rules import Action, Decision, Inputs, LoopInputs, Outputs, Setpoint
@@ -16,7 +17,7 @@ from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.loop_process import LoopProcess
 from agent_economy.live.warden.mission import Mission
 from agent_economy.live.warden.operator import Operator
-from agent_economy.live.warden.robot import Robot, lines_per_port
+from agent_economy.live.warden.robot import DriveContext, Robot, lines_per_port
 
 TURN_S = 0.02
 """Time between two turns."""
@@ -76,11 +77,17 @@ class Warden:
             await self._loop.end()
         return self.plan
 
-    async def drive(self, plan: FleetPlan) -> End:
-        """Drive the robots until the drive ends; then stop them, and close everything."""
+    async def drive(self, plan: FleetPlan, locks: Mapping[str, AddressLocks] | None = None) -> End:
+        """Drive the robots until the drive ends; then stop them, and close everything.
+
+        Args:
+            plan: The fleet.
+            locks: The locks of each robot, which the caller closes.
+        """
         lines = lines_per_port(sum(len(robot.ports) for robot in plan.robots))
+        context = DriveContext(plan.origin, self._stamp_s, self._line, lines)
         for each in plan.robots:
-            self.robots[each.name] = Robot(each, plan.origin, self._stamp_s, self._line, lines)
+            self.robots[each.name] = Robot(each, context, (locks or {}).get(each.name))
         async with asyncio.TaskGroup() as tasks:
             connecting = tasks.create_task(self._connect())
             try:
