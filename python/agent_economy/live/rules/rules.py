@@ -174,6 +174,7 @@ def _decide(
     setpoint = inputs.manual if is_manual else inputs.setpoint
     were_neutral = memory.were_neutral or not is_manual
     lifetime_s = MANUAL_LIFETIME_S if is_manual else turn.plan.setpoint_lifetime_s
+    expired = tuple(causes.setpoint(setpoint, lifetime_s, turn.time_s))
     now = gravest_first(
         (
             *requested,
@@ -183,8 +184,7 @@ def _decide(
             *causes.fence(plan, _values(memory, plan, Quantity.POSITION)),
             *_outside_world(memory, plan, turn.plan.size_m),
             *causes.battery(plan, _values(memory, plan, Quantity.BATTERY)),
-            *causes.setpoint(setpoint, lifetime_s, turn.time_s),
-            *causes.controls(setpoint, were_neutral=were_neutral),
+            *(expired or causes.controls(setpoint, were_neutral=were_neutral)),
             *_hold_of(memory, turn),
             *causes.turning(plan, memory.turning_since_s, turn.time_s),
         )
