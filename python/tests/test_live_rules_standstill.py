@@ -1,4 +1,4 @@
-"""A standstill is confirmed only as far as the inputs can tell, in fake time."""
+"""A standstill is confirmed only as far as the inputs show it, in fake time."""
 
 import math
 from dataclasses import replace

@@ -36,7 +36,7 @@ _NUMBER = re.compile(rb"(?i:[+-]?((\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?|nan|infinity|i
 """No two adjacent parts take the same characters: a mismatch is found in linear time."""
 
 MAX_NUMBER_LENGTH = 40
-"""Longer numbers are malformed: no receiver writes so many digits."""
+"""Longer numbers are malformed: no receiver writes that."""
 
 COMPASS_DEG = (-360.0, 720.0)
 """What a compass can send: a turn around either end of its scale."""

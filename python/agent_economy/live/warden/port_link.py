@@ -15,7 +15,7 @@ CONNECT_TIMEOUT_S = 2.0
 ATTEMPT_S = 0.3
 """While nothing answers, another attempt is begun after this time. The system repeats the first
 packet of an attempt after growing pauses only, so that a new one is answered sooner when the robot
-can be reached again. The others go on: an answer may take longer than this."""
+can be reached again. The others continue: an answer may take longer than this."""
 
 FIRST_PAUSE_S, MAX_PAUSE_S = 0.05, 0.4
 """Pauses before connecting again: short, because a robot without its motor port drives on until it
