@@ -15,7 +15,8 @@ from agent_economy.live.rules.interface import (
     Setpoint,
     Unseen,
 )
-from agent_economy.live.rules.rules import Memory, initial, update
+from agent_economy.live.rules.memory import Memory
+from agent_economy.live.rules.rules import initial, update
 
 __all__ = [
     "FAULTS",

@@ -86,6 +86,10 @@ class InManual(StrEnum):
     WARN = "warn"
 
 
+SLOW = (InManual.SLOW, InManual.SLOW_NOT_ARMED)
+"""What limits the speed."""
+
+
 @dataclass(frozen=True, slots=True)
 class Fault:
     """A fault: a row of the table, or one that is active, with its reason.

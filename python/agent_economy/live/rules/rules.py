@@ -1,14 +1,14 @@
 """Decides what each robot does: a pure function of the time, what is known and what is requested.
 
 One update collects the faults of a robot, applies the requests of operators, and lets the gravest
-action win. What the faults are and do is in `faults`; how inputs are judged is in `monitors`.
+action win. What the faults are and do is in `faults`; how inputs are judged is in `inputs`.
 """
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
-from agent_economy.live.plan import FleetPlan, InputPlan, Point, RobotPlan
+from agent_economy.live.plan import FleetPlan, RobotPlan
 from agent_economy.live.readings import STOP, Motion, Quantity
 from agent_economy.live.rules import causes
 from agent_economy.live.rules.faults import (
@@ -21,15 +21,14 @@ from agent_economy.live.rules.faults import (
     MANUAL_LIFETIME_S,
     MAX_GAP_S,
     MODE_CHANGED,
-    MOVES_WHILE_STOPPED,
     NOT_ARMED,
-    OUTSIDE_FENCE,
-    OUTSIDE_WORLD,
+    SLOW,
     TURN_GAP_S,
     Fault,
     InManual,
     gravest_first,
 )
+from agent_economy.live.rules.inputs import judged, outside_world, unseen, values
 from agent_economy.live.rules.interface import (
     Action,
     Decision,
@@ -38,71 +37,14 @@ from agent_economy.live.rules.interface import (
     Outputs,
     Requests,
     RobotInputs,
-    Sample,
     Setpoint,
-    Unseen,
 )
-from agent_economy.live.rules.monitors import NOTHING, Commanded, Conditions, InputMemory, judge
+from agent_economy.live.rules.memory import Held, Memory, RobotMemory
+from agent_economy.live.rules.monitors import Conditions
 
 _UNKNOWN = RobotInputs({}, {}, None)
-_SLOW = (InManual.SLOW, InManual.SLOW_NOT_ARMED)
 _PATIENT = (HELD, CONTROLS_DEFLECTED)
 """Faults after which a robot need not be armed, however long they last."""
-
-_PLACES = (OUTSIDE_FENCE, OUTSIDE_WORLD)
-"""Faults of what an input states, not of the input."""
-
-
-@dataclass(frozen=True, slots=True)
-class Held:
-    """A fault that is active, and since when its cause has ended; None while it lasts."""
-
-    fault: Fault
-    ended_s: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class RobotMemory:
-    """What is remembered of one robot.
-
-    Attributes:
-        mode: Its mode.
-        navigates: Whether it follows its plan in automatic mode.
-        latched: Why it has to be armed.
-        held: Its active faults, by name.
-        inputs: Its inputs, by port.
-        motion: The motion commanded last.
-        commanded: The motion commanded since the start.
-        action: Its last action.
-        stopped_since_s: Since when stop has been commanded; None while it moves.
-        blocked_since_s: Since when faults other than a hold stop it; None while none does.
-        turning_since_s: Since when it turns to a heading by itself; None if it does not.
-        turned_s: When it did so last.
-        were_neutral: Whether the operator's controls have been neutral since it could move.
-    """
-
-    mode: Mode = Mode.AUTO
-    navigates: bool = True
-    latched: tuple[Fault, ...] = (NOT_ARMED.because("not armed since the start"),)
-    held: Mapping[str, Held] = field(default_factory=dict)
-    inputs: Mapping[str, InputMemory] = field(default_factory=dict)
-    motion: Motion = STOP
-    commanded: Commanded = NOTHING
-    action: Action = Action.LATCHED_STOP
-    stopped_since_s: float | None = None
-    blocked_since_s: float | None = None
-    turning_since_s: float | None = None
-    turned_s: float = -math.inf
-    were_neutral: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Memory:
-    """What is remembered of a fleet: pass it to the next update."""
-
-    time_s: float | None
-    robots: Mapping[str, RobotMemory]
-    is_held: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +111,7 @@ def _decide(
     memory: RobotMemory, plan: RobotPlan, inputs: RobotInputs, turn: _Turn
 ) -> tuple[RobotMemory, Decision]:
     memory, requested = _after_requests(memory, plan.name, turn.requests)
-    memory, judged = _judge_inputs(memory, plan, inputs, turn)
+    memory, found = judged(memory, inputs.samples, _conditions(memory, plan, turn))
     is_manual = memory.mode is Mode.MANUAL
     setpoint = inputs.manual if is_manual else inputs.setpoint
     were_neutral = memory.were_neutral or not is_manual
@@ -178,12 +120,12 @@ def _decide(
     now = gravest_first(
         (
             *requested,
-            *judged,
+            *found,
             *turn.faults,
             *causes.links(plan, inputs.links),
-            *causes.fence(plan, _values(memory, plan, Quantity.POSITION)),
-            *_outside_world(memory, plan, turn.plan.size_m),
-            *causes.battery(plan, _values(memory, plan, Quantity.BATTERY)),
+            *causes.fence(plan, values(memory, plan, Quantity.POSITION)),
+            *outside_world(memory, plan, turn.plan.size_m),
+            *causes.battery(plan, values(memory, plan, Quantity.BATTERY)),
             *(expired or causes.controls(setpoint, were_neutral=were_neutral)),
             *_hold_of(memory, turn),
             *causes.turning(plan, memory.turning_since_s, turn.time_s),
@@ -209,7 +151,7 @@ def _decide(
         is_armed=not memory.latched,
         blockers=_blockers(faults, warnings),
         warnings=warnings,
-        unseen=_unseen(memory, plan, turn.time_s),
+        unseen=unseen(memory, plan, turn.time_s),
         mode=memory.mode,
         navigates=memory.navigates,
         doubted=tuple(port for port, each in memory.inputs.items() if each.doubts.faults()),
@@ -217,11 +159,18 @@ def _decide(
     return memory, decision
 
 
-def _outside_world(memory: RobotMemory, plan: RobotPlan, size_m: Point | None) -> Iterator[Fault]:
-    for each in plan.inputs:
-        sample = memory.inputs[each.port].possible
-        if each.quantity is Quantity.POSITION and sample is not None:
-            yield from causes.world(size_m, each, [_numbers(sample)])
+def _conditions(memory: RobotMemory, plan: RobotPlan, turn: _Turn) -> Conditions:
+    commanded = memory.commanded
+    if not memory.motion.is_stop:
+        commanded = commanded.after(memory.motion, turn.elapsed_s)
+    return Conditions(
+        robot=plan,
+        time_s=turn.time_s,
+        commanded=commanded,
+        is_held=memory.action is not Action.MOVE,
+        stopped_since_s=memory.stopped_since_s,
+        confirmed=turn.requests.confirm.get(plan.name, ()),
+    )
 
 
 def _blocked_since_s(memory: RobotMemory, faults: tuple[Fault, ...], time_s: float) -> float | None:
@@ -345,7 +294,7 @@ def _stops(fault: Fault, mode: Mode) -> bool:
 
 
 def _is_slow(warnings: Iterable[Fault]) -> bool:
-    return any(each.in_manual in _SLOW for each in warnings)
+    return any(each.in_manual in SLOW for each in warnings)
 
 
 def _with(latched: tuple[Fault, ...], fault: Fault) -> tuple[Fault, ...]:
@@ -366,74 +315,3 @@ def _limited(motion: Motion, plan: RobotPlan, *, is_slow: bool) -> Motion:
 
 def _clamped(value: float, limit: float) -> float:
     return max(-limit, min(limit, value))
-
-
-# The inputs of one robot.
-
-
-def _judge_inputs(
-    memory: RobotMemory, plan: RobotPlan, inputs: RobotInputs, turn: _Turn
-) -> tuple[RobotMemory, tuple[Fault, ...]]:
-    commanded = memory.commanded
-    if not memory.motion.is_stop:
-        commanded = commanded.after(memory.motion, turn.elapsed_s)
-    now = Conditions(
-        robot=plan,
-        time_s=turn.time_s,
-        commanded=commanded,
-        is_held=memory.action is not Action.MOVE,
-        stopped_since_s=memory.stopped_since_s,
-        confirmed=turn.requests.confirm.get(plan.name, ()),
-    )
-    judged = {
-        each.port: judge(
-            memory.inputs.get(each.port, InputMemory()), inputs.samples.get(each.port), each, now
-        )
-        for each in plan.inputs
-    }
-    moved = [port for port, each in judged.items() if each.has_moved]
-    faults = [fault for each in judged.values() for fault in each.faults]
-    if moved:
-        faults.append(MOVES_WHILE_STOPPED.because(f"{', '.join(moved)}: changed after stop"))
-    memories = {port: each.memory for port, each in judged.items()}
-    return replace(memory, inputs=memories, commanded=commanded), tuple(faults)
-
-
-def _unseen(memory: RobotMemory, plan: RobotPlan, time_s: float) -> Unseen | None:
-    """Return the motion that the inputs of a robot do not exclude; None if it may move faster.
-
-    Without positions nothing excludes that it drives straight on in open ground.
-    """
-    inputs = [each for each in plan.inputs if each.quantity is not Quantity.BATTERY]
-    is_known = not any(
-        each.fault.in_manual in _SLOW and each.fault not in _PLACES for each in memory.held.values()
-    )
-    is_still = all(memory.inputs[each.port].is_still(time_s, each.quantity) for each in inputs)
-    if not (memory.motion.is_stop and is_known and is_still):
-        return None
-    speed_m_s = _slowest(memory, inputs, Quantity.POSITION)
-    if speed_m_s is None or speed_m_s >= plan.max_speed_m_s:
-        return None
-    turn_rate_deg_s = _slowest(memory, inputs, Quantity.HEADING)
-    return Unseen(speed_m_s, None if turn_rate_deg_s is None else math.radians(turn_rate_deg_s))
-
-
-def _slowest(memory: RobotMemory, inputs: Iterable[InputPlan], quantity: Quantity) -> float | None:
-    """Return the unseen rate of the best input of a quantity."""
-    found = (memory.inputs[each.port] for each in inputs if each.quantity is quantity)
-    rates = [each.standstill.unseen for each in found if each.standstill.unseen is not None]
-    return min(rates, default=None)
-
-
-def _values(
-    memory: RobotMemory, plan: RobotPlan, quantity: Quantity
-) -> Iterator[tuple[float, ...]]:
-    """Yield the newest possible values of the inputs of a quantity."""
-    for each in plan.inputs:
-        sample = memory.inputs[each.port].possible
-        if each.quantity is quantity and sample is not None:
-            yield _numbers(sample)
-
-
-def _numbers(sample: Sample) -> tuple[float, ...]:
-    return tuple(value for value in sample.values if value is not None)
