@@ -111,6 +111,7 @@ def test_a_second_drive_of_a_robot_is_refused(bench: Bench, tmp_path: Path) -> N
             text = str(second.events[-1])
             assert f"127.0.0.1:{bench.robots[0]['motors']}" in text
             assert "is being driven" in text
+            assert not second.record.exists()  # nothing was driven: the name is free again
         assert first.process.poll() is None
         bench.wait_for_motion(1)
         stopped_s = now_s()

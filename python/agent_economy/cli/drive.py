@@ -30,7 +30,8 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     record: Annotated[
         Path | None,
         typer.Option(
-            help="The recording, NAME.mcap. [default: FLEET-TIME.mcap in this folder]",
+            help="The recording, NAME.mcap, which must not exist. "
+            "[default: FLEET-TIME.mcap in this folder]",
             show_default=False,
         ),
     ] = None,
@@ -46,9 +47,10 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     everything that stops a robot.
 
     Exit codes: 0 all waypoints were reached; 1 some cannot be reached; 2 the fleet file or an
-    argument is not valid, or another program drives a robot; 3 a robot was stopped and has to be
-    armed again; 4 a robot could not be armed within 30 s; 130 stopped by Ctrl-C or a signal;
-    137 the warden was suspended or silent, and the loop ended it and stopped the robots.
+    argument is not valid, the recording exists, or another program drives a robot; 3 a robot was
+    stopped and has to be armed again; 4 a robot could not be armed within 30 s; 130 stopped by
+    Ctrl-C or a signal; 137 the warden was suspended or silent, and the loop ended it and stopped
+    the robots.
 
     Example: agent-economy drive fleets/bender.toml --headless --arm
     """
@@ -60,7 +62,7 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
         raise typer.Exit(End.INVALID.exit_code)
     path = record or Path(f"{fleet.stem}-{time.strftime('%Y%m%d-%H%M%S')}.mcap")
     report = print_json if as_json else print_event
-    options = Options(fleet, path, seed, is_headless=headless)
+    options = Options(fleet, path, seed, is_headless=headless, is_numbered=record is None)
     raise typer.Exit(drive_fleet(options, report).exit_code)
 
 

@@ -2,7 +2,7 @@
 
 The warden sends: `line` (a stamped line of a robot), `written` (a line that it wrote), `event` (a
 change of a robot's state, with its reasons), `order` (a waypoint that an operator ordered), `beat`
-(it is running), `end` (close the recording).
+(it is running), `end` (close the recording), `cancel` (remove it: the drive has not begun).
 
 The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, then it ends),
 `setpoint` (the motion of one robot), `beat` (one per tick, with its lateness), `goal` (a verdict),

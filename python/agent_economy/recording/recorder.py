@@ -51,8 +51,8 @@ class Recording:
         Args:
             simulation: The run, a `Simulation` or a `ClassicSimulation`, at its first step. Of a
                 later start, only the changes of the scenario can be replayed, not other inputs.
-            path: The file, NAME.mcap. It replaces an existing file, unless the scenario was read
-                from that file.
+            path: The file, NAME.mcap. It replaces an existing file, unless that is the recording
+                of a drive, or the scenario was read from it.
             every: Number of steps per recorded step, 1 or more.
             percepts: Names of robots, KIND/INDEX, of which the percepts, commands and range scans
                 are recorded in each step. None by default: those of all robots take about twenty

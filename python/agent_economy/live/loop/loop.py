@@ -2,12 +2,12 @@
 
 from collections import deque
 from collections.abc import Mapping
-from pathlib import Path
+from contextlib import suppress
 from typing import Any
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.fleet import Fleet
-from agent_economy.live.loop.log import Log
+from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.live.loop.pacer import Pacer
 from agent_economy.live.loop.pipe import Pipe
 from agent_economy.live.loop.team import Team
@@ -21,14 +21,19 @@ class Loop:
 
     Attributes:
         peers: The numeric addresses of connected motor ports.
+        record: The recording.
     """
 
     _pacer: Pacer
 
     def __init__(
-        self, fleet: Fleet, pipe: Pipe, record: Path, seed: int, *, has_page: bool
+        self, fleet: Fleet, pipe: Pipe, options: LogOptions, seed: int, *, has_page: bool
     ) -> None:
-        """Create the run at its first step; a page needs the inputs of all steps."""
+        """Create the run at its first step; a page needs the inputs of all steps.
+
+        Raises:
+            InputError: If the run or its recording cannot be created.
+        """
         self._inputs: deque[Mapping[str, Any]] | None = deque() if has_page else None
         self.peers: dict[str, tuple[str, int]] = {}
         self._pipe = pipe
@@ -38,7 +43,8 @@ class Loop:
         self._team = Team(
             fleet.plan, self._simulation, fleet.waypoints_m, seed=seed, start_s=start_s
         )
-        self._log: Log | None = Log(self._simulation, record, fleet, start_s)
+        self._log: Log | None = Log(self._simulation, options, fleet, start_s)
+        self.record = self._log.path
 
     def run(self) -> None:
         """Run until the warden ends the drive.
@@ -57,6 +63,9 @@ class Loop:
         for message in self._pipe.receive_until(self._pacer.due_s):
             match message["type"]:
                 case "end":
+                    return False
+                case "cancel":
+                    self._discard()
                     return False
                 case "peer":
                     self.peers[message["robot"]] = tuple(message["address"])
@@ -107,6 +116,12 @@ class Loop:
     def _fail(self, error: RecordingError) -> None:
         self._log = None
         self._pipe.send({"type": "recording_error", "message": str(error)})
+
+    def _discard(self) -> None:
+        if self._log is not None:
+            log, self._log = self._log, None
+            with suppress(RecordingError, OSError):
+                log.discard()
 
     def close(self) -> None:
         """Close the recording; also after the warden was lost."""

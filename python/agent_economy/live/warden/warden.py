@@ -36,6 +36,7 @@ class Warden:
     Attributes:
         operator: Takes requests.
         plan: The fleet; None until the loop has read it.
+        record: The recording; empty until then.
         robots: Its robots, once the drive has begun.
         outputs: What the rules decided last.
         goals: The newest verdict of each goal, by robot and goal.
@@ -49,7 +50,7 @@ class Warden:
 
     def __init__(self, report: Report, *, is_headless: bool) -> None:
         """Create it without starting anything."""
-        self.operator, self.plan = Operator(), None
+        self.operator, self.plan, self.record = Operator(), None, ""
         self._report, self._is_headless = report, is_headless
         self._loop = LoopProcess(self._message)
         self.robots: dict[str, Robot] = {}
@@ -72,7 +73,7 @@ class Warden:
         self._loop.start(arguments)
         self.plan = await self._planned
         if self.plan is None:
-            await self._loop.end()
+            await self.close()
         return self.plan
 
     async def drive(self, plan: FleetPlan) -> End:
@@ -136,8 +137,8 @@ class Warden:
         return ", ".join(fault.reason for fault in self.outputs.robots[name].blockers)
 
     async def close(self) -> None:
-        """End the loop of a drive that has not begun."""
-        await self._loop.end()
+        """End the loop of a drive that has not begun, without a recording."""
+        await self._loop.end(is_cancelled=True)
 
     def interrupt(self) -> None:
         """Stop all robots and end the drive. A second time: without waiting for confirmation."""
@@ -219,6 +220,7 @@ class Warden:
         error = self._loop_inputs.recording_error
         match message["type"]:
             case "plan":
+                self.record = message["record"]
                 self._set_plan(plan_of(message["plan"]))
                 self._report(message)
             case "invalid":
