@@ -82,11 +82,12 @@ class Control:
         else:
             self._cruise()
 
-    def _compute_bearing(self) -> Reads:
-        """Read a fix and compute the bearing: in 2002 one function did both."""
+    def _compute_bearing(self) -> Generator[str, str, float]:
+        """Read a fix and return the bearing from it: in 2002 one function did both."""
         yield from self._read("gps")
-        self.bearing_deg = bearing_deg(self.readings.position, self._waypoint)
-        self.difference_deg = abs(self.readings.heading_deg - self.bearing_deg)
+        self.bearing_deg = bearing = bearing_deg(self.readings.position, self._waypoint)
+        self.difference_deg = abs(self.readings.heading_deg - bearing)
+        return bearing
 
     def _cruise(self) -> None:
         self.behaviour = Behaviour.CRUISE
@@ -101,11 +102,11 @@ class Control:
         """
         self.behaviour = Behaviour.WAYPOINT
         self._write(STOP)
-        yield from self._compute_bearing()
-        self.written.append(("compass", f"{self.bearing_deg:.2f}"))
+        desired_deg = yield from self._compute_bearing()
+        self.written.append(("compass", f"{desired_deg:.2f}"))
         while self.difference_deg > COURSE_ERROR_DEG:
             yield from self._read("compass")
-            self.difference_deg = abs(self.readings.heading_deg - self.bearing_deg)
+            self.difference_deg = abs(self.readings.heading_deg - desired_deg)
         self._write(STOP)
         self._motors = Motors.STOPPED
 
