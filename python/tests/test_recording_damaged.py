@@ -86,7 +86,7 @@ def errors(path: Path) -> list[str]:
 
 
 def is_refused_or_damaged(path: Path) -> bool:
-    """Return whether a replay refuses a file, or says that it is damaged."""
+    """Return whether a replay refuses a file, or reports that it is damaged."""
     try:
         replayed = ae.replay(path)
     except InputError:

@@ -56,7 +56,8 @@ class Whole(NamedTuple):
 
 def whole(path: Path) -> Whole:
     data = path.read_bytes()
-    records, place = [], len(MAGIC)
+    records: list[tuple[int, int, int]] = []
+    place = len(MAGIC)
     while not records or records[-1][0] != Opcode.DATA_END:
         kind, length = HEAD.unpack(data[place : place + HEAD.size])
         records.append((kind, place, place + HEAD.size + length))
