@@ -21,7 +21,8 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     headless: Annotated[
         bool,
         typer.Option(
-            "--headless", help="End when all waypoints are reached, or when a stop is latched."
+            "--headless",
+            help="End when all waypoints and goals are reached, or when a stop is latched.",
         ),
     ] = False,
     arm: Annotated[
@@ -46,9 +47,9 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     robots first. From another terminal, `agent-economy stop` stops all robots. docs/safety.md lists
     everything that stops a robot.
 
-    Exit codes: 0 all waypoints were reached; 1 some cannot be reached; 2 the fleet file or an
-    argument is not valid, the recording exists, or another program drives a robot; 3 a robot was
-    stopped and has to be armed again; 4 a robot could not be armed within 30 s; 130 stopped by
+    Exit codes: 0 all waypoints and goals were reached; 1 some cannot be reached; 2 the fleet file
+    or an argument is not valid, the recording exists, or another program drives a robot; 3 a robot
+    was stopped and has to be armed again; 4 a robot could not be armed within 30 s; 130 stopped by
     Ctrl-C or a signal; 137 the warden was suspended or silent, and the loop ended it and stopped
     the robots.
 

@@ -1,0 +1,116 @@
+"""Goals that controllers award to the robots of a drive, and how each of them ends.
+
+That a real robot serves a goal is known from its messages: the judge of the run knows only the
+position that the robot measures, later than the robot does.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from agent_economy import _core
+from agent_economy.runs.simulation import Simulation
+
+QUIET_S = 30.0
+"""A goal is given up if no goal has been awarded for this time while a robot drives.
+
+It exceeds the pause after which a controller offers a goal for the second time, 20 s.
+"""
+
+MOVING = ("approaching", "receding")
+
+OPERATOR = 255
+"""The kind of the issuer of a scenario's goals."""
+
+
+@dataclass
+class AwardedGoals:
+    """The goals of a scenario whose controllers award them.
+
+    Attributes:
+        robots: The real robots that serve awarded goals.
+    """
+
+    robots: frozenset[str]
+    _simulation: Simulation
+    _done: dict[tuple[int, int], str] = field(default_factory=dict)
+    _given_up: set[str] = field(default_factory=set)
+    _awarded: dict[str, str] = field(default_factory=dict)
+    _goals: Mapping[str, Any] = field(default_factory=dict)
+    _busy_s: float | None = None
+
+    def add(self, robot: str, outbox: Iterable[Mapping[str, Any]]) -> None:
+        """Take the messages that a real robot sends."""
+        for message in outbox:
+            about = message["about"].get("goal")
+            if about is None or about["status"] != "done":
+                continue
+            goal = about["id"]
+            if goal["issuer"]["kind"] == OPERATOR:
+                self._done.setdefault((goal["issuer"]["index"], goal["number"]), robot)
+
+    def update(self, now_s: float, *, is_driving: bool) -> None:
+        """Take the state of the run; `is_driving` is whether the brain of a real robot steps."""
+        if not self.robots:
+            return
+        self._goals = _core.goals(self._simulation._run)  # noqa: SLF001  (ours)
+        owned = [each["goals"] for each in self._simulation.controllers if each["working"]]
+        self._awarded = {
+            goal["goal"]: goal["assignee"]
+            for goals in owned
+            for goal in goals
+            if goal["assignee"] is not None
+        }
+        if self._awarded or not is_driving or self._busy_s is None:
+            self._busy_s = now_s
+        is_quiet = now_s - self._busy_s > QUIET_S
+        issued = np.isfinite(self._goals["issued_s"])
+        rows = zip(self._goals["name"], issued, self._goals["expired"], strict=True)
+        self._given_up |= {name for name, was, late in rows if late or (was and is_quiet)}
+
+    def verdicts(self) -> Iterator[dict[str, Any]]:
+        """Yield the name, the place, the verdict and the robot of each goal, in order.
+
+        One that has been given up is impossible, also while a robot tries it again.
+        """
+        for place, name in enumerate(self._goals.get("name", ())):
+            goal = {key: values[place] for key, values in self._goals.items()}
+            verdict, robot = self._verdict(name, goal)
+            reason = goal["unserved"] if verdict != "complete" else ""
+            at_m = [float(goal["x_m"]), float(goal["y_m"])]
+            yield {
+                "goal": name,
+                "at_m": at_m,
+                "verdict": verdict,
+                "served_by": robot,
+                "unserved": reason or None,
+            }
+
+    def _verdict(self, name: str, goal: Mapping[str, Any]) -> tuple[str, str | None]:
+        done_by = self._done.get((int(goal["issuer"]), int(goal["number"]))) or goal["served_by"]
+        if done_by:
+            return "complete", done_by
+        if name in self._given_up:
+            return "impossible", None
+        robot = self._awarded.get(name)
+        if robot is None:
+            return "pending", None
+        served = self._simulation.served_goals(robot)
+        known = next((each["verdict"] for each in served if each["goal"] == name), "pending")
+        return known if known in MOVING else "pending", robot
+
+
+def awarded_to(simulation: Simulation, robots: Iterable[str]) -> AwardedGoals:
+    """Return the goals of a run that controllers award to some real robots; none without them."""
+    scenario = simulation.scenario.to_dict()
+    counts = [each["count"] for each in scenario.get("controllers", {}).values()]
+    serving = {name for name in robots if serves(scenario, name)} if any(counts) else set()
+    return AwardedGoals(frozenset(serving), simulation)
+
+
+def serves(scenario: Mapping[str, Any], robot: str) -> bool:
+    """Return whether the brain of a robot has the behaviour `serve`."""
+    brain = scenario["robots"][robot.rpartition("/")[0]].get("brain", {})
+    return any(behaviour["kind"] == "serve" for behaviour in brain.get("behaviours", []))
