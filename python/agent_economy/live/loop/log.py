@@ -82,9 +82,9 @@ class Log:
             topic = f"{WIRE}{message['robot']}/{message['port']}"
         self._recording.write_json(topic, live_schema(topic), message, at_s - self._start_s)
 
-    def tick(self, tick: int, now_s: float, lateness_s: float) -> None:
+    def tick(self, tick: int, now_s: float, lateness_s: float, behind_s: float = 0.0) -> None:
         """Record that a tick begins."""
-        values = {"tick": tick, "t": now_s, "lateness_s": lateness_s}
+        values = {"tick": tick, "t": now_s, "lateness_s": lateness_s, "behind_s": behind_s}
         topic = TICKS
         self._recording.write_json(topic, live_schema(topic), values, now_s - self._start_s)
 

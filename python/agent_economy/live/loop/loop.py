@@ -15,6 +15,9 @@ from agent_economy.recording import RecordingError
 from agent_economy.recording.file import strict
 from agent_economy.runs.simulation import Simulation
 
+EXPLAINED_S = 5.0
+"""Lateness, as after a suspension, that is explained at once: it takes minutes to make up for."""
+
 
 class Loop:
     """One drive, between the plan and the end.
@@ -39,7 +42,7 @@ class Loop:
         self._pipe = pipe
         names = tuple(robot.name for robot in fleet.plan.robots)
         self._simulation = Simulation(fleet.scenario, seed=seed, external=names)
-        start_s = now_s()
+        self._start_s = start_s = now_s()
         self._team = Team(
             fleet.plan, self._simulation, fleet.waypoints_m, seed=seed, start_s=start_s
         )
@@ -53,7 +56,7 @@ class Loop:
             WardenLostError: If the warden has ended or is silent.
         """
         step_s = self._simulation.step_s
-        self._pacer = Pacer(step_s, now_s() + step_s)
+        self._pacer = Pacer(step_s, self._start_s, now_s() + step_s)
         while self._receive():
             self._tick()
         self.close()
@@ -83,12 +86,21 @@ class Loop:
                 self._step(self._log, now, lateness_s)
             except RecordingError as error:
                 self._fail(error)
-        counts = {"late_steps": self._pacer.late_ticks, "behind_s": self._pacer.behind_s}
-        self._pipe.send({"type": "beat", "lateness_s": now_s() - now + lateness_s, **counts})
+        if lateness_s > EXPLAINED_S:
+            self._pipe.send({"type": "message", "message": self._explanation(lateness_s)})
+        beat = {"type": "beat", "lateness_s": now_s() - now + lateness_s}
+        self._pipe.send(beat | self._pacer.counts())
+
+    def _explanation(self, lateness_s: float) -> str:
+        behind_s, slew_s = self._pacer.behind_s, self._pacer.slew_s
+        return (
+            f"The brains were late by {lateness_s:.1f} s: the run is {behind_s:.1f} s behind the "
+            f"clock, and steps 10% faster for about {slew_s:.0f} s until both agree again."
+        )
 
     def _step(self, log: Log, now: float, lateness_s: float) -> None:
         tick = self._simulation.tick
-        log.tick(tick, now, lateness_s)
+        log.tick(tick, now, lateness_s, self._pacer.behind_s)
         percepts = self._team.percepts(tick, now)
         commands = log.step(percepts)
         motions = self._team.motions(commands)

@@ -54,7 +54,8 @@ def lateness(event: Mapping[str, Any]) -> str:
     if not event["late_steps"]:
         return ""
     return (
-        f" Late steps of the brains: {event['late_steps']}, by {event['behind_s']:.2f} s in total."
+        f" Late steps of the brains: {event['late_steps']}; the run was behind the clock by "
+        f"{event['max_behind_s']:.2f} s at most, and by {event['behind_s']:.2f} s at the end."
     )
 
 

@@ -110,6 +110,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
             "unconfirmed": warden.unconfirmed(),
             "late_steps": warden.late_steps,
             "behind_s": warden.behind_s,
+            "max_behind_s": warden.max_behind_s,
         }
     )
     return end

@@ -43,7 +43,8 @@ class Warden:
         run: What the loop has reported of the run for a page; None without one.
         page: Takes the tick and the inputs of each step.
         late_steps: Number of steps of the loop that were late by more than a step.
-        behind_s: Time by which the run is behind the clock because of them.
+        behind_s: Time by which the run is behind the clock.
+        max_behind_s: The longest such time after a late step.
     """
 
     plan: FleetPlan | None
@@ -60,7 +61,7 @@ class Warden:
         self.page: Callable[[int, Mapping[str, Any]], None] = lambda *_: None
         self._peers: dict[str, tuple[str, int]] = {}
         self._loop_inputs = LoopInputs(is_alive=True, last_message_s=None)
-        self.late_steps, self.behind_s = 0, 0.0
+        self.late_steps, self.behind_s, self.max_behind_s = 0, 0.0, 0.0
         self._planned: asyncio.Future[FleetPlan | None] | None = None
         self._end: End | None = None
         self._is_impatient = False
@@ -232,6 +233,7 @@ class Warden:
                 self._set_plan(None)
             case "beat":
                 self.late_steps, self.behind_s = message["late_steps"], message["behind_s"]
+                self.max_behind_s = message["max_behind_s"]
             case "setpoint":
                 self._setpoint(message, now)
             case "run":
@@ -241,8 +243,8 @@ class Warden:
             case "goal":
                 self.goals.setdefault(message["robot"], {})[message["goal"]] = message
                 self._report(message)
-            case "radio" | "recording_error":
-                error = message.get("message", error)
+            case "radio" | "message" | "recording_error" as kind:
+                error = message["message"] if kind == "recording_error" else error
                 self._report(message)
         self._loop_inputs = LoopInputs(True, now, lateness_s, error)  # noqa: FBT003
 
