@@ -36,7 +36,7 @@ class Pacer:
         return self.behind_s * MIN_PERIOD / (1 - MIN_PERIOD)
 
     def counts(self) -> dict[str, float]:
-        """Return the numbers of late ticks that the warden receives."""
+        """Return what the warden reports of ticks that were late."""
         return {
             "late_steps": self.late_ticks,
             "behind_s": self.behind_s,
