@@ -36,6 +36,14 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
             show_default=False,
         ),
     ] = None,
+    every: Annotated[
+        int,
+        typer.Option(
+            min=1,
+            help="Number of steps between recorded states, percepts and scans. Everything that a "
+            "replay verifies is recorded in each step.",
+        ),
+    ] = 1,
     seed: Annotated[int, typer.Option(help="Seed of the simulated robots and sensors.", min=0)] = 0,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print each event as a line of JSON on standard output.")
@@ -63,7 +71,9 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
         raise typer.Exit(End.INVALID.exit_code)
     path = record or Path(f"{fleet.stem}-{time.strftime('%Y%m%d-%H%M%S')}.mcap")
     report = print_json if as_json else print_event
-    options = Options(fleet, path, seed, is_headless=headless, is_numbered=record is None)
+    options = Options(
+        fleet, path, seed, is_headless=headless, is_numbered=record is None, every=every
+    )
     raise typer.Exit(drive_fleet(options, report).exit_code)
 
 

@@ -26,6 +26,7 @@ def main() -> int:
     parser.add_argument("fleet", type=Path)
     parser.add_argument("--record", type=Path, required=True)
     parser.add_argument("--numbered", action="store_true", help="NAME-2.mcap if it exists.")
+    parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--page", action="store_true", help="Report the run and all its inputs.")
     arguments = parser.parse_args()
@@ -33,7 +34,7 @@ def main() -> int:
     pipe = Pipe()
     try:
         loaded = fleet.load(arguments.fleet)
-        options = LogOptions(arguments.record, is_numbered=arguments.numbered)
+        options = LogOptions(arguments.record, arguments.numbered, arguments.every)
         loop = Loop(loaded, pipe, options, arguments.seed, has_page=arguments.page)
     except InputError as error:
         pipe.send({"type": "invalid", "message": str(error), "errors": error.errors})

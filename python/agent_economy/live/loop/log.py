@@ -20,6 +20,7 @@ from agent_economy.recording.live_topics import (
     live_schema,
 )
 from agent_economy.recording.output import create_new
+from agent_economy.recording.selection import Selection
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
 
@@ -34,10 +35,13 @@ class LogOptions:
     Attributes:
         path: The file, NAME.mcap.
         is_numbered: Whether NAME-2, NAME-3 and so on are used if it exists.
+        every: Number of steps per recorded state, 1 or more; also of percepts, commands and scans.
+            What a replay needs is recorded in each step.
     """
 
     path: Path
     is_numbered: bool = False
+    every: int = 1
 
 
 class Log:
@@ -57,9 +61,11 @@ class Log:
         """
         plan = fleet.plan
         self.path = create_new(options.path, is_numbered=options.is_numbered)
+        robots = tuple(each.name for each in plan.robots)
+        selection = Selection(robots, options.every)
         try:
             self._recording = Recording(
-                simulation, self.path, percepts=[each.name for each in plan.robots], flush_s=FLUSH_S
+                simulation, self.path, every=options.every, percepts=selection, flush_s=FLUSH_S
             )
         except InputError:
             self.path.unlink()
@@ -84,6 +90,8 @@ class Log:
 
     def tick(self, tick: int, now_s: float, lateness_s: float, behind_s: float = 0.0) -> None:
         """Record that a tick begins."""
+        # In microseconds: noise does not compress.
+        behind_s = round(behind_s, 6)
         values = {"tick": tick, "t": now_s, "lateness_s": lateness_s, "behind_s": behind_s}
         topic = TICKS
         self._recording.write_json(topic, live_schema(topic), values, now_s - self._start_s)

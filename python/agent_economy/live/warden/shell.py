@@ -34,6 +34,7 @@ class Options:
         fleet: The fleet file.
         record: The recording, which must not exist.
         is_numbered: Whether NAME-2, NAME-3 and so on are used if it exists.
+        every: Number of steps per recorded state.
         seed: Seed of the simulated robots and sensors.
         is_headless: Whether it arms its robots itself, and ends by itself.
     """
@@ -43,10 +44,12 @@ class Options:
     seed: int
     is_headless: bool
     is_numbered: bool = False
+    every: int = 1
 
     def for_loop(self) -> list[str]:
         """Return the arguments of the process of the loop."""
         arguments = [str(self.fleet), "--record", str(self.record), "--seed", str(self.seed)]
+        arguments += ["--every", str(self.every)]
         arguments += ["--numbered"] if self.is_numbered else []
         return arguments if self.is_headless else [*arguments, "--page"]
 
