@@ -20,6 +20,7 @@ from test_recording import SHORT
 import agent_economy as ae
 from agent_economy import InputError, Simulation
 from agent_economy.live import fleet
+from agent_economy.live.emulator.log import opened
 from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.recording.output import BLOCK_BYTES, MARK, create_new
 from agent_economy.server.recordings.writer import rename_complete
@@ -85,6 +86,13 @@ def test_a_saved_run_of_a_page_replaces_no_drive(drive: bytes, tmp_path: Path) -
     with pytest.raises(InputError, match="is the recording of a drive"):
         rename_complete(file, "run")
     assert final.read_bytes() == drive
+
+
+def test_the_log_of_an_emulator_replaces_no_drive(drive: bytes, tmp_path: Path) -> None:
+    (path := tmp_path / "log").write_bytes(drive)
+    with pytest.raises(InputError, match="is the recording of a drive"):
+        opened(path)
+    assert path.read_bytes() == drive
 
 
 @pytest.mark.parametrize("place", [0, BLOCK_BYTES - len(MARK) // 2, BLOCK_BYTES, 3 * BLOCK_BYTES])
