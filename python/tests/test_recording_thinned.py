@@ -58,7 +58,7 @@ def test_a_replay_verifies_every_percept_and_setpoint_of_a_thinned_drive(
 
 
 def rewritten(path: Path, changed: Path, at: int) -> None:
-    """Copy a recording with other compass lines from a step on, with checksums that are right."""
+    """Copy a recording with other compass lines after a step, and with right checksums."""
     topics: dict[int, str] = {}
     with path.open("rb") as source, changed.open("wb") as target:
         writer = Writer(target)

@@ -58,7 +58,7 @@ class Recording:
             percepts: Names of robots, KIND/INDEX, of which the percepts, commands and range scans
                 are recorded in each step. None by default: those of all robots take about twenty
                 times the space of everything else. Not available for the classic engine. A
-                `Selection` also says how often.
+                `Selection` also states how often.
             flush_s: Simulated time that a kill of the process loses; shorter times make larger
                 files.
 
