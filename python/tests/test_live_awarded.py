@@ -10,7 +10,7 @@ from conftest import ROOT
 from live_bench import Drive, driving, emulated, fleet_text
 
 import agent_economy as ae
-from agent_economy.live.loop.awarded import QUIET_S, AwardedGoals, awarded_to
+from agent_economy.live.loop.awarded import DEFAULTS_S, QUIET_S, AwardedGoals, awarded_to
 from agent_economy.live.replay import replay
 from agent_economy.live.warden.sentences import sentence
 
@@ -90,14 +90,39 @@ def test_a_goal_that_no_robot_is_awarded_is_given_up_only_while_a_robot_drives(
 ) -> None:
     # No robot is in range of the controller.
     watch = Watch(economy(tmp_path / "economy.toml", range_m=0.5))
+    quiet_s = watch.goals.quiet_s
+    assert quiet_s == QUIET_S + 2
     pending = {f"spot/{number}": ("pending", None) for number in range(3)}
-    assert watch.step(3 * QUIET_S, is_driving=False) == pending
-    assert watch.step(QUIET_S - 1) == pending
+    assert watch.step(3 * quiet_s, is_driving=False) == pending
+    assert watch.step(quiet_s - 1) == pending
     assert watch.step(1, is_driving=False) == pending  # a hold
-    assert watch.step(QUIET_S - 1) == pending
+    assert watch.step(quiet_s - 1) == pending
     assert watch.step(2) == dict.fromkeys(pending, ("impossible", None))
     reasons = [each["unserved"] for each in watch.goals.verdicts()]
     assert reasons == ["no_robot"] * 3
+
+
+def test_a_long_auction_and_a_lost_owner_are_waited_for(tmp_path: Path) -> None:
+    path = economy(tmp_path / "slow.toml", keys="")
+    slow = path.read_text().replace(
+        "[controllers.base]", "[controllers.base]\nauction_s = 40\nservice_lease_s = 60"
+    )
+    path.write_text(slow.replace("count = 1\nstart", "count = 2\nstart"))
+    path.write_text(path.read_text().replace("[[2, 2]]", "[[2, 2], [3, 3]]"))
+    watch = Watch(path)
+    assert watch.goals.quiet_s == QUIET_S + 2 * 40 + 30 + 60
+    watch.step(20)  # the heir of each goal knows it
+    watch.simulation.fail("base/0")
+    verdicts = [verdict for _ in range(300) for verdict, _ in watch.step(1).values()]
+    assert verdicts[-3:] == ["complete"] * 3
+    assert "impossible" not in verdicts
+
+
+def test_the_defaults_of_controllers_are_those_of_the_schema() -> None:
+    schema = (ROOT / "schemas" / "metric.schema.json").read_text(encoding="utf-8")
+    for key, value in DEFAULTS_S.items():
+        text = schema.partition(f'"{key}": {{')[2]
+        assert float(re.findall(r'"default": ([\d.]+)', text)[0]) == value
 
 
 def test_a_goal_that_arrives_later_is_waited_for_and_one_that_expires_is_impossible(

@@ -4,7 +4,7 @@ That a real robot serves a goal is known from its messages: the judge of the run
 position that the robot measures, later than the robot does.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,12 +14,15 @@ from agent_economy import _core
 from agent_economy.runs.simulation import Simulation
 
 QUIET_S = 30.0
-"""A goal is given up if no goal has been awarded for this time while a robot drives.
+"""Goals are given up if none is awarded for this time, and that of auctions, while a robot drives.
 
 It exceeds the pause after which a controller offers a goal for the second time, 20 s.
 """
 
 MOVING = ("approaching", "receding")
+
+DEFAULTS_S = {"auction_s": 1.0, "owner_lease_s": 30.0, "service_lease_s": 20.0}
+"""Defaults of keys of controllers."""
 
 OPERATOR = 255
 """The kind of the issuer of a scenario's goals."""
@@ -31,9 +34,11 @@ class AwardedGoals:
 
     Attributes:
         robots: The real robots that serve awarded goals.
+        quiet_s: Time without an awarded goal after which goals are given up.
     """
 
     robots: frozenset[str]
+    quiet_s: float
     _simulation: Simulation
     _done: dict[tuple[int, int], str] = field(default_factory=dict)
     _given_up: set[str] = field(default_factory=set)
@@ -65,7 +70,7 @@ class AwardedGoals:
         }
         if self._awarded or not is_driving or self._busy_s is None:
             self._busy_s = now_s
-        is_quiet = now_s - self._busy_s > QUIET_S
+        is_quiet = now_s - self._busy_s > self.quiet_s
         issued = np.isfinite(self._goals["issued_s"])
         rows = zip(self._goals["name"], issued, self._goals["expired"], strict=True)
         self._given_up |= {name for name, was, late in rows if late or (was and is_quiet)}
@@ -105,9 +110,23 @@ class AwardedGoals:
 def awarded_to(simulation: Simulation, robots: Iterable[str]) -> AwardedGoals:
     """Return the goals of a run that controllers award to some real robots; none without them."""
     scenario = simulation.scenario.to_dict()
-    counts = [each["count"] for each in scenario.get("controllers", {}).values()]
-    serving = {name for name in robots if serves(scenario, name)} if any(counts) else set()
-    return AwardedGoals(frozenset(serving), simulation)
+    controllers = [each for each in scenario.get("controllers", {}).values() if each["count"]]
+    serving = {name for name in robots if serves(scenario, name)} if controllers else set()
+    return AwardedGoals(frozenset(serving), quiet_time_s(controllers), simulation)
+
+
+def quiet_time_s(controllers: Sequence[Mapping[str, Any]]) -> float:
+    """Return how long no goal may be awarded although one will be.
+
+    That is a pause, two auctions, and, if controllers can be heirs, the leases of an owner and of a
+    robot that are lost.
+    """
+    auction_s, owner_s, service_s = (
+        max((float(each.get(key, default)) for each in controllers), default=0.0)
+        for key, default in DEFAULTS_S.items()
+    )
+    has_heirs = sum(each["count"] for each in controllers) > 1
+    return QUIET_S + 2 * auction_s + (owner_s + service_s if has_heirs else 0.0)
 
 
 def serves(scenario: Mapping[str, Any], robot: str) -> bool:
