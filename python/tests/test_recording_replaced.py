@@ -25,7 +25,7 @@ from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.recording.output import BLOCK_BYTES, MARK, create_new
 from agent_economy.server.recordings.writer import rename_complete
 
-STOLEN = [sys.executable, "-m", "agent_economy", "drive", "bender", "--headless", "--arm"]
+DRIVE = [sys.executable, "-m", "agent_economy", "drive", "bender", "--headless", "--arm"]
 
 
 @pytest.fixture(scope="module")
@@ -156,7 +156,7 @@ KINDS = (
 def test_a_drive_never_replaces_a_file(kind: str, mcap: Path) -> None:
     before = state(existing(kind, mcap))
     done = subprocess.run(
-        [*STOLEN, "--record", str(mcap)], capture_output=True, text=True, check=False, timeout=60
+        [*DRIVE, "--record", str(mcap)], capture_output=True, text=True, check=False, timeout=60
     )
     assert done.returncode == 2
     assert re.match(
