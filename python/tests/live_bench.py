@@ -251,8 +251,9 @@ class Drive:
 
 @contextmanager
 def driving(fleet: Path, *arguments: str, headless: bool = True) -> Iterator[Drive]:
-    """Run a drive, and end it if it still runs."""
-    record = fleet.with_suffix(".mcap")
+    """Run a drive, and end it if it still runs; its recording has a name that is free."""
+    names = (fleet.with_name(f"{fleet.stem}{suffix}.mcap") for suffix in ("", *range(2, 100)))
+    record = next(name for name in names if not name.exists())
     command = [sys.executable, "-m", "agent_economy", "drive", str(fleet), "--json"]
     command += ["--record", str(record), *(("--headless", "--arm") if headless else ()), *arguments]
     environment = os.environ | {"XDG_RUNTIME_DIR": str(fleet.parent)}

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,10 @@ from live_bench import STOP_LINE, Bench, driving, emulated, fleet_text
 from wire_faults import lanes
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.replay import read_drive, replay
+from agent_economy.recording.live_topics import TICKS
+
+STEP_S = 0.1
 
 
 @pytest.fixture(scope="module")
@@ -111,6 +116,7 @@ def test_a_second_drive_of_a_robot_is_refused(bench: Bench, tmp_path: Path) -> N
             text = str(second.events[-1])
             assert f"127.0.0.1:{bench.robots[0]['motors']}" in text
             assert "is being driven" in text
+            assert not second.record.exists()  # nothing was driven: the name is free again
         assert first.process.poll() is None
         bench.wait_for_motion(1)
         stopped_s = now_s()
@@ -139,3 +145,33 @@ def test_bad_input_ends_a_drive_with_a_message_and_exit_code_2(
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@repeated_if_late
+def test_a_drive_makes_up_for_a_late_step_without_a_burst(bench: Bench, tmp_path: Path) -> None:
+    with driving(fleet_of(bench, tmp_path, robots=[0])) as drive:
+        drive.wait_until_moving("bender/0")
+        time.sleep(4)  # the time until the first step is made up for, too
+        loop = drive.loop_pid()
+        os.kill(loop, signal.SIGSTOP)
+        time.sleep(0.2)
+        os.kill(loop, signal.SIGCONT)
+        time.sleep(4)
+        drive.process.send_signal(signal.SIGINT)
+        assert drive.wait() == 130
+    end = drive.events[-1]
+    assert end["late_steps"] >= 1
+    assert 0.1 < end["max_behind_s"] < 2
+    recorded = read_drive(drive.record)
+    assert recorded is not None
+    ticks = [message for topic, message in recorded.messages if topic == TICKS]
+    start_s = float((recorded.values or {})["start_s"])
+    assert all(other["t"] - one["t"] >= 0.09 - 1e-6 for one, other in pairwise(ticks))
+    assert max(each["behind_s"] for each in ticks[30:]) == pytest.approx(
+        end["max_behind_s"], abs=0.05
+    )
+    for each in ticks:
+        behind_s = each["t"] - start_s - each["tick"] * STEP_S
+        assert each["behind_s"] == pytest.approx(behind_s, abs=1e-6)
+    assert ticks[-1]["behind_s"] < 0.05
+    assert replay(drive.record).agrees

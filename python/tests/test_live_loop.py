@@ -1,10 +1,14 @@
 """The loop's parts: percepts of lines, the pace of steps, and the pipe to the warden."""
 
+import contextlib
 import json
 import math
+import random
 import subprocess
 import sys
 import time
+from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -128,15 +132,119 @@ def test_a_waypoint_is_pending_from_the_order_on_also_before_the_brain_steps(
     assert not list(team.new_verdicts())
 
 
-def test_late_steps_are_counted_and_never_made_up_for() -> None:
-    pacer = Pacer(0.1, due_s=10.0)
-    assert pacer.tick(10.0) == 0.0
-    assert pacer.tick(10.12) == pytest.approx(0.02)  # late by less than a step: the pace holds
-    assert pacer.due_s == pytest.approx(10.2)
-    assert pacer.tick(10.75) == pytest.approx(0.55)
-    assert pacer.due_s == pytest.approx(10.85)  # no burst: the next step is a whole step away
-    assert pacer.late_ticks == 1
-    assert pacer.behind_s == pytest.approx(0.55)
+@dataclass
+class Paced:
+    """A loop with a clock of its own.
+
+    Attributes:
+        pacer: Its pacer.
+        now_s: The time.
+        times_s: When it took its ticks.
+    """
+
+    pacer: Pacer
+    now_s: float
+    times_s: list[float] = field(default_factory=list)
+
+    def tick(self, late_s: float = 0.0) -> float:
+        """Take the next tick, late by some time; return by how much it was late."""
+        self.now_s = max(self.now_s, self.pacer.due_s) + late_s
+        self.times_s.append(self.now_s)
+        return self.pacer.tick(self.now_s)
+
+
+def paced(period_s: float = 0.1, start_s: float = 10.0, *, first_s: float | None = None) -> Paced:
+    first_s = start_s if first_s is None else first_s
+    return Paced(Pacer(period_s, start_s, first_s), first_s)
+
+
+def test_late_steps_are_counted_with_the_time_that_the_run_is_behind_the_clock() -> None:
+    loop = paced()
+    assert loop.tick() == 0.0
+    assert loop.tick(0.02) == pytest.approx(0.02)  # late by less than a step: the pace holds
+    assert loop.pacer.due_s == pytest.approx(10.21)  # and the next one comes 0.09 s later
+    assert loop.tick() == pytest.approx(0)
+    assert loop.tick(0.55) == pytest.approx(0.55)
+    numbers = {"late_steps": 1, "behind_s": 0.55, "max_behind_s": 0.55}
+    assert loop.pacer.counts() == pytest.approx(numbers)
+    assert loop.pacer.slew_s == pytest.approx(9 * 0.55)
+
+
+LATENESS_S = st.one_of(st.just(0.0), st.floats(0, 0.05), st.floats(0, 5), st.floats(0, 4000))
+
+
+@given(
+    st.sampled_from([0.02, 0.1, 0.25, 1.0]), st.floats(0, 1e6), st.lists(LATENESS_S, max_size=60)
+)
+def test_two_steps_are_never_nearer_than_09_periods_and_none_is_early(
+    period_s: float, start_s: float, lateness_s: list[float]
+) -> None:
+    loop = paced(period_s, start_s)
+    for late_s in lateness_s:
+        loop.tick(late_s)
+    for number, (one, other) in enumerate(pairwise(loop.times_s), 1):
+        assert other - one >= 0.9 * period_s - 1e-6
+        assert other >= start_s + number * period_s - 1e-6
+    assert loop.pacer.behind_s <= sum(lateness_s) + 1e-6
+
+
+@given(st.sampled_from([0.02, 0.1, 1.0]), st.floats(0.0, 100))
+def test_after_a_lateness_the_run_agrees_with_the_clock_within_ten_times_that(
+    period_s: float, late_s: float
+) -> None:
+    loop = paced(period_s)
+    loop.tick()
+    loop.tick(late_s)
+    until_s = loop.now_s + 10 * late_s + 2 * period_s
+    while loop.now_s < until_s:
+        loop.tick()
+    assert loop.pacer.behind_s == pytest.approx(0, abs=1e-6)
+    assert loop.pacer.late_ticks == (late_s >= period_s)
+
+
+def test_a_run_does_not_drift_from_the_clock_in_100000_late_steps() -> None:
+    source, loop = random.Random(1), paced()  # noqa: S311
+    for _ in range(100_000):
+        is_late = source.random() < 0.01
+        loop.tick(source.uniform(0, 0.5) if is_late else source.uniform(0, 0.005))
+    for _ in range(1000):
+        loop.tick()
+    ticks = len(loop.times_s) - 1
+    assert loop.now_s == pytest.approx(10.0 + ticks * 0.1, abs=1e-6)
+    assert loop.pacer.behind_s == pytest.approx(0, abs=1e-6)
+    assert 500 < loop.pacer.late_ticks < 1200
+    assert 0.3 < loop.pacer.max_behind_s < 10
+
+
+def test_the_time_until_the_first_step_is_made_up_for_too_and_is_not_late() -> None:
+    loop = paced(first_s=10.4)
+    loop.tick()
+    assert loop.pacer.counts() == pytest.approx(
+        {"late_steps": 0, "behind_s": 0.4, "max_behind_s": 0.0}
+    )
+    for _ in range(50):
+        loop.tick()
+    assert loop.pacer.behind_s == pytest.approx(0)
+
+
+EARLY = """
+from agent_economy.live.clock import now_s
+received = pipe.receive_until(now_s() + 1.0)
+started_s = now_s()
+count = sum(1 for _ in received)
+sys.exit(0 if now_s() - started_s >= 0.99 and count > 2000 else 1)
+"""
+
+
+def test_a_flood_of_messages_does_not_have_a_step_taken_early() -> None:
+    process = pipe_program(EARLY)
+    assert process.stdin is not None
+    deadline_s = time.monotonic() + 5
+    with contextlib.suppress(BrokenPipeError):
+        while process.poll() is None and time.monotonic() < deadline_s:
+            process.stdin.write(b"{}\n")
+            process.stdin.flush()
+    assert process.wait(10) == 0
 
 
 def pipe_program(body: str) -> subprocess.Popen[bytes]:

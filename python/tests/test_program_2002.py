@@ -33,6 +33,8 @@ ORIGIN = Origin(36.595267, -121.875003)
 CLEAR, NEAR_LEFT, NEAR_BOTH = "9,9,9,9,9,9", "2,9,9,9,9,9", "2,2,9,9,9,9"
 GPS = "36,35.716,N,121,52.5002,W"
 
+LEFT, RIGHT = ["x,0,75,", "x,1,175,"], ["x,1,75,", "x,0,175,"]
+
 LINES = st.text(st.characters(codec="latin-1"), max_size=20)
 """Lines as recordings have them."""
 
@@ -96,9 +98,14 @@ def test_a_course_error_across_north_is_not_wrapped() -> None:
     assert control.difference_deg == pytest.approx(356, abs=0.6)
 
 
+def avoidance(sonar: str, then: str | None = None) -> Lines:
+    """Return the lines of a pass that calls for an avoidance, and of the choice of its side."""
+    return [*one_pass(sonar), ("sonar", then or sonar)]
+
+
 def test_one_clear_side_ends_an_avoidance() -> None:
     still_near = [("sonar", NEAR_LEFT), *one_pass()]
-    assert written(one_pass(NEAR_BOTH) + still_near) == [
+    assert written(avoidance(NEAR_BOTH) + still_near) == [
         "x,3,",
         "x,1,75,",
         "x,0,175,",
@@ -108,13 +115,61 @@ def test_one_clear_side_ends_an_avoidance() -> None:
 
 def test_the_direction_of_an_avoidance_is_chosen_once() -> None:
     better_left = [("sonar", "2,1,9,9,1,2")] * 5
-    assert written(one_pass(NEAR_BOTH) + better_left) == ["x,3,", "x,1,75,", "x,0,175,"]
+    assert written(avoidance(NEAR_BOTH) + better_left) == ["x,3,", "x,1,75,", "x,0,175,"]
 
 
 @pytest.mark.parametrize("sonar", ["1,9,9,9,9,9", "9,1,9,9,9,9"])
 def test_what_is_near_on_either_side_is_avoided(sonar: str) -> None:
     turn = ["x,1,75,", "x,0,175,"] if sonar.startswith("1") else ["x,0,75,", "x,1,175,"]
-    assert written(one_pass(sonar)) == ["x,3,", *turn]
+    assert written(avoidance(sonar)) == ["x,3,", *turn]
+
+
+@pytest.mark.parametrize("before", ["2,9,9,9,9,5", "9,2,9,9,9,5", "2,2,9,9,1,2", "2,2,9,9,2,1"])
+@pytest.mark.parametrize(
+    ("sonar", "turn"),
+    [("2.5,2,9,9,9,5", LEFT), ("2,2.5,9,9,9,5", RIGHT), ("2,2,9,9,4,5", LEFT), (CLEAR, RIGHT)],
+)
+def test_the_side_of_an_avoidance_is_chosen_from_the_line_after_the_one_that_calls_for_it(
+    before: str, sonar: str, turn: list[str]
+) -> None:
+    assert written(one_pass(before)) == ["x,3,"]
+    assert written(avoidance(before, sonar)) == ["x,3,", *turn]
+
+
+def test_an_avoidance_that_is_clear_at_once_still_turns_until_the_line_after_that() -> None:
+    assert written([*avoidance(NEAR_BOTH, CLEAR), *one_pass()])[-1] == "x,0,175,"
+    assert written([*avoidance(NEAR_BOTH, CLEAR), ("sonar", CLEAR), *one_pass()])[-1] == "x,2,175,"
+
+
+def test_the_heading_that_is_sent_is_the_bearing_from_another_fix() -> None:
+    moved = "36,35.73,N,121,52.49,W"
+    control = Control(Waypoint(), steers=True)
+    sent = drive(control, [("compass", "100"), *one_pass(compass="100")])
+    assert sent == [("motors", "x,3,")]  # it stops, and waits for the fix
+    there = Readings()
+    there.take("gps", moved)
+    desired_deg = bearing_deg(there.position, Waypoint())
+    control = Control(Waypoint(), steers=True)
+    sent = drive(control, [("compass", "100"), *one_pass(compass="100"), ("gps", moved)])
+    assert sent == [("motors", "x,3,"), ("compass", f"{desired_deg:.2f}")]
+    assert control.bearing_deg == desired_deg
+    assert control.difference_deg == pytest.approx(abs(90 - desired_deg))
+
+
+def test_a_turn_ends_at_the_bearing_from_the_other_fix() -> None:
+    aligned = [("gps", GPS), ("compass", "10"), ("compass", "55")]
+    lines = [("compass", "200"), *one_pass(compass="200", gps="36,35.73,N,121,52.49,W"), *aligned]
+    sent = drive(Control(Waypoint(), steers=True), lines)
+    assert sent == [("motors", "x,3,"), ("compass", "45.00"), ("motors", "x,3,")]
+
+
+def test_what_was_written_before_a_read_stays_in_force_after_it() -> None:
+    lines = [("compass", "10"), *avoidance(NEAR_BOTH)]
+    stamped = [(float(place), port, line) for place, (port, line) in enumerate(lines)]
+    compared = compare(PLAN, ORIGIN, None, messages(stamped))
+    turn = [("motors", line) for line in ("x,3,", "x,1,75,", "x,0,175,")]
+    assert [list(row.sent_2002) for row in compared.rows] == [[], turn[:1], turn]
+    assert compared.waits_for == "sonar"
 
 
 def test_without_sonar_lines_the_robot_drives_on() -> None:
@@ -175,7 +230,7 @@ def test_headings_are_reduced_at_the_lower_end_only() -> None:
 
 
 def test_a_turn_also_drives_backwards() -> None:
-    values = [int(line.split(",")[2]) for line in written(one_pass(NEAR_BOTH))[1:]]
+    values = [int(line.split(",")[2]) for line in written(avoidance(NEAR_BOTH))[1:]]
     assert sum(values) / 2 == 125
 
 

@@ -21,7 +21,8 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     headless: Annotated[
         bool,
         typer.Option(
-            "--headless", help="End when all waypoints are reached, or when a stop is latched."
+            "--headless",
+            help="End when all waypoints and goals are reached, or when a stop is latched.",
         ),
     ] = False,
     arm: Annotated[
@@ -30,10 +31,19 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     record: Annotated[
         Path | None,
         typer.Option(
-            help="The recording, NAME.mcap. [default: FLEET-TIME.mcap in this folder]",
+            help="The recording, NAME.mcap, which must not exist. "
+            "[default: FLEET-TIME.mcap in this folder]",
             show_default=False,
         ),
     ] = None,
+    every: Annotated[
+        int,
+        typer.Option(
+            min=1,
+            help="Number of steps between recorded states, percepts and scans. Everything that a "
+            "replay verifies is recorded in each step.",
+        ),
+    ] = 1,
     seed: Annotated[int, typer.Option(help="Seed of the simulated robots and sensors.", min=0)] = 0,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print each event as a line of JSON on standard output.")
@@ -45,10 +55,11 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
     robots first. From another terminal, `agent-economy stop` stops all robots. docs/safety.md lists
     everything that stops a robot.
 
-    Exit codes: 0 all waypoints were reached; 1 some cannot be reached; 2 the fleet file or an
-    argument is not valid, or another program drives a robot; 3 a robot was stopped and has to be
-    armed again; 4 a robot could not be armed within 30 s; 130 stopped by Ctrl-C or a signal;
-    137 the warden was suspended or silent, and the loop ended it and stopped the robots.
+    Exit codes: 0 all waypoints and goals were reached; 1 some cannot be reached; 2 the fleet file
+    or an argument is not valid, the recording exists, or another program drives a robot; 3 a robot
+    was stopped and has to be armed again; 4 a robot could not be armed within 30 s; 130 stopped by
+    Ctrl-C or a signal; 137 the warden was suspended or silent, and the loop ended it and stopped
+    the robots.
 
     Example: agent-economy drive fleets/bender.toml --headless --arm
     """
@@ -60,7 +71,9 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
         raise typer.Exit(End.INVALID.exit_code)
     path = record or Path(f"{fleet.stem}-{time.strftime('%Y%m%d-%H%M%S')}.mcap")
     report = print_json if as_json else print_event
-    options = Options(fleet, path, seed, is_headless=headless)
+    options = Options(
+        fleet, path, seed, is_headless=headless, is_numbered=record is None, every=every
+    )
     raise typer.Exit(drive_fleet(options, report).exit_code)
 
 

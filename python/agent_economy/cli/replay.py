@@ -47,10 +47,12 @@ def replay(
     """Replay a recorded run from its file alone, and verify that it is reproduced exactly.
 
     Every recorded state is compared bit by bit, and so are all percepts and commands until then. A
-    truncated recording is compared up to its end.
+    truncated recording is compared up to its end, a damaged one up to the damage; the output names
+    the step.
 
-    Exit codes: 0 reproduced; 1 not reproduced; 2 the file is damaged, not a recording, or of
-    another build of this program; 130 stopped by Ctrl-C.
+    Exit codes: 0 reproduced, as far as the file is whole; 1 not reproduced; 2 the file is damaged
+    before its first state, not a recording, or of another build of this program; 130 stopped by
+    Ctrl-C.
 
     Example: agent-economy replay run.mcap
     """
@@ -76,11 +78,15 @@ def print_2002(file: Path, *, steers: bool, as_json: bool) -> None:
     from agent_economy.live.as_2002 import compare_2002  # noqa: PLC0415
 
     with error_exits():
-        comparisons = compare_2002(file, steers=steers)
+        compared = compare_2002(file, steers=steers)
+    if compared.damaged_tick is not None:
+        typer.echo(f"The recording is damaged from step {compared.damaged_tick:,} on.", err=True)
+    elif not compared.is_complete:
+        typer.echo("The recording is truncated.", err=True)
     if as_json:
-        typer.echo(json.dumps([asdict(each) for each in comparisons], indent=2))
+        typer.echo(json.dumps([asdict(each) for each in compared.robots], indent=2))
         return
-    for comparison in comparisons:
+    for comparison in compared.robots:
         print_comparison(comparison)
 
 
@@ -95,18 +101,22 @@ def as_sentence(result: "Replay") -> str:
         verdict = f"differs from the recording {from_step}"
     build = Build(result.program, result.engine)
     builds = "" if build == own_build() else f"; recorded by {build}, replayed by {own_build()}"
-    end = (
-        ""
-        if result.is_complete
-        else f"; the recording is truncated: it ends at step {result.tick:,}"
-    )
-    return f"{which}: {verdict}{builds}{end}"
+    return f"{which}: {verdict}{builds}{ending(result)}"
+
+
+def ending(result: "Replay") -> str:
+    """Return where a recording is damaged or truncated, in words; empty if it is complete."""
+    if result.damaged_tick is not None:
+        return f"; the recording is damaged from step {result.damaged_tick:,} on"
+    if not result.is_complete:
+        return f"; the recording is truncated: it ends at step {result.tick:,}"
+    return ""
 
 
 def as_dict(result: "Replay") -> dict[str, object]:
     """Return the result of a replay for programs."""
     first = ("seed", "run", "program", "engine")
-    last = ("mismatch_tick", "mismatch", "lines")
+    last = ("mismatch_tick", "mismatch", "lines", "damaged_tick")
     names = (*first, "is_complete", "tick", "hash", "agrees", *last)
     return {
         "scenario": result.scenario.name,

@@ -1,6 +1,7 @@
 """Compares a recorded drive with the program of 2002."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,23 @@ from agent_economy.recording.reading import named, read
 from agent_economy.scenario import Scenario
 
 
-def compare_2002(path: str | Path, *, steers: bool = False) -> list[Comparison]:
+@dataclass(frozen=True)
+class Compared:
+    """A recorded drive beside the program of 2002.
+
+    Attributes:
+        robots: The comparison of each robot.
+        is_complete: Whether the file is complete; a truncated file is read up to its end, a
+            damaged one up to the damage.
+        damaged_tick: Tick from which on the file is damaged; None if it is not.
+    """
+
+    robots: tuple[Comparison, ...]
+    is_complete: bool
+    damaged_tick: int | None
+
+
+def compare_2002(path: str | Path, *, steers: bool = False) -> Compared:
     """Return what the program of 2002 would have sent to each robot, beside what was sent.
 
     Both steer to the first waypoint of the robot. The program of 2002 is given the recorded lines.
@@ -24,7 +41,8 @@ def compare_2002(path: str | Path, *, steers: bool = False) -> list[Comparison]:
         steers: Whether the program of 2002 turns to its waypoint. As printed, it never does.
 
     Raises:
-        InputError: If the file cannot be read, is damaged, or is not a recording of a drive.
+        InputError: If the file cannot be read, is damaged before its first state, or is not a
+            recording of a drive.
     """
     drive = read_drive(Path(path))
     if drive is None:
@@ -33,17 +51,18 @@ def compare_2002(path: str | Path, *, steers: bool = False) -> list[Comparison]:
     with named(Path(path)):
         run = Entries(f"metadata {LIVE!r}", drive.values)
         plan, ordered_m = plan_of(run.json("plan")), run.json("waypoints_m")
-    scenario = read(Path(path))[0].scenario
-    return [
+    identity, recorded = read(Path(path))
+    robots = tuple(
         compare(
             robot,
             plan.origin,
-            first_waypoint_m(scenario, robot.name, ordered_m),
+            first_waypoint_m(identity.scenario, robot.name, ordered_m),
             drive.lines_of(robot.name),
             steers=steers,
         )
         for robot in plan.robots
-    ]
+    )
+    return Compared(robots, recorded.is_complete, recorded.damaged_tick)
 
 
 def first_waypoint_m(

@@ -2,10 +2,11 @@
 
 The warden sends: `line` (a stamped line of a robot), `written` (a line that it wrote), `event` (a
 change of a robot's state, with its reasons), `order` (a waypoint that an operator ordered), `beat`
-(it is running), `end` (close the recording).
+(it is running), `end` (close the recording), `cancel` (remove it: the drive has not begun).
 
 The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, then it ends),
-`setpoint` (the motion of one robot), `beat` (one per tick, with its lateness), `goal` (a verdict),
+`setpoint` (the motion of one robot), `beat` (one per tick, with its lateness and the time by which
+the run is behind the clock), `goal` (a verdict), `message` (to the operator, in words),
 `radio` (a robot has become silent for its team, or is so no more),
 `recording_error`. If there is a page, also `run` (what it needs to step the same run, before
 `plan`) and `input` (the percepts of one step). `ended` stands for the end of its pipe.

@@ -2,10 +2,12 @@
 
 import json
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
+from mcap.exceptions import EndOfFile
 from mcap.records import Channel, McapRecord, Message, Metadata
 
 from agent_economy import recording
@@ -16,7 +18,8 @@ from agent_economy.recording import Replay
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.file import strict
 from agent_economy.recording.live_topics import EVENTS, LIVE, ORDERS, SETPOINTS, TICKS, WIRE
-from agent_economy.recording.reading import each_record, named
+from agent_economy.recording.reading import file_errors, named, read_records
+from agent_economy.regular_file import open_regular
 from agent_economy.runs.simulation import Simulation
 
 INPUT = "/input"
@@ -30,11 +33,20 @@ class Drive:
     Attributes:
         values: Its metadata; None if the recording is not of a drive.
         messages: The lines and events, the ticks, the percepts and the setpoints.
+        damaged_tick: The first tick behind the damage of the file; None if it is not damaged.
     """
 
     values: Mapping[str, str] | None = None
     messages: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
+    damaged_tick: int | None = None
     _topics: dict[int, str] = field(default_factory=dict)
+    _tick: int = -1
+
+    def read_all(self, stream: IO[bytes]) -> None:
+        """Add the records of a file, up to its end, or to where it is truncated or damaged."""
+        with suppress(EndOfFile):
+            if read_records(stream, self.add) is not None:
+                self.damaged_tick = self._tick + 1
 
     def add(self, record: McapRecord) -> None:
         """Add a record of the file."""
@@ -46,7 +58,15 @@ class Drive:
             case Message():
                 topic = self._topics.get(record.channel_id, "")
                 if topic.startswith(WIRE) or topic in (EVENTS, ORDERS, TICKS, SETPOINTS, INPUT):
-                    self.messages.append((topic, json.loads(record.data)))
+                    self._add_message(topic, json.loads(record.data))
+
+    def _add_message(self, topic: str, message: dict[str, Any]) -> None:
+        if topic == TICKS:
+            if message["tick"] <= self._tick:
+                error = "is damaged: its steps are not in order"
+                raise InputError(error)
+            self._tick = message["tick"]
+        self.messages.append((topic, message))
 
     @property
     def lines(self) -> int:
@@ -111,13 +131,15 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
     the recorded ones, as have the setpoints.
 
     Args:
-        path: A recording. A truncated file is compared up to its end.
+        path: A recording. A truncated file is compared up to its end, a damaged one up to the
+            damage.
         verify: Whether to refuse a recording of another build of this program, which may give
             another run. Without it, such a recording is replayed and compared all the same.
 
     Raises:
-        InputError: If the file cannot be read, is damaged, is not a recording of a run, contains a
-            scenario that this version does not accept, or is of another build.
+        InputError: If the file cannot be read, is damaged before its first state, is not a
+            recording of a run, contains a scenario that this version does not accept, or is of
+            another build.
     """
     replayed = recording.replay(path, verify=verify)
     # The robots of a drive are external: other files are read once.
@@ -126,7 +148,12 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
         return replayed
     with named(Path(path)):
         tick = drive.mismatch(replayed)
-    replayed = replace(replayed, lines=drive.lines)
+    ticks = [each for each in (replayed.damaged_tick, drive.damaged_tick) if each is not None]
+    damaged_tick = min(ticks, default=None)
+    is_complete = replayed.is_complete and damaged_tick is None
+    replayed = replace(
+        replayed, lines=drive.lines, damaged_tick=damaged_tick, is_complete=is_complete
+    )
     before = replayed.mismatch_tick
     if tick is None or (before is not None and before < tick):
         return replayed
@@ -137,9 +164,12 @@ def read_drive(path: Path) -> Drive | None:
     """Return what a recording has of a drive; None if it is not of one.
 
     Raises:
-        InputError: If it cannot be read, or is damaged.
+        InputError: If it cannot be read, or the metadata of its drive are missing.
     """
     drive = Drive()
-    for record in each_record(path):
-        drive.add(record)
+    with file_errors(path), open_regular(path) as stream:
+        drive.read_all(stream)
+        if drive.values is None and any(topic != INPUT for topic, _ in drive.messages):
+            message = f"is damaged: it has lines of robots, but no metadata {LIVE!r}"
+            raise InputError(message)
     return None if drive.values is None else drive

@@ -1,7 +1,7 @@
 """The topics of selected robots: their percepts, commands and scans."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,23 +11,25 @@ from agent_economy.recording import schemas
 from agent_economy.recording.file import File, strict
 from agent_economy.recording.foxglove import SECOND_NS, scan
 from agent_economy.recording.inputs import ExternalInputs
+from agent_economy.recording.selection import Selection
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
 
 
 class BrainTopics:
-    """Writes the percepts and commands of selected robots, in each step."""
+    """Writes the percepts and commands of selected robots, in each step or in each n-th."""
 
     def __init__(
         self,
         file: File,
         simulation: Simulation,
-        selected: Sequence[str],
+        selected: Selection,
         bodies: Mapping[str, Mapping[str, Any]],
     ) -> None:
         """Declare the topics of the selected robots that are in the team."""
         indices = {name: index for index, name in enumerate(simulation.robots)}
-        self._robots = {name: indices[name] for name in selected if name in indices}
+        self._robots = {name: indices[name] for name in selected.robots if name in indices}
+        self._every, self._due = selected.every, dict.fromkeys(self._robots, simulation.tick)
         self._file, self._simulation = file, simulation
         self._bearings: dict[str, list[list[float]]] = {}
         for name in self._robots:
@@ -57,18 +59,20 @@ class BrainTopics:
                     self._write(perceived, time_ns)
 
     def _perceive(self, external: Mapping[str, Percept]) -> dict[str, Mapping[str, Any]]:
-        """Return the percepts in the next step, of the robots whose brains step in it."""
-        given = strict({name: external[name] for name in self._robots if name in external})
-        percepts = {
-            name: given.get(name) or self._simulation.percept(name) for name in self._robots
-        }
+        """Return the percepts in the next step that are due, of robots whose brains step in it."""
+        due = [name for name in self._robots if self._due[name] <= self._simulation.tick]
+        given = strict({name: external[name] for name in due if name in external})
+        percepts = {name: given.get(name) or self._simulation.percept(name) for name in due}
         return {name: percept for name, percept in percepts.items() if percept is not None}
 
     def _write(self, percepts: Mapping[str, Mapping[str, Any]], time_ns: int) -> None:
         """Write the percepts, the scans, and the resulting motion commands."""
         moment = _core.recorded_moment(self._simulation._run)  # noqa: SLF001  (ours)
         motions = moment["commanded"].tolist()
+        # The tick is already that of the next step. Brains may step less often than each n-th.
+        before = self._simulation.tick - 1
         for name, percept in percepts.items():
+            self._due[name] = before - before % self._every + self._every
             self._file.write_json(f"/percept/{name}", percept, time_ns)
             self._write_scans(name, percept, time_ns)
             speed_m_s, turn_rate_rad_s = motions[self._robots[name]]

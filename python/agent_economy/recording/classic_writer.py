@@ -19,6 +19,7 @@ from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.item_scene import Floats, Items
 from agent_economy.recording.logged import Logged
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
+from agent_economy.recording.selection import Selection
 from agent_economy.recording.static_scene import OBSTACLE, WALL_M, half_turn_of
 from agent_economy.runs.brain import Command
 from agent_economy.runs.classic_simulation import COLOURS, ClassicSimulation
@@ -57,7 +58,7 @@ class ClassicMoments:
         self,
         file: File,
         simulation: ClassicSimulation,
-        _: Sequence[str],
+        _: Selection,
         logged: Logged,
         clock: Clock,
     ) -> None:

@@ -10,6 +10,7 @@ from agent_economy.recording.file import File
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.logged import Logged
 from agent_economy.recording.metric_writer import MetricMoments
+from agent_economy.recording.selection import Selection
 from agent_economy.runs.brain import Command
 from agent_economy.runs.classic_simulation import ClassicSimulation
 from agent_economy.runs.simulation import Simulation
@@ -47,13 +48,13 @@ class Engine(NamedTuple):
     """The functions of an engine, which take its own runs.
 
     Attributes:
-        moments: Writes the static topics and the first step. It takes the file, the run, the names
-            of robots whose percepts are recorded, what is already in the log, and the times of
+        moments: Writes the static topics and the first step. It takes the file, the run, the
+            robots whose percepts are recorded, what is already in the log, and the times of
             steps.
         errors: Returns the errors of the names of robots whose percepts are to be recorded.
     """
 
-    moments: Callable[[File, Any, Sequence[str], Logged, Clock], Moments]
+    moments: Callable[[File, Any, Selection, Logged, Clock], Moments]
     errors: Callable[[Any, Sequence[str]], list[str]]
 
 

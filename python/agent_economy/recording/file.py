@@ -17,6 +17,7 @@ from mcap_protobuf.schema import register_schema
 
 from agent_economy import __version__
 from agent_economy._core import InputError
+from agent_economy.recording.output import open_replacing
 
 CHUNK_BYTES = 2**20
 
@@ -38,16 +39,12 @@ class Output:
     is_open: bool
 
     def __init__(self, path: Path) -> None:
-        """Create a file, replacing an existing one.
+        """Create a file, replacing an existing one that is not the recording of a drive.
 
         Raises:
-            InputError: If it cannot be written.
+            InputError: If it is, or cannot be written.
         """
-        try:
-            self._stream = path.open("wb")
-        except OSError as error:
-            message = f"{path}: cannot be written: {error.strerror or error}"
-            raise InputError(message) from None
+        self._stream = open_replacing(path)
         self._path, self.is_open = path, True
 
     def write(self, data: bytes) -> int:
@@ -90,10 +87,10 @@ class File:
     """A file that is being written. Its bytes do not depend on when or where it is written."""
 
     def __init__(self, path: Path) -> None:
-        """Create a file, replacing an existing one.
+        """Create a file, replacing an existing one that is not the recording of a drive.
 
         Raises:
-            InputError: If it cannot be written.
+            InputError: If it is, or cannot be written.
         """
         self._output = Output(path)
         output = cast("IO[bytes]", self._output)  # the writer uses only these methods

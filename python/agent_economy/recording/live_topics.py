@@ -67,6 +67,7 @@ _SCHEMAS = {
             "tick": INTEGER | {"description": "Number of steps taken."},
             "t": _TIME,
             "lateness_s": NUMBER | {"description": "Time by which it was late."},
+            "behind_s": NUMBER | {"description": "Time by which the run is behind the clock."},
         },
     ),
     SETPOINTS: of_object(

@@ -19,6 +19,7 @@ from agent_economy.recording.item_scene import Items
 from agent_economy.recording.lane_topics import LaneTopics
 from agent_economy.recording.logged import Logged
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
+from agent_economy.recording.selection import Selection
 from agent_economy.recording.static_scene import grid, still
 from agent_economy.runs.brain import Command
 from agent_economy.runs.simulation import STATUSES, Simulation
@@ -57,7 +58,7 @@ class MetricMoments:
         self,
         file: File,
         simulation: Simulation,
-        percepts: Sequence[str],
+        percepts: Selection,
         logged: Logged,
         clock: Clock,
     ) -> None:

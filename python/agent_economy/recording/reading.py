@@ -1,16 +1,15 @@
-"""Reads the run of a recording from its file alone, up to where the file is truncated."""
+"""Reads the run of a recording from its file alone, up to where it is truncated or damaged."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from errno import EINVAL
 from pathlib import Path
-from typing import IO, Any, cast
+from typing import IO, Any
 
 from mcap.exceptions import EndOfFile
 from mcap.records import Attachment, Channel, McapRecord, Message, Metadata
-from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
@@ -23,11 +22,9 @@ from agent_economy.recording.identity import (
     read_identity,
     read_run,
 )
+from agent_economy.recording.records import stream_records
 from agent_economy.regular_file import open_regular
 from agent_economy.runs.stepped import Change
-
-MAX_BYTES = 2**30
-"""Maximum size of one record, such as an attached map."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +43,11 @@ class Point:
     hash: str
     decisions: str | None = None
 
+    @property
+    def place(self) -> tuple[int, int]:
+        """What orders it among the states of a recording."""
+        return self.tick, self.changes
+
 
 @dataclass
 class Recorded:
@@ -55,23 +57,38 @@ class Recorded:
         points: The recorded states, in order.
         changes: The changes of the scenario, in order.
         inputs: The external inputs, by tick.
-        is_complete: Whether the file has its end, that is, it is not truncated.
+        is_complete: Whether the file has its end, that is, it is neither truncated nor damaged.
+        damage: Why it is damaged behind them; None if it is not.
     """
 
     points: list[Point] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
     inputs: dict[int, dict[str, Any]] = field(default_factory=dict)
     is_complete: bool = False
+    damage: str | None = None
     _run: Mapping[str, str] | None = None
     _attached: dict[str, bytes] = field(default_factory=dict)
     _topics: dict[int, str] = field(default_factory=dict)
 
     def read_all(self, stream: IO[bytes]) -> None:
-        """Add the records of a file, up to its end or to where it is truncated."""
+        """Add the records of a file, up to its end, or to where it is truncated or damaged.
+
+        Raises:
+            InputError: If it is damaged before its first state.
+        """
         with suppress(EndOfFile):
-            for record in stream_records(stream):
-                self.add(record)
-            self.is_complete = True
+            self.damage = read_records(stream, self.add)
+            self.is_complete = self.damage is None
+        if self.damage is not None and not self.points:
+            message = self.damage
+            if not message.startswith("is "):
+                message = f"is not an MCAP file, or is damaged: {message}"
+            raise InputError(message)
+
+    @property
+    def damaged_tick(self) -> int | None:
+        """The last tick before the damage; None if the file is not damaged."""
+        return None if self.damage is None else self.points[-1].tick
 
     def add(self, record: McapRecord) -> None:
         """Add the contents of a record; most records are for viewers only."""
@@ -102,12 +119,6 @@ class Recorded:
             message = f"is not a recording of a run: it has no metadata {RUN!r}"
             raise InputError(message)
         identity = read_identity(self._run, self._attached)
-        changes = max((point.changes for point in self.points), default=0)
-        if changes > len(self.changes):
-            message = (
-                f"is damaged: its states have {changes} changes, but it has {len(self.changes)}"
-            )
-            raise InputError(message)
         if self.inputs and identity.scenario.engine != "metric":
             message = "is damaged: it has percepts or commands for robots that accept none"
             raise InputError(message)
@@ -115,9 +126,21 @@ class Recorded:
 
     def _add_message(self, topic: str, data: bytes) -> None:
         if topic == "/run":
-            self.points.append(read_point(Entries(f"topic {topic}", json.loads(data))))
+            self._add_point(read_point(Entries(f"topic {topic}", json.loads(data))))
         elif topic == "/input":
             self._add_input(Entries(f"topic {topic}", json.loads(data)))
+
+    def _add_point(self, point: Point) -> None:
+        if self.points and point.place <= self.points[-1].place:
+            message = "is damaged: its states are not in order"
+            raise InputError(message)
+        if point.changes > len(self.changes):
+            message = (
+                f"is damaged: its states have {point.changes} changes, but it has "
+                f"{len(self.changes)}"
+            )
+            raise InputError(message)
+        self.points.append(point)
 
     def _add_input(self, entries: Entries) -> None:
         each = {name: entries.by_name(name) for name in ("percepts", "commands")}
@@ -130,33 +153,36 @@ def read_point(run: Entries) -> Point:
     return Point(run.whole("tick"), run.whole("changes"), run.text("hash"), decisions)
 
 
-def stream_records(stream: IO[bytes]) -> Iterator[McapRecord]:
-    """Yield the records of a stream.
+def read_records(stream: IO[bytes], add: Callable[[McapRecord], None]) -> str | None:
+    """Pass on the records of a stream, up to its end or to the first damaged one.
+
+    Returns:
+        Why it is damaged; None if it is not.
 
     Raises:
         EndOfFile: After the last one, if the file is truncated.
     """
-    exact = cast("IO[bytes]", ExactStream(stream))  # the reader uses only this method
-    yield from StreamReader(exact, validate_crcs=True, record_size_limit=MAX_BYTES).records
-
-
-def each_record(path: Path) -> Iterator[McapRecord]:
-    """Yield the records of a file, up to its end or to where it is truncated.
-
-    Raises:
-        InputError: If it cannot be read, or is damaged.
-    """
-    with file_errors(path), open_regular(path) as stream, suppress(EndOfFile):
-        yield from stream_records(stream)
+    try:
+        for record in stream_records(stream):
+            add(record)
+    except EndOfFile:
+        raise
+    # The exceptions that the libraries raise for damaged bytes are not documented. A sector of a
+    # disk that cannot be read hides nothing before it, either.
+    except Exception as error:  # noqa: BLE001
+        return str(error) or type(error).__name__
+    return None
 
 
 def read(path: Path) -> tuple[Identity, Recorded]:
     """Read the identity and the contents of a recording.
 
-    A truncated file, for example of a killed process, is read up to its end.
+    A truncated file, for example of a killed process, is read up to its end, a damaged one up to
+    the damage.
 
     Raises:
-        InputError: If it cannot be read, is damaged, or is not a recording of a run.
+        InputError: If it cannot be read, is damaged before its first state, or is not a recording
+            of a run.
     """
     recorded = Recorded()
     with file_errors(path), open_regular(path) as stream:
@@ -203,25 +229,3 @@ def file_errors(path: Path) -> Iterator[None]:
     else:
         return
     raise InputError(message)
-
-
-class ExactStream:
-    """A stream that returns exactly the requested number of bytes, or raises `EndOfFile`.
-
-    Otherwise, the reader reports damage if the file is truncated within a number.
-    """
-
-    def __init__(self, stream: IO[bytes]) -> None:
-        """Wrap a stream at its current position."""
-        self._stream = stream
-
-    def read(self, length: int) -> bytes:
-        """Return the next `length` bytes.
-
-        Raises:
-            EndOfFile: If there are fewer.
-        """
-        data = self._stream.read(length)
-        if len(data) < length:
-            raise EndOfFile
-        return data

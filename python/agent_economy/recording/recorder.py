@@ -14,6 +14,7 @@ from agent_economy.recording.foxglove import SECOND_NS, log
 from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
 from agent_economy.recording.inputs import ExternalInputs
 from agent_economy.recording.logged import Logged
+from agent_economy.recording.selection import Selection, selection_of
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Stepped
@@ -43,7 +44,7 @@ class Recording:
         path: str | Path,
         *,
         every: int = 1,
-        percepts: Sequence[str] = (),
+        percepts: Sequence[str] | Selection = (),
         flush_s: float = FLUSH_S,
     ) -> None:
         """Start a recording at the current step of the run; from then on, decisions are hashed.
@@ -51,21 +52,22 @@ class Recording:
         Args:
             simulation: The run, a `Simulation` or a `ClassicSimulation`, at its first step. Of a
                 later start, only the changes of the scenario can be replayed, not other inputs.
-            path: The file, NAME.mcap. It replaces an existing file, unless the scenario was read
-                from that file.
+            path: The file, NAME.mcap. It replaces an existing file, unless that is the recording
+                of a drive, or the scenario was read from it.
             every: Number of steps per recorded step, 1 or more.
             percepts: Names of robots, KIND/INDEX, of which the percepts, commands and range scans
                 are recorded in each step. None by default: those of all robots take about twenty
-                times the space of everything else. Not available for the classic engine.
+                times the space of everything else. Not available for the classic engine. A
+                `Selection` also states how often.
             flush_s: Simulated time that a kill of the process loses; shorter times make larger
                 files.
 
         Raises:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
-        selected = validation.texts("percepts", percepts, "a list of robot names")
+        selected = selection_of(percepts)
         path = validation.path("path", path)
-        self._engine = check(simulation, path, every, selected)
+        self._engine = check(simulation, path, every, selected.robots)
         self.simulation = simulation
         self._every, self._selected = every, selected
         self._flush_ns = round(flush_s * SECOND_NS)
@@ -122,9 +124,12 @@ class Recording:
                 step.
         """
         self._check_simulation()
-        time_ns = self._clock.time_ns(self.simulation.tick)
         if self.simulation.tick != self._moments.tick:
             self._moments.write()
+        self._flush_if_due()
+
+    def _flush_if_due(self) -> None:
+        time_ns = self._clock.time_ns(self.simulation.tick)
         if time_ns - self._flushed_ns >= self._flush_ns:
             self._file.flush()
             self._flushed_ns = time_ns
@@ -189,6 +194,7 @@ class Recording:
             self.note()
         else:
             self._moments.log_events()
+            self._flush_if_due()  # inputs and the messages of the caller are written in each step
 
     def _check_simulation(self) -> None:
         """Check that the simulation continues from the recorded step, and write its changes."""

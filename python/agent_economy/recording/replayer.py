@@ -27,7 +27,8 @@ class Replay:
         program: The version of the program that recorded it.
         engine: The hash of the sources of the engine that recorded it, 16 hexadecimal digits; None
             if it is unknown.
-        is_complete: Whether the file is complete; a truncated file is compared up to its end.
+        is_complete: Whether the file is complete; a truncated file is compared up to its end, a
+            damaged one up to the damage.
         tick: Tick of the last compared state.
         hash: Hash of that state in the replay: 64 bits, hexadecimal.
         mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
@@ -39,6 +40,8 @@ class Replay:
         external: Names of the robots that had external bodies from the start.
         lines: Number of lines of robots from which the percepts were made again; None if the
             recording is not of a drive.
+        damaged_tick: Tick from which on the file is damaged; None if it is not. Nothing after it
+            is compared.
     """
 
     scenario: Scenario
@@ -54,6 +57,7 @@ class Replay:
     outcome: Outcome
     external: tuple[str, ...] = ()
     lines: int | None = None
+    damaged_tick: int | None = None
 
     @property
     def agrees(self) -> bool:
@@ -65,13 +69,15 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
     """Replay a recorded run from its file alone. Ctrl-C stops it between two steps.
 
     Args:
-        path: A recording. A truncated file is compared up to its end.
+        path: A recording. A truncated file is compared up to its end, a damaged one up to the
+            damage.
         verify: Whether to refuse a recording of another build of this program, which may give
             another run. Without it, such a recording is replayed and compared all the same.
 
     Raises:
-        InputError: If the file cannot be read, is damaged, is not a recording of a run, contains a
-            scenario that this version does not accept, or is of another build.
+        InputError: If the file cannot be read, is damaged before its first state, is not a
+            recording of a run, contains a scenario that this version does not accept, or is of
+            another build.
     """
     path = validation.path("path", path)
     identity, recorded = read(path)
@@ -123,6 +129,7 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rep
         mismatch=mismatch,
         outcome=simulation.outcome(),
         external=identity.external,
+        damaged_tick=recorded.damaged_tick,
     )
 
 

@@ -1,6 +1,7 @@
 """Summaries of recordings, read from the start and end of each file, however large it is."""
 
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, cast
@@ -13,11 +14,9 @@ from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.foxglove import SECOND_NS
 from agent_economy.recording.identity import END, RUN, read_build, read_run
-from agent_economy.recording.reading import MAX_BYTES, ExactStream, file_errors
+from agent_economy.recording.reading import file_errors
+from agent_economy.recording.records import MAGIC, MAX_BYTES, ExactStream
 from agent_economy.regular_file import open_regular
-
-MAGIC = b"\x89MCAP0\r\n"
-"""First and last bytes of an MCAP file."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +29,8 @@ class RecordingSummary:
         run: Run number.
         program: The version of the program that recorded it.
         engine: Its engine, as in `Build`; None if it is unknown.
-        steps: Number of steps; None if the file is truncated, because that requires reading it all.
+        steps: Number of steps; None if the file is truncated, or damaged at its end, because that
+            requires reading it all.
         length_s: Simulated time of the steps; None as for `steps`.
     """
 
@@ -47,11 +47,14 @@ def summarise(path: Path) -> RecordingSummary:
     """Read the summary of a recording.
 
     Raises:
-        InputError: If it cannot be read, is damaged, or is not a recording of a run.
+        InputError: If it cannot be read, is damaged at its beginning, or is not a recording of a
+            run.
     """
     with file_errors(path), open_regular(path) as stream:
         run = beginning(stream)
-        end = ending(stream)
+        end = None
+        with suppress(Exception):  # Damage at the end hides nothing before it.
+            end = ending(stream)
         return RecordingSummary(
             run.text("scenario"),
             run.whole("seed"),
@@ -78,7 +81,11 @@ def beginning(stream: IO[bytes]) -> Entries:
 
 
 def ending(stream: IO[bytes]) -> tuple[int, float] | None:
-    """Return the number of steps and the simulated time; None if the file is truncated."""
+    """Return the number of steps and the simulated time; None if the file is truncated.
+
+    Raises:
+        Exception: If the index is damaged; those of the library are not documented.
+    """
     stream.seek(-len(MAGIC), os.SEEK_END)
     if stream.read() != MAGIC:
         return None

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from agent_economy._core import InputError
+from agent_economy.recording.output import check_no_drive
 from agent_economy.regular_file import descriptor_of
 
 MAX_ENTRIES = 100_000
@@ -65,8 +66,9 @@ def opened(file: Path) -> IO[str]:
     """Open a file for writing, so that each line is in it at once.
 
     Raises:
-        InputError: If it cannot be written.
+        InputError: If it cannot be written, or is the recording of a drive.
     """
+    check_no_drive(file)
     try:
         flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
         return os.fdopen(descriptor_of(file, flags), "w", buffering=1, encoding="utf-8")

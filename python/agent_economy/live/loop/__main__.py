@@ -12,6 +12,7 @@ from agent_economy._core import InputError
 from agent_economy.live import fleet
 from agent_economy.live.channel import SILENCE_S
 from agent_economy.live.loop.last_resort import stop_all
+from agent_economy.live.loop.log import LogOptions
 from agent_economy.live.loop.loop import Loop
 from agent_economy.live.loop.pipe import Pipe, WardenLostError
 
@@ -24,6 +25,8 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("fleet", type=Path)
     parser.add_argument("--record", type=Path, required=True)
+    parser.add_argument("--numbered", action="store_true", help="NAME-2.mcap if it exists.")
+    parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--page", action="store_true", help="Report the run and all its inputs.")
     arguments = parser.parse_args()
@@ -31,13 +34,14 @@ def main() -> int:
     pipe = Pipe()
     try:
         loaded = fleet.load(arguments.fleet)
-        loop = Loop(loaded, pipe, arguments.record, arguments.seed, has_page=arguments.page)
+        options = LogOptions(arguments.record, arguments.numbered, arguments.every)
+        loop = Loop(loaded, pipe, options, arguments.seed, has_page=arguments.page)
     except InputError as error:
         pipe.send({"type": "invalid", "message": str(error), "errors": error.errors})
         return INVALID
     if arguments.page:
         pipe.send({"type": "run", "run": described(loaded, arguments.seed)})
-    pipe.send({"type": "plan", "plan": loaded.plan.to_dict(), "record": str(arguments.record)})
+    pipe.send({"type": "plan", "plan": loaded.plan.to_dict(), "record": str(loop.record)})
     pipe.watch()
     try:
         loop.run()

@@ -2,12 +2,12 @@
 
 from collections import deque
 from collections.abc import Mapping
-from pathlib import Path
+from contextlib import suppress
 from typing import Any
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.fleet import Fleet
-from agent_economy.live.loop.log import Log
+from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.live.loop.pacer import Pacer
 from agent_economy.live.loop.pipe import Pipe
 from agent_economy.live.loop.team import Team
@@ -15,30 +15,39 @@ from agent_economy.recording import RecordingError
 from agent_economy.recording.file import strict
 from agent_economy.runs.simulation import Simulation
 
+EXPLAINED_S = 5.0
+"""Lateness, as after a suspension, that is explained at once: it takes minutes to make up for."""
+
 
 class Loop:
     """One drive, between the plan and the end.
 
     Attributes:
         peers: The numeric addresses of connected motor ports.
+        record: The recording.
     """
 
     _pacer: Pacer
 
     def __init__(
-        self, fleet: Fleet, pipe: Pipe, record: Path, seed: int, *, has_page: bool
+        self, fleet: Fleet, pipe: Pipe, options: LogOptions, seed: int, *, has_page: bool
     ) -> None:
-        """Create the run at its first step; a page needs the inputs of all steps."""
+        """Create the run at its first step; a page needs the inputs of all steps.
+
+        Raises:
+            InputError: If the run or its recording cannot be created.
+        """
         self._inputs: deque[Mapping[str, Any]] | None = deque() if has_page else None
         self.peers: dict[str, tuple[str, int]] = {}
         self._pipe = pipe
         names = tuple(robot.name for robot in fleet.plan.robots)
         self._simulation = Simulation(fleet.scenario, seed=seed, external=names)
-        start_s = now_s()
+        self._start_s = start_s = now_s()
         self._team = Team(
             fleet.plan, self._simulation, fleet.waypoints_m, seed=seed, start_s=start_s
         )
-        self._log: Log | None = Log(self._simulation, record, fleet, start_s)
+        self._log: Log | None = Log(self._simulation, options, fleet, start_s)
+        self.record = self._log.path
 
     def run(self) -> None:
         """Run until the warden ends the drive.
@@ -47,7 +56,7 @@ class Loop:
             WardenLostError: If the warden has ended or is silent.
         """
         step_s = self._simulation.step_s
-        self._pacer = Pacer(step_s, now_s() + step_s)
+        self._pacer = Pacer(step_s, self._start_s, now_s() + step_s)
         while self._receive():
             self._tick()
         self.close()
@@ -57,6 +66,9 @@ class Loop:
         for message in self._pipe.receive_until(self._pacer.due_s):
             match message["type"]:
                 case "end":
+                    return False
+                case "cancel":
+                    self._discard()
                     return False
                 case "peer":
                     self.peers[message["robot"]] = tuple(message["address"])
@@ -74,12 +86,21 @@ class Loop:
                 self._step(self._log, now, lateness_s)
             except RecordingError as error:
                 self._fail(error)
-        counts = {"late_steps": self._pacer.late_ticks, "behind_s": self._pacer.behind_s}
-        self._pipe.send({"type": "beat", "lateness_s": now_s() - now + lateness_s, **counts})
+        if lateness_s > EXPLAINED_S:
+            self._pipe.send({"type": "message", "message": self._explanation(lateness_s)})
+        beat = {"type": "beat", "lateness_s": now_s() - now + lateness_s}
+        self._pipe.send(beat | self._pacer.counts())
+
+    def _explanation(self, lateness_s: float) -> str:
+        behind_s, slew_s = self._pacer.behind_s, self._pacer.slew_s
+        return (
+            f"The brains were late by {lateness_s:.1f} s: the run is {behind_s:.1f} s behind the "
+            f"clock, and steps 10% faster for about {slew_s:.0f} s until both agree again."
+        )
 
     def _step(self, log: Log, now: float, lateness_s: float) -> None:
         tick = self._simulation.tick
-        log.tick(tick, now, lateness_s)
+        log.tick(tick, now, lateness_s, self._pacer.behind_s)
         percepts = self._team.percepts(tick, now)
         commands = log.step(percepts)
         motions = self._team.motions(commands)
@@ -107,6 +128,12 @@ class Loop:
     def _fail(self, error: RecordingError) -> None:
         self._log = None
         self._pipe.send({"type": "recording_error", "message": str(error)})
+
+    def _discard(self) -> None:
+        if self._log is not None:
+            log, self._log = self._log, None
+            with suppress(RecordingError, OSError):
+                log.discard()
 
     def close(self) -> None:
         """Close the recording; also after the warden was lost."""

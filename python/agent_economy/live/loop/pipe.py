@@ -10,7 +10,8 @@ from agent_economy.live.channel import SILENCE_S, Decoder, Message, encode
 from agent_economy.live.clock import now_s
 
 MAX_READS = 1000
-"""Reads before a tick is taken all the same: a flood of lines must not hold the brains up."""
+"""Reads after a tick is due before it is taken all the same: a flood of lines must not hold the
+brains up, nor have them step early."""
 
 
 class WardenLostError(Exception):
@@ -72,7 +73,8 @@ class Pipe:
         Raises:
             WardenLostError: If the warden has ended, or has been silent for too long.
         """
-        for _ in range(MAX_READS):
+        reads = 0
+        while reads < MAX_READS:
             self._flush()
             wait_s = max(0.0, min(until_s - now_s(), SILENCE_S / 3))
             is_readable = bool(select.select([self._input], [], [], wait_s)[0])
@@ -80,6 +82,7 @@ class Pipe:
             if now - self._looked_s > SILENCE_S:
                 self._heard_s = now  # this process was suspended or busy: judge after reading
             self._looked_s = now
+            reads += now >= until_s
             if is_readable:
                 yield from self._read()
             elif self._is_watching and now - self._heard_s > SILENCE_S:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from agent_economy import _core
+from agent_economy.live.loop.awarded import awarded_to
 from agent_economy.live.loop.percepts import Percepts, frame_of
 from agent_economy.live.loop.shared import shared_by
 from agent_economy.live.plan import FleetPlan
@@ -58,8 +59,9 @@ class Team:
         scenario = simulation.scenario.to_dict()
         self._waypoints = {name: waypoints_of(scenario, name) for name in self._robots}
         self._shared = tuple(shared_by(scenario, self._robots))
+        self._awarded = awarded_to(simulation, self._robots)
         self._now_s = start_s
-        self._verdicts: dict[tuple[str, str], tuple[str, str | None]] = {}
+        self._verdicts: dict[tuple[str, str], tuple[str | None, ...]] = {}
         self._silent: set[str] = set()
 
     def add(self, message: Mapping[str, Any]) -> None:
@@ -97,6 +99,7 @@ class Team:
             motion, heading_rad = command["motion"], command["heading_rad"]
             speed, rate = motion["speed_m_s"], motion["turn_rate_rad_s"]
             self._motions[name] = (speed, rate, heading_rad)
+            self._awarded.add(name, command["outbox"])
             for waypoints in self._shared:
                 if name in waypoints.robots:
                     waypoints.add(name, command["outbox"], self._now_s)
@@ -106,19 +109,25 @@ class Team:
         return dict(self._motions)
 
     def new_verdicts(self) -> Iterator[dict[str, Any]]:
-        """Yield the goals whose verdicts have changed; they are numbered from 1 for each robot.
+        """Yield the goals whose verdicts have changed.
 
-        A verdict counts as reported when the next one is taken, so that one that could not be
-        sent is yielded again the next time. A waypoint that a team shares is a goal of each of
-        its robots, with the name of the one that goes or went there.
+        Waypoints are numbered from 1 for each robot; goals of controllers have their names. A
+        verdict counts as reported when the next one is taken, so that one that could not be sent
+        is yielded again the next time. A waypoint that a team shares, and a goal that a controller
+        awards, is a goal of each of its robots, with the name of the one that goes or went there.
         """
+        is_driving = any(robot.is_driving for robot in self._robots.values())
+        self._awarded.update(self._now_s, is_driving=is_driving)
+        awarded = list(self._awarded.verdicts())
         for name in self._robots:
-            goals = [*self._own_goals(name), *self._shared_goals(name)]
-            for number, goal in enumerate(goals, 1):
-                key = (name, str(number))
-                state = (goal["verdict"], goal["served_by"])
+            waypoints = [*self._own_goals(name), *self._shared_goals(name)]
+            goals = [{"goal": str(number), **each} for number, each in enumerate(waypoints, 1)]
+            goals += awarded if name in self._awarded.robots else []
+            for goal in goals:
+                key = (name, goal["goal"])
+                state = (goal["verdict"], goal["served_by"], goal.get("unserved"))
                 if self._verdicts.get(key) != state:
-                    yield {"robot": name, "goal": key[1], **goal}
+                    yield {"robot": name, **goal}
                     self._verdicts[key] = state
 
     def new_silence(self) -> Iterator[dict[str, Any]]:

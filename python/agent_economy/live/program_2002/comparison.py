@@ -176,7 +176,8 @@ class _Program:
         except UncaughtError as error:
             self.ended = str(error)
         if self.control.written:
-            self.in_force = in_force(self.control.written)
+            # It also read lines between two that it wrote, and what it wrote before stays in force.
+            self.in_force = in_force([*self.in_force, *self.control.written])
             self.control.written = []
 
 

@@ -74,15 +74,20 @@ class Control:
         yield from self._read("sonar")
         is_near = any(each < NEAR for each in self.readings.ranges[:2])
         yield from self._read("compass")
-        yield from self._read("gps")
-        self.bearing_deg = bearing_deg(self.readings.position, self._waypoint)
-        self.difference_deg = abs(self.readings.heading_deg - self.bearing_deg)
+        yield from self._compute_bearing()
         if is_near:
             yield from self._avoid()
         elif self._steers and self.difference_deg > COURSE_ERROR_DEG:
-            yield from self._turn(self.bearing_deg)
+            yield from self._turn()
         else:
             self._cruise()
+
+    def _compute_bearing(self) -> Generator[str, str, float]:
+        """Read a fix and return the bearing from it: in 2002 one function did both."""
+        yield from self._read("gps")
+        self.bearing_deg = bearing = bearing_deg(self.readings.position, self._waypoint)
+        self.difference_deg = abs(self.readings.heading_deg - bearing)
+        return bearing
 
     def _cruise(self) -> None:
         self.behaviour = Behaviour.CRUISE
@@ -90,21 +95,30 @@ class Control:
             self._write(FORWARD)
             self._motors = Motors.FORWARD
 
-    def _turn(self, desired_deg: float) -> Reads:
-        """Let the coprocessor turn the robot; the line that called this was commented out."""
+    def _turn(self) -> Reads:
+        """Let the coprocessor turn the robot; the line that called this was commented out.
+
+        The heading is that of another fix, not of the one that called for the turn.
+        """
         self.behaviour = Behaviour.WAYPOINT
         self._write(STOP)
+        desired_deg = yield from self._compute_bearing()
         self.written.append(("compass", f"{desired_deg:.2f}"))
-        while abs(self.readings.heading_deg - desired_deg) > COURSE_ERROR_DEG:
+        while self.difference_deg > COURSE_ERROR_DEG:
             yield from self._read("compass")
+            self.difference_deg = abs(self.readings.heading_deg - desired_deg)
         self._write(STOP)
         self._motors = Motors.STOPPED
 
     def _avoid(self) -> Reads:
-        """Turn until one of the front sonars is clear: one is enough."""
+        """Turn until one of the front sonars is clear: one is enough.
+
+        The side is chosen from another line, not from the one that called for the avoidance.
+        """
         self.behaviour = Behaviour.AVOID
         self._write(STOP)
         self._motors = Motors.STOPPED
+        yield from self._read("sonar")
         while True:
             ranges = self.readings.ranges
             if self._motors is not Motors.TURNING:

@@ -6,8 +6,8 @@ from enum import Enum
 class End(Enum):
     """Why a drive ended: its exit code, and the reason in words."""
 
-    DONE = (0, "all waypoints were reached")
-    UNFINISHED = (1, "some waypoints cannot be reached")
+    DONE = (0, "all waypoints and goals were reached")
+    UNFINISHED = (1, "some waypoints or goals cannot be reached")
     INVALID = (2, "the fleet file or an argument is not valid")
     STOPPED = (3, "a robot was stopped and has to be armed again")
     NOT_READY = (4, "a robot could not be armed")

@@ -72,9 +72,12 @@ class LoopProcess:
             self._write()
         return is_taken
 
-    async def end(self) -> int | None:
-        """Let it close the recording and end, or kill it; return its exit code."""
-        self.send({"type": "end"})
+    async def end(self, *, is_cancelled: bool = False) -> int | None:
+        """Let it close the recording and end, or kill it; return its exit code.
+
+        The recording of a drive that is cancelled before it began is removed.
+        """
+        self.send({"type": "cancel" if is_cancelled else "end"})
         with suppress(TimeoutError):
             async with asyncio.timeout(END_S):
                 while self.returncode is None:

@@ -13,13 +13,20 @@ def sentence(event: Mapping[str, Any]) -> str:
         case "event":
             return robot_sentence(event)
         case "goal":
-            return f"{event['robot']}: waypoint {event['goal']}: {event['verdict']}" + server(event)
+            return goal_sentence(event)
         case "radio":
             return radio_sentence(event)
         case "end":
             return f"Ended: {event['reason']}.{confirmation(event)}{lateness(event)}"
         case _:
             return str(event.get("message", ""))
+
+
+def goal_sentence(event: Mapping[str, Any]) -> str:
+    """Return the verdict on a waypoint, which has a number, or on a goal, which has a name."""
+    what = "waypoint" if event["goal"].isdecimal() else "goal"
+    reason = f" ({event['unserved'].replace('_', ' ')})" if event.get("unserved") else ""
+    return f"{event['robot']}: {what} {event['goal']}: {event['verdict']}{reason}{server(event)}"
 
 
 def radio_sentence(event: Mapping[str, Any]) -> str:
@@ -47,7 +54,8 @@ def lateness(event: Mapping[str, Any]) -> str:
     if not event["late_steps"]:
         return ""
     return (
-        f" Late steps of the brains: {event['late_steps']}, by {event['behind_s']:.2f} s in total."
+        f" Late steps of the brains: {event['late_steps']}; the run was behind the clock by "
+        f"{event['max_behind_s']:.2f} s at most, and by {event['behind_s']:.2f} s at the end."
     )
 
 

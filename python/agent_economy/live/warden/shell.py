@@ -34,7 +34,9 @@ class Options:
 
     Attributes:
         fleet: The fleet file.
-        record: The recording.
+        record: The recording, which must not exist.
+        is_numbered: Whether NAME-2, NAME-3 and so on are used if it exists.
+        every: Number of steps per recorded state.
         seed: Seed of the simulated robots and sensors.
         is_headless: Whether it arms its robots itself, and ends by itself.
     """
@@ -43,6 +45,15 @@ class Options:
     record: Path
     seed: int
     is_headless: bool
+    is_numbered: bool = False
+    every: int = 1
+
+    def for_loop(self) -> list[str]:
+        """Return the arguments of the process of the loop."""
+        arguments = [str(self.fleet), "--record", str(self.record), "--seed", str(self.seed)]
+        arguments += ["--every", str(self.every)]
+        arguments += ["--numbered"] if self.is_numbered else []
+        return arguments if self.is_headless else [*arguments, "--page"]
 
 
 def drive_fleet(options: Options, report: Report) -> End:
@@ -75,8 +86,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
     # that background processes must not write to (`stty tostop`) does not suspend it.
     signal.signal(signal.SIGTTOU, signal.SIG_IGN)
     loop.add_signal_handler(signal.SIGTSTP, _stopper(warden, report))
-    arguments = [str(options.fleet), "--record", str(options.record), "--seed", str(options.seed)]
-    plan = await warden.load(arguments if options.is_headless else [*arguments, "--page"])
+    plan = await warden.load(options.for_loop())
     if plan is None:
         return warden.end_of_load
     for text in plan.warnings:
@@ -85,7 +95,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
     loop.set_default_executor(ThreadPoolExecutor(max_workers=3 * len(plan.robots)))
     with ExitStack() as stack:
         try:
-            drive = Drive(plan, str(options.fleet), str(options.record))
+            drive = Drive(plan, str(options.fleet), warden.record)
             locks = await _locked(stack, plan)
             endpoint = await _publish(stack, drive, Control(warden, drive, events), report)
         except (LockedError, OSError) as error:
@@ -107,6 +117,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
             "unseen_speed_m_s": warden.unseen_speed_m_s,
             "late_steps": warden.late_steps,
             "behind_s": warden.behind_s,
+            "max_behind_s": warden.max_behind_s,
         }
     )
     return end

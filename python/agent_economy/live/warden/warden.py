@@ -38,20 +38,22 @@ class Warden:
     Attributes:
         operator: Takes requests.
         plan: The fleet; None until the loop has read it.
+        record: The recording; empty until then.
         robots: Its robots, once the drive has begun.
         outputs: What the rules decided last.
         goals: The newest verdict of each goal, by robot and goal.
         run: What the loop has reported of the run for a page; None without one.
         page: Takes the tick and the inputs of each step.
         late_steps: Number of steps of the loop that were late by more than a step.
-        behind_s: Time by which the run is behind the clock because of them.
+        behind_s: Time by which the run is behind the clock.
+        max_behind_s: The longest such time after a late step.
     """
 
     plan: FleetPlan | None
 
     def __init__(self, report: Report, *, is_headless: bool) -> None:
         """Create it without starting anything."""
-        self.operator, self.plan = Operator(), None
+        self.operator, self.plan, self.record = Operator(), None, ""
         self._report, self._is_headless = report, is_headless
         self._loop = LoopProcess(self._message)
         self.robots: dict[str, Robot] = {}
@@ -61,7 +63,7 @@ class Warden:
         self.page: Callable[[int, Mapping[str, Any]], None] = lambda *_: None
         self._peers: dict[str, tuple[str, int]] = {}
         self._loop_inputs = LoopInputs(is_alive=True, last_message_s=None)
-        self.late_steps, self.behind_s = 0, 0.0
+        self.late_steps, self.behind_s, self.max_behind_s = 0, 0.0, 0.0
         self._planned: asyncio.Future[FleetPlan | None] | None = None
         self._end: End | None = None
         self._is_impatient = False
@@ -74,7 +76,7 @@ class Warden:
         self._loop.start(arguments)
         self.plan = await self._planned
         if self.plan is None:
-            await self._loop.end()
+            await self.close()
         return self.plan
 
     async def drive(self, plan: FleetPlan, locks: Mapping[str, AddressLocks] | None = None) -> End:
@@ -155,8 +157,8 @@ class Warden:
         return ", ".join(fault.reason for fault in self.outputs.robots[name].blockers)
 
     async def close(self) -> None:
-        """End the loop of a drive that has not begun."""
-        await self._loop.end()
+        """End the loop of a drive that has not begun, without a recording."""
+        await self._loop.end(is_cancelled=True)
 
     def stop(self) -> None:
         """Stop all robots in the next turn; stop is written then also to those that stand."""
@@ -245,6 +247,7 @@ class Warden:
         error = self._loop_inputs.recording_error
         match message["type"]:
             case "plan":
+                self.record = message["record"]
                 self._set_plan(plan_of(message["plan"]))
                 self._report(message)
             case "invalid":
@@ -256,6 +259,7 @@ class Warden:
                 self._set_plan(None)
             case "beat":
                 self.late_steps, self.behind_s = message["late_steps"], message["behind_s"]
+                self.max_behind_s = message["max_behind_s"]
             case "setpoint":
                 self._setpoint(message, now)
             case "run":
@@ -265,8 +269,8 @@ class Warden:
             case "goal":
                 self.goals.setdefault(message["robot"], {})[message["goal"]] = message
                 self._report(message)
-            case "radio" | "recording_error":
-                error = message.get("message", error)
+            case "radio" | "message" | "recording_error" as kind:
+                error = message["message"] if kind == "recording_error" else error
                 self._report(message)
         self._loop_inputs = LoopInputs(True, now, lateness_s, error)  # noqa: FBT003
 

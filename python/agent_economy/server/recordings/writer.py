@@ -9,6 +9,7 @@ from pathlib import Path
 
 from agent_economy._core import InputError
 from agent_economy.recording import Recording, RecordingError
+from agent_economy.recording.output import check_no_drive
 from agent_economy.recording.recorder import SUFFIX
 from agent_economy.recording.replayer import replay_steps
 from agent_economy.runs import factory
@@ -119,11 +120,17 @@ def write_errors(folder: Path) -> Iterator[None]:
 
 
 def rename_complete(file: Path, name: str) -> Path:
-    """Give a file its final name once its content is on disk."""
+    """Give a file its final name once its content is on disk.
+
+    Raises:
+        InputError: If a recording of a drive has this name.
+    """
     with file.open("rb") as stream:
         digest = hashlib.file_digest(stream, "sha256").hexdigest()[:DIGEST_DIGITS]
         os.fsync(stream.fileno())
-    return file.replace(file.with_name(f"{name}-{digest}{SUFFIX}"))
+    final = file.with_name(f"{name}-{digest}{SUFFIX}")
+    check_no_drive(final)
+    return file.replace(final)
 
 
 def stem(history: RunHistory) -> str:
