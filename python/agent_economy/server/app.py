@@ -67,10 +67,17 @@ def app(
     Args:
         workspace: The folder of scenarios, studies and recordings.
         host: The host name or address that the server is bound to.
-        token: The token that pages on other machines need; None if only this machine can connect.
+        token: The token that requests need; None if they need none, as those of this machine do
+            unless there is a drive.
         live: The run of real robots that pages can join; it is simulated while the server runs.
         drive: The drive that it belongs to; None if there is none.
+
+    Raises:
+        ValueError: If there is a drive but no token: other users of this machine could drive it.
     """
+    if drive is not None and token is None:
+        message = "the page of a drive needs a token"
+        raise ValueError(message)
     web = Path(str(files("agent_economy") / "web"))
     server = Server(workspace, web, StudyManager(workspace), live, drive)
     return Guard(server.application(), host, token, None if drive is None else drive.address)

@@ -38,10 +38,11 @@ def main() -> None:
     scenario = scenario_of(start["scenario"])
     live = LiveRun(scenario, start["seed"], start["external"])
     listening = listening_socket_of(start["port"])
-    served = app(Workspace(Path.cwd()), HOST, live=live, drive=drive_of(start, scenario))
+    token = start["token"]
+    served = app(Workspace(Path.cwd()), HOST, token, live, drive_of(start, scenario))
     server = http_server(served)
     threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
-    url = f"http://{HOST}:{listening.getsockname()[1]}/#/robots"
+    url = f"http://{HOST}:{listening.getsockname()[1]}/?token={token}#/robots"
     with suppress(BrokenPipeError):  # the drive has ended already; so will the input
         os.write(sys.stdout.fileno(), json.dumps({"type": "ready", "url": url}).encode() + b"\n")
     server.run(sockets=[listening])

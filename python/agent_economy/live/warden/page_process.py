@@ -3,18 +3,20 @@
 It is `python -m agent_economy.server.live`. On its standard input it reads JSON, one object a line:
 
 * `{"type": "start", "fleet", "scenario": {"file", "text", "files"}, "seed", "external", "origin",
-  "fences_m", "warden": {"port", "token"}, "port"}`, once. `files` are those that the scenario
-  refers to, in base 64. `port` is where to serve the page: that of the server that it replaces, or
-  null.
+  "fences_m", "warden": {"port", "token"}, "token", "port"}`, once. `files` are those that the
+  scenario refers to, in base 64. `token` is what requests of the page have to contain; it is not an
+  argument, because every user of the machine sees those. `port` is where to serve the page: that of
+  the server that it replaces, or null.
 * `{"type": "input", "tick", "inputs"}` for each step, from the first one on: the percepts of the
   robots whose brains step in it.
 
 The end of its input is the end of the drive. On its standard output it writes one line when it
-serves: `{"type": "ready", "url": "http://127.0.0.1:8000/..."}`.
+serves: `{"type": "ready", "url": "http://127.0.0.1:8765/?token=...#/robots"}`.
 """
 
 import asyncio
 import os
+import secrets
 import subprocess
 import sys
 import zlib
@@ -263,12 +265,15 @@ def start_page(
     def ready(url: str) -> None:
         for origin in origins(url):
             endpoint.allow(origin)
-        report({"type": "message", "message": f"The page is at {url}"})
+        report({"type": "page", "url": url, "message": f"The page is at {url}"})
 
     def failed() -> None:
         text = f"There is no page: its server has ended {MAX_FAILURES} times before it served it"
         report({"type": "message", "message": text})
 
-    page = PageProcess({"type": "start", **run, "warden": warden}, ready, failed, COMMAND)
+    # One for all servers: an open page stays valid when its server is replaced.
+    token = secrets.token_urlsafe(24)
+    start = {"type": "start", **run, "warden": warden, "token": token}
+    page = PageProcess(start, ready, failed, COMMAND)
     page.start()
     return page
