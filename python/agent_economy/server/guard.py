@@ -7,12 +7,14 @@ drive needs one on this machine too: other users of it must not reach the robots
 """
 
 import hmac
+from contextlib import suppress
 from dataclasses import dataclass
 from http.cookies import CookieError, SimpleCookie
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import parse_qs, urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -59,7 +61,9 @@ class Guard:
             return
         why = self.refusal(scope)
         if why is None:
-            await self.app(scope, receive, self._with_headers(scope, send))
+            # It may leave before its request is complete: that is no error.
+            with suppress(ClientDisconnect):
+                await self.app(scope, receive, self._with_headers(scope, send))
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1008, "reason": why})
         else:

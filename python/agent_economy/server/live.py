@@ -11,6 +11,7 @@ import threading
 from base64 import b64decode
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +41,7 @@ def main() -> None:
     listening = listening_socket_of(start["port"])
     token = start["token"]
     served = app(Workspace(Path.cwd()), HOST, token, live, drive_of(start, scenario))
-    server = http_server(served)
+    server = http_server(served, partial(os._exit, 0))
     threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
     url = f"http://{HOST}:{listening.getsockname()[1]}/?token={token}#/robots"
     with suppress(BrokenPipeError):  # the drive has ended already; so will the input
