@@ -19,7 +19,6 @@ import os
 import secrets
 import subprocess
 import sys
-import zlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
@@ -28,10 +27,10 @@ from urllib.parse import urlsplit
 from agent_economy.live.channel import Decoder, encode
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden.endpoint import Endpoint
+from agent_economy.live.warden.history import BLOCK_BYTES, History
 
 COMMAND = (sys.executable, "-m", "agent_economy.server.live")
 
-BLOCK_BYTES = 2**16
 STUCK_S = 30.0
 """A server that has read nothing for this time, although there is something, is replaced."""
 
@@ -43,28 +42,6 @@ MAX_FAILURES = 5
 """After this number of servers that ended before they served, none is started any more."""
 
 END_S = 1.0
-
-
-class History:
-    """All that was ever sent, so that a new server can take the run from its start; compressed."""
-
-    def __init__(self) -> None:
-        """Start empty."""
-        self._blocks: list[bytes] = []
-        self._last = bytearray()
-
-    def add(self, data: bytes) -> None:
-        """Add bytes."""
-        self._last += data
-        if len(self._last) >= BLOCK_BYTES:
-            self._blocks.append(zlib.compress(self._last, 1))
-            self._last = bytearray()
-
-    def block(self, number: int) -> tuple[bytes, bool]:
-        """Return a block, and whether it is complete."""
-        if number < len(self._blocks):
-            return zlib.decompress(self._blocks[number]), True
-        return bytes(self._last), False
 
 
 class PageProcess:
@@ -92,7 +69,7 @@ class PageProcess:
         self.url = ""
         self._start, self._ready, self._failed = dict(start), ready, failed
         self._command = command
-        self._history = History()
+        self._history = History(self._loaded)
         self._process: subprocess.Popen[bytes] | None = None
         self._decoder = Decoder()
         self._number = self._offset = 0
@@ -101,6 +78,7 @@ class PageProcess:
         self._read_s = now_s()
         self._is_waiting = self._has_served = False
         self._task: asyncio.Task[None] | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
 
     @property
     def pid(self) -> int | None:
@@ -109,6 +87,7 @@ class PageProcess:
 
     def start(self) -> None:
         """Start to keep a server running, until `end`."""
+        self._loop = asyncio.get_running_loop()
         self._task = asyncio.create_task(self._keep_running())
 
     def add(self, tick: int, inputs: Mapping[str, Any]) -> None:
@@ -125,6 +104,7 @@ class PageProcess:
             self._task.cancel()
         process = self._process
         self._close()
+        self._history.close()
         began_s = now_s()
         while process is not None and process.poll() is None:
             if now_s() - began_s > END_S:
@@ -182,15 +162,24 @@ class PageProcess:
                     self.url, self._has_served = str(message["url"]), True
                     self._ready(self.url)
 
+    def _loaded(self) -> None:
+        """Continue to write; called in the thread of the history."""
+        with suppress(RuntimeError):  # the drive has ended
+            if self._loop is not None:
+                self._loop.call_soon_threadsafe(self._write)
+
     def _is_caught_up(self) -> bool:
         data, is_complete = self._piece()
         return not self._first and not is_complete and self._offset >= len(data)
 
     def _piece(self) -> tuple[bytes, bool]:
-        """Return the block that is being written, and whether there are others after it."""
+        """Return the block that is being written, and whether there are others after it.
+
+        It is empty, and the last one, while it is read from disk.
+        """
         if self._block is not None and self._block[0] == self._number:
             return self._block[1], True
-        data, is_complete = self._history.block(self._number)
+        data, is_complete = self._history.block(self._number) or (b"", False)
         if is_complete:
             self._block = (self._number, data)
         return data, is_complete
