@@ -9,6 +9,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from agent_economy.server.app import app
 from agent_economy.server.drive import Drive, RobotOnMap, Sonar
+from agent_economy.server.guard import cookie_of
 from agent_economy.server.workspace import Workspace
 
 FENCE = ((1.0, 1.0), (39.0, 1.0), (39.0, 29.0))
@@ -23,7 +24,8 @@ DRIVE = Drive(
 
 SECRET = "secret-of-the-page"  # noqa: S105  (of a test)
 OWN = "http://127.0.0.1:8765"
-COOKIE = f"agent-economy-token-8765={SECRET}"
+COOKIE = f"agent-economy-token-8765={cookie_of(SECRET)}"
+FIELD = {"agent-economy-token": SECRET}
 FOREIGN = [{"sec-fetch-site": site} for site in ("cross-site", "same-site")]
 OPENED = {"sec-fetch-mode": "navigate", "sec-fetch-dest": "document"}
 
@@ -37,7 +39,7 @@ def stranger(folder: Path, drive: Drive | None) -> TestClient:
 def client(folder: Path, drive: Drive | None) -> TestClient:
     """Return a client of a server, with the cookie of a page that was opened."""
     client = stranger(folder, drive)
-    client.headers["cookie"] = COOKIE
+    client.headers.update({"cookie": COOKIE, **FIELD})
     return client
 
 
@@ -104,13 +106,15 @@ def test_a_page_without_the_secret_learns_nothing(tmp_path: Path, method: str, p
     "headers",
     [
         {},
-        {"cookie": f"agent-economy-token={SECRET}"},
-        {"cookie": f"agent-economy-token-8766={SECRET}"},
+        {"cookie": COOKIE.replace("-8765", "")},
+        {"cookie": COOKIE.replace("8765", "8766")},
+        {"cookie": f"agent-economy-token-8765={SECRET}"},
         {"cookie": "agent-economy-token-8765=other"},
         {"cookie": "agent-economy-token-8765="},
         {"cookie": f"{COOKIE}x"},
         {"cookie": COOKIE, "host": "127.0.0.1:8766"},
         {"cookie": COOKIE, "host": "192.168.0.7:8765"},
+        FIELD,
         {"token": SECRET},
         {"x-token": SECRET},
         {"authorization": f"Bearer {SECRET}"},
@@ -129,9 +133,20 @@ def test_the_printed_address_gives_a_cookie_that_opens_everything(tmp_path: Path
     page = stranger(tmp_path, DRIVE)
     given = page.get("/drive", params={"token": SECRET}).headers["set-cookie"]
     assert given == f"{COOKIE}; HttpOnly; SameSite=Strict; Path=/"
-    assert page.get("/drive").status_code == 200
+    assert page.get("/drive", headers=FIELD).status_code == 200
     with page, page.websocket_connect(f"ws://{OWN.removeprefix('http://')}/ws"):
         pass
+
+
+def test_a_server_that_gets_the_cookie_on_another_port_cannot_take_the_robots(
+    tmp_path: Path,
+) -> None:
+    thief = stranger(tmp_path, DRIVE)
+    assert SECRET not in COOKIE
+    for stolen in ({}, {"agent-economy-token": cookie_of(SECRET)}, {"agent-economy-token": ""}):
+        response = thief.get("/drive", headers={"cookie": COOKIE, **stolen})
+        assert response.status_code == 403
+        assert DRIVE.token not in response.text
 
 
 def test_two_servers_on_one_host_keep_their_cookies(tmp_path: Path) -> None:
@@ -145,7 +160,7 @@ def test_two_servers_on_one_host_keep_their_cookies(tmp_path: Path) -> None:
         cookies = page.cookies
     for port, each in served.items():
         page = TestClient(each, f"http://127.0.0.1:{port}", cookies=cookies)
-        assert page.get("/drive").status_code == 200
+        assert page.get("/api/scenarios").status_code == 200
 
 
 @pytest.mark.parametrize("drive", [DRIVE, None])

@@ -9,6 +9,7 @@ drive needs one on this machine too: other users of it must not reach the robots
 import hmac
 from contextlib import suppress
 from dataclasses import dataclass
+from hashlib import sha256
 from http.cookies import CookieError, SimpleCookie
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import parse_qs, urlsplit
@@ -17,6 +18,8 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+REFUSAL = "Open the link with the token that was printed when the server was started."
 
 COOKIE = "agent-economy-token"
 """The first part of the cookie's name; the port follows, because a browser sends the cookies of a
@@ -79,7 +82,7 @@ class Guard:
         if foreign is not None:
             return foreign
         if self.token is not None and not self._has_token(scope, headers):
-            return "Open the link with the token that was printed when the server was started."
+            return REFUSAL
         return None
 
     def _is_own(self, host: str) -> bool:
@@ -92,10 +95,10 @@ class Guard:
         return is_loopback(name) or name == self.host.lower() or is_address
 
     def _has_token(self, scope: Scope, headers: Headers) -> bool:
+        token = self.token or ""
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
-        tokens = [*query.get("token", []), cookie(headers)]
-        wanted = (self.token or "").encode()
-        return any(hmac.compare_digest(each.encode(), wanted) for each in tokens)
+        is_in_address = any(is_same(each, token) for each in query.get("token", []))
+        return is_in_address or is_same(cookie(headers), cookie_of(token))
 
     def _policy(self) -> str:
         if self.connects is None:
@@ -112,7 +115,7 @@ class Guard:
                 headers["content-security-policy"] = self._policy()
                 if self.token is not None and "token" in query:
                     name = cookie_name(Headers(scope=scope))
-                    kept = f"{name}={self.token}; HttpOnly; SameSite=Strict; Path=/"
+                    kept = f"{name}={cookie_of(self.token)}; HttpOnly; SameSite=Strict; Path=/"
                     headers.append("set-cookie", kept)
             await send(message)
 
@@ -161,8 +164,21 @@ def place_of(origin: str) -> str | None:
         return None
 
 
+def is_same(given: str, wanted: str) -> bool:
+    """Return whether two secrets are equal, in a time that does not depend on where they differ."""
+    return hmac.compare_digest(given.encode(), wanted.encode())
+
+
+def cookie_of(token: str) -> str:
+    """Return the value of the cookie, which the token does not follow from.
+
+    A browser sends it to servers of other users too, on other ports of this host.
+    """
+    return sha256(f"cookie of {token}".encode()).hexdigest()
+
+
 def cookie(headers: Headers) -> str:
-    """Return the token in the cookie of a request; empty if there is none."""
+    """Return the cookie of a request; empty if there is none."""
     name = cookie_name(headers)
     try:
         kept = SimpleCookie(headers.get("cookie", ""))

@@ -8,7 +8,6 @@ import {
   readLink,
   shortened,
   studyLink,
-  withoutToken,
   writeLink,
 } from "./link";
 
@@ -125,12 +124,4 @@ test("a change of a part is dropped if the whole is replaced later at the same t
 test("an address keeps all changes of a tick: robots that were removed and added again are new ones", () => {
   const changes: Change[] = [0, 12].map((count) => [7, "robots.rover.count", count]);
   expect(read(writeLink({ ...full, changes })).changes).toEqual(changes);
-});
-
-test.each([
-  ["http://127.0.0.1:8765/?token=a-_b#/robots", "http://127.0.0.1:8765/#/robots"],
-  ["http://127.0.0.1:8765/?other=1&token=ab", "http://127.0.0.1:8765/?other=1"],
-  ["http://127.0.0.1:8765/#/run?seed=7&text=a%20b", "http://127.0.0.1:8765/#/run?seed=7&text=a%20b"],
-])("an address loses the token of the server and nothing else", (address, rest) => {
-  expect(withoutToken(address)).toBe(rest);
 });

@@ -42,13 +42,6 @@ export const emptyLink: Link = {
   robot: null,
 };
 
-/** An address of the page without the token of its server. */
-export function withoutToken(address: string): string {
-  const url = new URL(address);
-  url.searchParams.delete("token");
-  return url.href;
-}
-
 /** The hash of the address of a run, such as `#/run?scenario=search&seed=7`. */
 export function writeLink(link: Link): string {
   const query = new URLSearchParams();
