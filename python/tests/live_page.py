@@ -15,6 +15,7 @@ import agent_economy as ae
 from agent_economy.live.warden.page_process import COMMAND, PageProcess
 
 ROBOT, SEED = "bender/0", 7
+SECRET = "secret-of-the-page"  # noqa: S105  (of a test)
 
 
 def start_message(port: int, token: str) -> Mapping[str, Any]:
@@ -29,6 +30,7 @@ def start_message(port: int, token: str) -> Mapping[str, Any]:
         "origin": scenario.to_dict()["world"]["origin"],
         "fences_m": {},
         "warden": {"port": port, "token": token},
+        "token": SECRET,
     }
 
 

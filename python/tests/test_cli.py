@@ -409,7 +409,7 @@ main()
 """
     given = run_python(interrupted_at_numpy)
     assert given.returncode == 130
-    assert given.stderr == "\nStopped.\n"
+    assert given.stderr == "Stopped.\n"
 
 
 def test_a_summary_is_not_interpreted_as_markup(classic_toml: Path, tmp_path: Path) -> None:

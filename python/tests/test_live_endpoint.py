@@ -115,20 +115,27 @@ def test_a_stop_and_a_hold_are_in_the_state_from_their_requests_on(served: Serve
 def test_pages_of_other_origins_read_no_answers_and_can_only_stop_robots(served: Served) -> None:
     served.endpoint.allow(ORIGIN)
     evil = "http://evil.example"
-    for origin, path, status in (
-        (ORIGIN, "/state", 200),
-        (None, "/state", 200),
-        (evil, "/state", 403),
-        (evil, "/arm", 403),
-        (evil, "/stop", 200),
-        (evil, "/hold", 200),
+    for sender, path, status in (
+        ({"Origin": ORIGIN}, "/state", 200),
+        ({"Origin": ORIGIN, "Sec-Fetch-Site": "same-site"}, "/state", 200),
+        ({}, "/state", 200),
+        ({"Sec-Fetch-Site": "none"}, "/state", 200),
+        *(
+            ({name: value}, path, status)
+            for name, value in (
+                ("Origin", evil),
+                ("Sec-Fetch-Site", "cross-site"),
+                ("Sec-Fetch-Site", "same-site"),
+            )
+            for path, status in (("/state", 403), ("/arm", 403), ("/stop", 200), ("/hold", 200))
+        ),
     ):
         link = HTTPConnection(*served.endpoint.address, timeout=5)
-        fields = {"Content-Type": "text/plain"} | ({"Origin": origin} if origin else {})
+        fields = {"Content-Type": "text/plain", **sender}
         link.request("POST", path, json.dumps({"token": served.endpoint.token}), fields)
         response = link.getresponse()
         assert response.status == status
-        allowed = ORIGIN if origin == ORIGIN else None
+        allowed = ORIGIN if sender.get("Origin") == ORIGIN else None
         assert response.getheader("Access-Control-Allow-Origin") == allowed
         link.close()
 

@@ -8,12 +8,16 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+from urllib.error import HTTPError
+from urllib.parse import parse_qs, urlsplit
+from urllib.request import urlopen
 
 import pytest
 from live_bench import Drive, driving, emulated, fleet_text
+from mcap.reader import make_reader
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden import page_process
@@ -76,7 +80,7 @@ def inputs(tick: int) -> dict[str, Any]:
 
 def test_a_page_may_be_opened_by_both_names_of_this_machine() -> None:
     expected = ("http://127.0.0.1:8765", "http://localhost:8765")
-    assert origins("http://127.0.0.1:8765/#/robots") == expected
+    assert origins("http://127.0.0.1:8765/?token=a-_b#/robots") == expected
 
 
 def test_a_server_that_replaces_a_killed_one_gets_the_whole_run_and_the_same_port(
@@ -200,7 +204,7 @@ def test_killing_the_server_of_the_page_stops_no_robot_and_the_next_one_steps_th
         fleet.write_text(fleet_text(bench), encoding="utf-8")
         drive = drive_with_page(tmp_path, fleet)
         try:
-            drive.wait_for(lambda each: "4711" in each.get("message", ""))
+            drive.wait_for(lambda each: "4711" in each.get("url", ""))
             deadline_s = now_s() + 20
             while drive.ask("/arm")[0] != 200:
                 assert now_s() < deadline_s
@@ -227,6 +231,71 @@ def test_killing_the_server_of_the_page_stops_no_robot_and_the_next_one_steps_th
     assert len(before) > 20
     assert len(after) > len(before)
     assert after[: len(before)] == before
+
+
+def fetch(url: str, path: str, query: str = "") -> tuple[int, bytes]:
+    """Return the status and the content of an address of the server of a page."""
+    place = urlsplit(url)
+    try:
+        with urlopen(f"http://{place.netloc}{path}?{query}", timeout=10) as response:
+            return response.status, response.read()
+    except HTTPError as error:
+        return error.code, error.read()
+
+
+def published(drive: Drive, page: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Yield what other users, pages without the secret, and readers of its files get of a drive."""
+    pid = drive.process.pid
+    children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    for each in (str(pid), *children):
+        yield f"arguments of {each}", Path(f"/proc/{each}/cmdline").read_text()
+        yield f"environment of {each}", Path(f"/proc/{each}/environ").read_text()
+    yield "state", json.dumps(drive.ask("/state", client="a", since=0)[1])
+    for path in ("/", "/drive", "/api/scenarios", "/api/recordings", "/favicon.svg", "/none"):
+        yield path, fetch(page["url"], path)[1].decode(errors="replace")
+    query = urlsplit(page["url"]).query
+    for path in ("/", "/api/scenarios", "/api/recordings", "/none"):
+        yield path, fetch(page["url"], path, query)[1].decode(errors="replace")
+    yield "other events", json.dumps([each for each in drive.events if each["type"] != "page"])
+
+
+def recorded(path: Path) -> bytes:
+    """Return all that a recording contains."""
+    with path.open("rb") as stream:
+        reader = make_reader(stream)
+        found = [message.data for _, _, message in reader.iter_messages()]
+        found += [str(each.metadata).encode() for each in reader.iter_metadata()]
+        found += [each.data for each in reader.iter_attachments()]
+    return b"".join(found)
+
+
+def test_only_the_printed_address_has_the_secret_of_the_page_and_restarts_keep_it(
+    tmp_path: Path,
+) -> None:
+    with emulated(tmp_path) as bench:
+        fleet = tmp_path / "fleet.toml"
+        fleet.write_text(fleet_text(bench), encoding="utf-8")
+        with driving(fleet, headless=False) as drive:
+            first = drive.wait_for(lambda each: each["type"] == "page")
+            [secret] = parse_qs(urlsplit(first["url"]).query)["token"]
+            assert len(secret) >= 32
+            assert fetch(first["url"], "/drive")[0] == 403
+            status, content = fetch(first["url"], "/drive", f"token={secret}")
+            assert (status, json.loads(content)["warden"]["token"]) == (200, drive.running().token)
+            secrets = (secret, drive.running().token)
+            for where, text in published(drive, first):
+                assert not any(each in text for each in secrets), where
+            pid = drive.process.pid
+            children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+            os.kill(int(children[-1]), signal.SIGKILL)
+            drive.wait_for(lambda each: each["type"] == "page" and each is not first)
+            assert drive.events[-1]["url"] == first["url"]
+            assert fetch(first["url"], "/drive", f"token={secret}")[0] == 200
+            drive.process.send_signal(signal.SIGINT)
+            assert drive.wait() == 130
+            content = recorded(drive.record)
+            assert len(content) > 10_000
+            assert not any(each.encode() in content for each in secrets)
 
 
 def test_without_a_server_of_the_page_the_drive_goes_on(tmp_path: Path) -> None:

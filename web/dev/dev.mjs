@@ -4,9 +4,23 @@ import { RealServer } from "./real-server.mjs";
 
 const own = process.env.SERVER ? null : new RealServer();
 await own?.start();
-const target = own?.url ?? process.env.SERVER;
+const { origin: target, searchParams } = new URL(own?.url ?? process.env.SERVER);
+const token = searchParams.get("token");
+
+/** The server of a drive needs the token of its printed address, and the cookie is of another port. */
+function rewrite(path) {
+  if (!token) return path;
+  return `${path}${path.includes("?") ? "&" : "?"}token=${encodeURIComponent(token)}`;
+}
+
 const page = await createServer({
-  server: { proxy: { "/api": { target }, "/drive": { target }, "/ws": { target, ws: true } } },
+  server: {
+    proxy: {
+      "/api": { target, rewrite },
+      "/drive": { target, rewrite },
+      "/ws": { target, ws: true, rewrite },
+    },
+  },
 });
 await page.listen();
 page.printUrls();

@@ -10,6 +10,7 @@ const program = join(import.meta.dirname, "../../python/tests/live_page.py");
 
 /** A drive of one robot in a team of five, whose page is served by the real server. */
 class LiveDrive {
+  /** With the secret of the page, without a hash. */
   url = "";
   /** The process of the server, not that of the drive, which starts another one when it ends. */
   pid = 0;
@@ -31,7 +32,7 @@ class LiveDrive {
   async served(): Promise<void> {
     const { value } = (await this.lines?.next()) ?? {};
     const { url, pid } = JSON.parse(value) as { url: string; pid: number };
-    Object.assign(this, { url: url.split("/#")[0], pid });
+    Object.assign(this, { url: url.split("#")[0], pid });
   }
 
   async end(): Promise<void> {
@@ -61,7 +62,7 @@ test("the view of the robots leads to the live run, with the robot selected, and
   page,
   drive,
 }) => {
-  await page.goto(`${drive.url}/#/robots`);
+  await page.goto(`${drive.url}#/robots`);
   await page.getByRole("region", { name: "bender/0" }).waitFor();
   await page.getByRole("link", { name: "What the brains believe" }).click();
   await expect(status(page)).toContainText("5 robots");
@@ -75,7 +76,7 @@ test("the view of the robots leads to the live run, with the robot selected, and
 });
 
 test("a live run continues by itself, and can be neither moved nor changed", async ({ page, drive }) => {
-  await page.goto(`${drive.url}/#/run?live=1`);
+  await page.goto(`${drive.url}#/run?live=1`);
   await expect(status(page)).toContainText("running");
   await expect(page.getByText(reason).first()).toBeVisible();
   const start_s = await time_s(page);
@@ -100,7 +101,7 @@ test("a live run continues by itself, and can be neither moved nor changed", asy
 
 test("a page joins the live run again when its server was killed and is back", async ({ page, drive }) => {
   const reportsAtOnce = await expectReportAtOnce(page);
-  await page.goto(`${drive.url}/#/run?live=1&robot=bender/1`);
+  await page.goto(`${drive.url}#/run?live=1&robot=bender/1`);
   await expect(status(page)).toContainText("running");
   const before_s = await time_s(page);
   const { url, pid } = drive;
@@ -112,6 +113,23 @@ test("a page joins the live run again when its server was killed and is back", a
   await expect.poll(() => time_s(page)).toBeGreaterThan(before_s);
   await expect(page.getByRole("alert")).toHaveCount(0);
   await expect(page.getByRole("combobox", { name: "Robot" })).toHaveValue("bender/1");
+});
+
+test("the secret of the page does not stay in its address, and a page without it is refused", async ({
+  page,
+  drive,
+  browser,
+}) => {
+  await page.goto(`${drive.url}#/robots`);
+  await page.getByRole("region", { name: "bender/0" }).waitFor();
+  const { origin } = new URL(drive.url);
+  expect(page.url()).toBe(`${origin}/#/robots`);
+  await page.reload();
+  await page.getByRole("region", { name: "bender/0" }).waitFor();
+  const other = await (await browser.newContext()).newPage();
+  await other.goto(`${origin}/#/robots`);
+  await expect(other.getByText("Open the link with the token")).toBeVisible();
+  await other.context().close();
 });
 
 test("a server without a drive has no live run", async ({ page, server }) => {

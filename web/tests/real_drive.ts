@@ -36,7 +36,7 @@ export class RealDrive {
     await this.startEmulator();
     await writeFile(join(this.folder, "bender.toml"), this.fleet());
     this.warden = this.spawn(["drive", "bender.toml", "--json", "--record", "drive.mcap", ...more]);
-    const page = /http:[^"]+\/#\/robots/;
+    const page = /http:[^"]+#\/robots/;
     const awaited = more.includes("--headless") ? /"type": "plan"/ : page;
     this.url = page.exec(await lineWith(this.warden, awaited))?.[0] ?? "";
   }

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import signal
 from pathlib import Path
 from typing import Annotated
 
@@ -51,18 +52,24 @@ def bender_emulator(  # noqa: PLR0913  (typer's options are arguments)
     When it is ready, it prints one line of JSON with all addresses. It runs until Ctrl-C.
 
     Exit codes: 1 it cannot continue; 2 an argument, the scenario or the log file is invalid, or
-    a port is in use; 130 stopped by Ctrl-C.
+    a port is in use; 130 stopped by Ctrl-C or SIGTERM.
 
     Example: agent-economy bender-emulator --ports 0,0,0,0 --robots 2 --set deadman_s=1
     """
     with error_exits():
         settings = Settings().changed(settings_of(sets or []), "--set ")
         setup = Setup(host, ports_of(ports), robots, scenario, control, log, seed)
-        asyncio.run(run(Emulator(settings, setup)))
+        try:
+            asyncio.run(run(Emulator(settings, setup)))
+        except asyncio.CancelledError:
+            raise KeyboardInterrupt from None
 
 
 async def run(emulator: Emulator) -> None:
-    """Print the addresses, and run until Ctrl-C."""
+    """Print the addresses, and run until Ctrl-C or SIGTERM, which cancels it as Ctrl-C does."""
+    task = asyncio.current_task()
+    if task is not None:
+        asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, task.cancel)
     async with emulator:
         typer.echo(json.dumps(emulator.addresses()))
         await emulator.finished()

@@ -86,7 +86,7 @@ def print_event(event: Mapping[str, Any]) -> None:
     """Print an event as a sentence."""
     text = sentence(event)
     if text:
-        write(sys.stderr if event["type"] in ("invalid", "message") else sys.stdout, text)
+        write(sys.stderr if event["type"] in ("invalid", "message", "page") else sys.stdout, text)
 
 
 def write(stream: TextIO | None, line: str) -> None:

@@ -1,5 +1,6 @@
 """Exceptions and warnings as messages on standard error, and exit codes."""
 
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
@@ -23,13 +24,19 @@ def print_warnings(warnings: Iterable[object]) -> None:
         typer.echo(f"warning: {warning}", err=True)
 
 
+def print_stopped() -> None:
+    """Print that Ctrl-C has ended the command; a terminal has printed ^C in the same line."""
+    is_terminal = sys.stderr is not None and sys.stderr.isatty()
+    typer.echo("\nStopped." if is_terminal else "Stopped.", err=True)
+
+
 @contextmanager
 def error_exits() -> Iterator[None]:
     """Print an expected exception and exit with its code."""
     try:
         yield
     except KeyboardInterrupt:
-        typer.echo("\nStopped.", err=True)
+        print_stopped()
         raise typer.Exit(INTERRUPTED) from None
     # Before InputError: the error of a damaged store is both.
     except ae.StudyError as error:

@@ -1,5 +1,6 @@
 """The command `ui`."""
 
+import os
 import secrets
 import socket
 import webbrowser
@@ -11,7 +12,7 @@ from typing import Annotated
 import typer
 
 from agent_economy._core import InputError
-from agent_economy.cli.errors import BAD_INPUT, error_exits
+from agent_economy.cli.errors import BAD_INPUT, error_exits, print_stopped
 from agent_economy.listening import listening_socket
 from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
@@ -35,7 +36,7 @@ def ui(
 
     By default it serves this machine only. With another --host, pages need the token in the
     printed address. It offers the bundled scenarios and those in and below the current folder.
-    Press Ctrl-C to stop.
+    Press Ctrl-C to stop; running studies are interrupted, and keep their runs.
 
     Exit codes: 0 stopped; 2 an argument is invalid.
 
@@ -45,12 +46,19 @@ def ui(
         listening = bound(host, port)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
         address = address_of(reachable(host, listening), listening.getsockname()[1], token)
-        typer.echo(f"Agent Economy is at {address}   (Ctrl-C stops it)")
-        if not no_browser:
-            webbrowser.open(address)
-        served = app(Workspace(Path.cwd()), host, token)
         with suppress(KeyboardInterrupt):
-            http_server(served).run(sockets=[listening])
+            typer.echo(f"Agent Economy is at {address}   (Ctrl-C stops it)")
+            if not no_browser:
+                webbrowser.open(address)
+            served = app(Workspace(Path.cwd()), host, token)
+            http_server(served, stop_at_once).run(sockets=[listening])
+        print_stopped()
+
+
+def stop_at_once() -> None:
+    """End the process, whatever its threads do; studies end by themselves then."""
+    print_stopped()
+    os._exit(0)
 
 
 def bound(host: str, port: int) -> socket.socket:

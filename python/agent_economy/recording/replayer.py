@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from agent_economy._core import InputError
 from agent_economy.build import own_build
@@ -14,6 +14,13 @@ from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Scenario, validation
+
+
+class InputsByTick(Protocol):
+    """External inputs of steps, as keyword arguments of `Simulation.step`, such as a dict."""
+
+    def get(self, tick: int, default: Mapping[str, Any], /) -> Mapping[str, Any]:
+        """Return the inputs of a step; it is called with ticks that never decrease."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +154,7 @@ def replay_steps(
     simulation: Stepped,
     step: Callable[..., object],
     changes: Sequence[Change],
-    inputs: Mapping[int, Mapping[str, Any]],
+    inputs: InputsByTick,
     until: int,
 ) -> Iterator[int]:
     """Replay a run up to a tick or to its end; yield each tick that it reaches.

@@ -20,7 +20,13 @@ from pathlib import Path
 
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from starlette.responses import (
+    FileResponse,
+    HTMLResponse,
+    JSONResponse,
+    PlainTextResponse,
+    Response,
+)
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
@@ -28,8 +34,8 @@ from starlette.websockets import WebSocket
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.server.drive import Drive, drive_response
-from agent_economy.server.guard import Guard
+from agent_economy.server.drive import FIELD, Drive, drive_response
+from agent_economy.server.guard import REFUSAL, Guard, is_same
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, errors_response, text
@@ -67,12 +73,19 @@ def app(
     Args:
         workspace: The folder of scenarios, studies and recordings.
         host: The host name or address that the server is bound to.
-        token: The token that pages on other machines need; None if only this machine can connect.
+        token: The token that requests need; None if they need none, as those of this machine do
+            unless there is a drive.
         live: The run of real robots that pages can join; it is simulated while the server runs.
         drive: The drive that it belongs to; None if there is none.
+
+    Raises:
+        ValueError: If there is a drive but no token: other users of this machine could drive it.
     """
+    if drive is not None and token is None:
+        message = "the page of a drive needs a token"
+        raise ValueError(message)
     web = Path(str(files("agent_economy") / "web"))
-    server = Server(workspace, web, StudyManager(workspace), live, drive)
+    server = Server(workspace, web, StudyManager(workspace), token or "", live, drive)
     return Guard(server.application(), host, token, None if drive is None else drive.address)
 
 
@@ -83,6 +96,7 @@ class Server:
     workspace: Workspace
     web: Path
     studies: StudyManager
+    token: str
     live: LiveRun | None = None
     drive: Drive | None = None
     live_host: RunHost | None = None
@@ -146,8 +160,11 @@ class Server:
             return HTMLResponse(NOT_BUILT, 503)
         return FileResponse(index, headers={"cache-control": "no-cache"})
 
-    async def current_drive(self, _: Request) -> Response:
-        """Return the drive."""
+    async def current_drive(self, request: Request) -> Response:
+        """Return the drive; the cookie is not enough, because servers on other ports get it too."""
+        given = request.headers.get(FIELD, request.query_params.get("token", ""))
+        if self.drive is not None and not is_same(given, self.token):
+            return PlainTextResponse(REFUSAL, 403)
         return drive_response(self.drive)
 
     async def scenarios(self, _: Request) -> Response:

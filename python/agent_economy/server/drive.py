@@ -1,6 +1,7 @@
 """The drive that a server belongs to: where its page finds the warden and what its map draws.
 
-GET `/drive` is the drive as JSON; `null` if the server has none. It is no error, because browsers
+GET `/drive` is the drive as JSON, for requests with the token of the page in their address or in
+the field `agent-economy-token`; `null` if the server has none. That is no error, because browsers
 report errors of requests in the console of every page.
 """
 
@@ -8,6 +9,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 
 from starlette.responses import JSONResponse
+
+FIELD = "agent-economy-token"
+"""The field of a request that has the token."""
 
 Point = tuple[float, float]
 

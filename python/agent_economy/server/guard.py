@@ -1,21 +1,32 @@
 """Which requests reach the server: those of its own pages.
 
 Without this check, pages of other sites could send requests to a server on this machine. Browsers
-send the origin of a request (`Origin`) and its destination (`Host`, which reveals DNS rebinding);
-both are checked. Other machines also need a token.
+send the origin of a request (`Origin`, or at least `Sec-Fetch-Site`) and its destination (`Host`,
+which reveals DNS rebinding); all are checked. Other machines also need a token. The server of a
+drive needs one on this machine too: other users of it must not reach the robots.
 """
 
 import hmac
+from contextlib import suppress
 from dataclasses import dataclass
+from hashlib import sha256
 from http.cookies import CookieError, SimpleCookie
 from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import parse_qs, urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+REFUSAL = "Open the link with the token that was printed when the server was started."
+
 COOKIE = "agent-economy-token"
+"""The first part of the cookie's name; the port follows, because a browser sends the cookies of a
+host to all of its ports."""
+
+OTHER_SITES = ("cross-site", "same-site")
+"""Values of `Sec-Fetch-Site` of pages of other servers; another port is another server."""
 
 POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; "
@@ -37,7 +48,7 @@ class Guard:
     Attributes:
         app: The guarded application.
         host: The host name or address that the server is bound to.
-        token: The token that other machines need; None if only this machine can connect.
+        token: The token that requests need; None if they need none.
         connects: An address besides its own that its pages may send requests to.
     """
 
@@ -53,7 +64,9 @@ class Guard:
             return
         why = self.refusal(scope)
         if why is None:
-            await self.app(scope, receive, self._with_headers(scope, send))
+            # It may leave before its request is complete: that is no error.
+            with suppress(ClientDisconnect):
+                await self.app(scope, receive, self._with_headers(scope, send))
         elif scope["type"] == "websocket":
             await send({"type": "websocket.close", "code": 1008, "reason": why})
         else:
@@ -65,17 +78,11 @@ class Guard:
         host = headers.get("host", "")
         if not self._is_own(host):
             return f"{host!r} is not a name of this server."
-        origin = headers.get("origin")
-        if origin is not None and place_of(origin) != host:
-            return f"Pages of {origin} may not use this server."
-        if (
-            scope["type"] == "websocket"
-            and origin is None
-            and headers.get("user-agent", "").startswith("Mozilla")
-        ):
-            return "Requests of browsers need an Origin header."
+        foreign = refusal_of_sender(scope, headers, host)
+        if foreign is not None:
+            return foreign
         if self.token is not None and not self._has_token(scope, headers):
-            return "Open the link with the token that was printed when the server was started."
+            return REFUSAL
         return None
 
     def _is_own(self, host: str) -> bool:
@@ -84,14 +91,14 @@ class Guard:
         except ValueError:
             return False
         # A name can be rebound to another address; an address cannot.
-        is_address = self.token is not None and address_of(name) is not None
+        is_address = not is_loopback(self.host) and address_of(name) is not None
         return is_loopback(name) or name == self.host.lower() or is_address
 
     def _has_token(self, scope: Scope, headers: Headers) -> bool:
+        token = self.token or ""
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
-        tokens = [*query.get("token", []), cookie(headers)]
-        wanted = (self.token or "").encode()
-        return any(hmac.compare_digest(each.encode(), wanted) for each in tokens)
+        is_in_address = any(is_same(each, token) for each in query.get("token", []))
+        return is_in_address or is_same(cookie(headers), cookie_of(token))
 
     def _policy(self) -> str:
         if self.connects is None:
@@ -107,11 +114,32 @@ class Guard:
                 headers.update(HEADERS)
                 headers["content-security-policy"] = self._policy()
                 if self.token is not None and "token" in query:
-                    kept = f"{COOKIE}={self.token}; HttpOnly; SameSite=Strict; Path=/"
+                    name = cookie_name(Headers(scope=scope))
+                    kept = f"{name}={cookie_of(self.token)}; HttpOnly; SameSite=Strict; Path=/"
                     headers.append("set-cookie", kept)
             await send(message)
 
         return sent
+
+
+def refusal_of_sender(scope: Scope, headers: Headers, host: str) -> str | None:
+    """Return why the page that sends a request may not; None if it is ours, or no page."""
+    origin = headers.get("origin")
+    if origin is not None:
+        is_own = place_of(origin) == host
+        return None if is_own else f"Pages of {origin} may not use this server."
+    if headers.get("sec-fetch-site") in OTHER_SITES and not is_link(scope, headers):
+        return "Pages of other sites may not use this server."
+    if scope["type"] == "websocket" and headers.get("user-agent", "").startswith("Mozilla"):
+        return "Requests of browsers need an Origin header."
+    return None
+
+
+def is_link(scope: Scope, headers: Headers) -> bool:
+    """Return whether a request opens our page by a link, which may be in a page of another site."""
+    is_of_page = (scope.get("method"), scope["path"]) == ("GET", "/")
+    is_opened = headers.get("sec-fetch-mode") == "navigate"
+    return is_of_page and is_opened and headers.get("sec-fetch-dest") == "document"
 
 
 def is_loopback(host: str) -> bool:
@@ -136,10 +164,30 @@ def place_of(origin: str) -> str | None:
         return None
 
 
+def is_same(given: str, wanted: str) -> bool:
+    """Return whether two secrets are equal, in a time that does not depend on where they differ."""
+    return hmac.compare_digest(given.encode(), wanted.encode())
+
+
+def cookie_of(token: str) -> str:
+    """Return the value of the cookie, which the token does not follow from.
+
+    A browser sends it to servers of other users too, on other ports of this host.
+    """
+    return sha256(f"cookie of {token}".encode()).hexdigest()
+
+
 def cookie(headers: Headers) -> str:
-    """Return the token in the cookie of a request; empty if there is none."""
+    """Return the cookie of a request; empty if there is none."""
+    name = cookie_name(headers)
     try:
         kept = SimpleCookie(headers.get("cookie", ""))
     except CookieError:
         return ""
-    return kept[COOKIE].value if COOKIE in kept else ""
+    return kept[name].value if name in kept else ""
+
+
+def cookie_name(headers: Headers) -> str:
+    """Return the name of the cookie, which contains the port that the browser connects to."""
+    _, separator, port = headers.get("host", "").rpartition(":")
+    return f"{COOKIE}-{port if separator and port.isdigit() else 80}"

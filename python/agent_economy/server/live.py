@@ -11,6 +11,7 @@ import threading
 from base64 import b64decode
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -38,10 +39,11 @@ def main() -> None:
     scenario = scenario_of(start["scenario"])
     live = LiveRun(scenario, start["seed"], start["external"])
     listening = listening_socket_of(start["port"])
-    served = app(Workspace(Path.cwd()), HOST, live=live, drive=drive_of(start, scenario))
-    server = http_server(served)
+    token = start["token"]
+    served = app(Workspace(Path.cwd()), HOST, token, live, drive_of(start, scenario))
+    server = http_server(served, partial(os._exit, 0))
     threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
-    url = f"http://{HOST}:{listening.getsockname()[1]}/#/robots"
+    url = f"http://{HOST}:{listening.getsockname()[1]}/?token={token}#/robots"
     with suppress(BrokenPipeError):  # the drive has ended already; so will the input
         os.write(sys.stdout.fileno(), json.dumps({"type": "ready", "url": url}).encode() + b"\n")
     server.run(sockets=[listening])

@@ -1,3 +1,5 @@
+import { tokenFields } from "./token";
+
 /**
  * The endpoint of the warden, the process that owns the robots of a drive. Every request is POST with a JSON body
  * of content type text/plain (no preflight) that contains the token; every answer is JSON. It does not pass
@@ -136,7 +138,7 @@ export type Answer<Body> =
 
 /** The drive of this page's server; null if it has none. Throws if the server does not respond. */
 export async function findDrive(): Promise<Drive | null> {
-  const response = await fetch("drive", { cache: "no-store" });
+  const response = await fetch("drive", { cache: "no-store", headers: tokenFields() });
   if (response.status === 404) return null;
   if (!response.ok) throw new Error(`The server responded ${response.status} ${response.statusText}.`);
   return (await response.json()) as Drive | null;

@@ -43,8 +43,10 @@ class ControlPort:
                 answer = await reply(line, self._controlled)
                 writer.write(json.dumps(answer).encode() + b"\n")
                 await writer.drain()
-        except (ConnectionError, ValueError):
-            pass  # The client is gone, or its line is too long.
+        except (ConnectionError, ValueError, asyncio.CancelledError):
+            # The client is gone, its line is too long, or the emulator ends: asyncio of Python 3.11
+            # would report the last one as an error.
+            pass
         finally:
             self._writers.discard(writer)
             writer.close()

@@ -28,6 +28,9 @@ MAX_CONNECTIONS = 200
 STOPS = ("/stop", "/hold")
 """Requests of these paths need the token only; others of a page also its origin."""
 
+OTHER_SITES = ("cross-site", "same-site")
+"""Values of `Sec-Fetch-Site` of pages of other servers; without an origin they are not known."""
+
 NO_REQUEST = (
     OSError,  # Also a time-out.
     ValueError,
@@ -62,6 +65,11 @@ class Request:
     def origin(self) -> str:
         """The origin of the page that sends it; empty for other programs."""
         return self.fields.get("origin", "").strip()
+
+    @property
+    def is_of_unknown_page(self) -> bool:
+        """Whether a page of another server sends it, without its origin."""
+        return not self.origin and self.fields.get("sec-fetch-site", "").strip() in OTHER_SITES
 
     @property
     def is_last(self) -> bool:
@@ -167,9 +175,9 @@ class Endpoint:
             raise ValueError  # noqa: TRY004  (of the request, not of the program)
         if not hmac.compare_digest(str(body.get("token")).encode(), self.token.encode()):
             return HTTPStatus.FORBIDDEN, {"message": "the token is missing or wrong"}
-        is_known = request.origin in ("", *self._origins)
+        is_known = request.origin in ("", *self._origins) and not request.is_of_unknown_page
         if not is_known and request.path not in STOPS:
-            text = f"pages of {request.origin} are not allowed"
+            text = f"pages of {request.origin or 'other sites'} are not allowed"
             return HTTPStatus.FORBIDDEN, {"message": text}
         try:
             return HTTPStatus.OK, action(body)

@@ -34,8 +34,8 @@ class EventLog:
         self._events.append(event | {"robot": robot, "text": text})
 
     def report(self, event: Mapping[str, Any]) -> None:
-        """Add an event of the drive, in words."""
-        text = sentence(event)
+        """Add an event of the drive, in words; but the address of the page contains a secret."""
+        text = "" if event["type"] == "page" else sentence(event)
         if text:
             self.add(_level(event), event.get("robot"), text)
 

@@ -3,21 +3,22 @@
 It is `python -m agent_economy.server.live`. On its standard input it reads JSON, one object a line:
 
 * `{"type": "start", "fleet", "scenario": {"file", "text", "files"}, "seed", "external", "origin",
-  "fences_m", "warden": {"port", "token"}, "port"}`, once. `files` are those that the scenario
-  refers to, in base 64. `port` is where to serve the page: that of the server that it replaces, or
-  null.
+  "fences_m", "warden": {"port", "token"}, "token", "port"}`, once. `files` are those that the
+  scenario refers to, in base 64. `token` is what requests of the page have to contain; it is not an
+  argument, because every user of the machine sees those. `port` is where to serve the page: that of
+  the server that it replaces, or null.
 * `{"type": "input", "tick", "inputs"}` for each step, from the first one on: the percepts of the
   robots whose brains step in it.
 
 The end of its input is the end of the drive. On its standard output it writes one line when it
-serves: `{"type": "ready", "url": "http://127.0.0.1:8000/..."}`.
+serves: `{"type": "ready", "url": "http://127.0.0.1:8765/?token=...#/robots"}`.
 """
 
 import asyncio
 import os
+import secrets
 import subprocess
 import sys
-import zlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
@@ -26,10 +27,10 @@ from urllib.parse import urlsplit
 from agent_economy.live.channel import Decoder, encode
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden.endpoint import Endpoint
+from agent_economy.live.warden.history import BLOCK_BYTES, History
 
 COMMAND = (sys.executable, "-m", "agent_economy.server.live")
 
-BLOCK_BYTES = 2**16
 STUCK_S = 30.0
 """A server that has read nothing for this time, although there is something, is replaced."""
 
@@ -41,28 +42,6 @@ MAX_FAILURES = 5
 """After this number of servers that ended before they served, none is started any more."""
 
 END_S = 1.0
-
-
-class History:
-    """All that was ever sent, so that a new server can take the run from its start; compressed."""
-
-    def __init__(self) -> None:
-        """Start empty."""
-        self._blocks: list[bytes] = []
-        self._last = bytearray()
-
-    def add(self, data: bytes) -> None:
-        """Add bytes."""
-        self._last += data
-        if len(self._last) >= BLOCK_BYTES:
-            self._blocks.append(zlib.compress(self._last, 1))
-            self._last = bytearray()
-
-    def block(self, number: int) -> tuple[bytes, bool]:
-        """Return a block, and whether it is complete."""
-        if number < len(self._blocks):
-            return zlib.decompress(self._blocks[number]), True
-        return bytes(self._last), False
 
 
 class PageProcess:
@@ -90,7 +69,7 @@ class PageProcess:
         self.url = ""
         self._start, self._ready, self._failed = dict(start), ready, failed
         self._command = command
-        self._history = History()
+        self._history = History(self._loaded)
         self._process: subprocess.Popen[bytes] | None = None
         self._decoder = Decoder()
         self._number = self._offset = 0
@@ -99,6 +78,7 @@ class PageProcess:
         self._read_s = now_s()
         self._is_waiting = self._has_served = False
         self._task: asyncio.Task[None] | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
 
     @property
     def pid(self) -> int | None:
@@ -107,6 +87,7 @@ class PageProcess:
 
     def start(self) -> None:
         """Start to keep a server running, until `end`."""
+        self._loop = asyncio.get_running_loop()
         self._task = asyncio.create_task(self._keep_running())
 
     def add(self, tick: int, inputs: Mapping[str, Any]) -> None:
@@ -123,6 +104,7 @@ class PageProcess:
             self._task.cancel()
         process = self._process
         self._close()
+        self._history.close()
         began_s = now_s()
         while process is not None and process.poll() is None:
             if now_s() - began_s > END_S:
@@ -180,15 +162,24 @@ class PageProcess:
                     self.url, self._has_served = str(message["url"]), True
                     self._ready(self.url)
 
+    def _loaded(self) -> None:
+        """Continue to write; called in the thread of the history."""
+        with suppress(RuntimeError):  # the drive has ended
+            if self._loop is not None:
+                self._loop.call_soon_threadsafe(self._write)
+
     def _is_caught_up(self) -> bool:
         data, is_complete = self._piece()
         return not self._first and not is_complete and self._offset >= len(data)
 
     def _piece(self) -> tuple[bytes, bool]:
-        """Return the block that is being written, and whether there are others after it."""
+        """Return the block that is being written, and whether there are others after it.
+
+        It is empty, and the last one, while it is read from disk.
+        """
         if self._block is not None and self._block[0] == self._number:
             return self._block[1], True
-        data, is_complete = self._history.block(self._number)
+        data, is_complete = self._history.block(self._number) or (b"", False)
         if is_complete:
             self._block = (self._number, data)
         return data, is_complete
@@ -263,12 +254,15 @@ def start_page(
     def ready(url: str) -> None:
         for origin in origins(url):
             endpoint.allow(origin)
-        report({"type": "message", "message": f"The page is at {url}"})
+        report({"type": "page", "url": url, "message": f"The page is at {url}"})
 
     def failed() -> None:
         text = f"There is no page: its server has ended {MAX_FAILURES} times before it served it"
         report({"type": "message", "message": text})
 
-    page = PageProcess({"type": "start", **run, "warden": warden}, ready, failed, COMMAND)
+    # One for all servers: an open page stays valid when its server is replaced.
+    token = secrets.token_urlsafe(24)
+    start = {"type": "start", **run, "warden": warden, "token": token}
+    page = PageProcess(start, ready, failed, COMMAND)
     page.start()
     return page

@@ -1,8 +1,8 @@
 """Everything that is needed to replay a run."""
 
 from dataclasses import dataclass
-from typing import Any
 
+from agent_economy.recording.replayer import InputsByTick
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario
 
@@ -25,6 +25,6 @@ class RunHistory:
     seed: int
     run: int
     log: tuple[Change, ...]
-    inputs: dict[int, dict[str, Any]]
+    inputs: InputsByTick
     latest_tick: int
     external: tuple[str, ...] = ()

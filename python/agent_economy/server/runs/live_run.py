@@ -8,6 +8,7 @@ from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario, validation
 from agent_economy.server.recordings.history import RunHistory
+from agent_economy.server.recordings.input_log import InputLog, InputReader
 from agent_economy.server.runs.outcome_series import OutcomeSeries
 
 
@@ -41,7 +42,9 @@ class LiveRun:
         self.series = OutcomeSeries()
         self.series.note(self.simulation)
         self._first = scenario
-        self._inputs: dict[int, dict[str, Any]] = {}
+        # A drive lasts for hours: its inputs do not fit into memory.
+        self._inputs = InputLog()
+        self._unused = InputReader(self._inputs)
         self._latest_tick = 0
         self._is_ended = False
         self._wake: Callable[[], None] = do_nothing
@@ -60,7 +63,7 @@ class LiveRun:
         validation.check(tick >= self._latest_tick, "tick", tick, allowed)
         validation.check(not self._is_ended, "tick", tick, "added before the end of the live run")
         # The simulation reads the latest tick first.
-        self._inputs[tick] = dict(inputs)
+        self._inputs.append(tick, inputs)
         self._latest_tick = tick + 1
         self._wake()
 
@@ -117,7 +120,7 @@ class LiveRun:
     def history(self) -> RunHistory:
         """Everything that is needed to replay the run up to the current tick."""
         simulation, tick = self.simulation, self.tick
-        inputs = {at: each for at, each in self._inputs.copy().items() if at < tick}
+        inputs = InputReader(self._inputs)
         begun = self._first, simulation.seed, simulation.run
         return RunHistory(*begun, (), inputs, tick, simulation.declared_external)
 
@@ -137,7 +140,7 @@ class LiveRun:
 
     def _step(self) -> None:
         try:
-            self.simulation.step(1, **self._inputs.get(self.tick, {}))
+            self.simulation.step(1, **self._unused.get(self.tick, {}))
         except ValueError:
             self._is_ended, self._latest_tick = True, self.tick
             raise
