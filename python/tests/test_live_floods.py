@@ -1,6 +1,7 @@
 """Whatever robots send, the work of the warden is bounded, and no robot delays another's stop."""
 
 import asyncio
+import itertools
 import json
 import subprocess
 import sys
@@ -190,3 +191,48 @@ def stops_in_a_flood(name: str, folder: Path) -> list[float]:
             drive.post("/stop")
             stops = (lambda: bench.stops_after(0, before_s), lambda: robot.stops_after(before_s))
             return [first_after(each) - before_s for each in stops]
+
+
+FLOOD_OF_REQUESTS = """
+import socket, sys, threading
+port, body = int(sys.argv[1]), b"[" + b"1," * 6000 + b"1]"
+head = b"POST /arm HTTP/1.1\\r\\nContent-Length: %d\\r\\n\\r\\n" % len(body)
+def flood():
+    while True:
+        try:
+            with socket.create_connection(("127.0.0.1", port)) as link:
+                while True:
+                    link.sendall((head + body) * 20)
+                    link.settimeout(0.05)
+                    try:
+                        link.recv(65536)
+                    except TimeoutError:
+                        pass
+        except OSError:
+            pass
+for _ in range(150):
+    threading.Thread(target=flood, daemon=True).start()
+threading.Event().wait()
+"""
+
+
+@repeated_if_late
+def test_a_flood_of_requests_without_a_token_delays_no_turn_of_the_warden(tmp_path: Path) -> None:
+    scenario, fleet = lanes(tmp_path, 1), tmp_path / "fleet.toml"
+    with emulated(tmp_path, 1, arguments=("--scenario", str(scenario))) as bench:
+        fleet.write_text(fleet_text(bench, scenario=str(scenario)), encoding="utf-8")
+        with driving(fleet) as drive:
+            drive.wait_until_moving("bender/0")
+            command = [sys.executable, "-c", FLOOD_OF_REQUESTS, str(drive.running().port)]
+            flooding_program = subprocess.Popen(command)
+            try:
+                time.sleep(3.0)
+                flooded_s = now_s()
+            finally:
+                flooding_program.kill()
+                flooding_program.wait(timeout=10)
+            # Whether it moves or stands, a motor line is due every 0.2 s.
+            times = [row["t_s"] for row in bench.lines(0) if flooded_s - 2 < row["t_s"] < flooded_s]
+            assert max(after - before for before, after in itertools.pairwise(times)) < 0.5
+            drive.post("/stop")
+            assert not any("event_loop_gap" in each.get("faults", ()) for each in drive.events)

@@ -3,12 +3,15 @@
 import json
 import socket
 from dataclasses import asdict, dataclass
-from time import monotonic
+from time import monotonic, sleep
 
 HOST = "127.0.0.1"
 """The host of every endpoint: an entry of another user must not send requests elsewhere."""
 
 TIMEOUT_S = 3.0
+
+AGAIN_S = 0.02
+"""Time until a request whose connection was closed is sent again."""
 
 MAX_BYTES = 2**16
 """Size of an entry and of an answer; more is none."""
@@ -37,22 +40,38 @@ class RunningDrive:
         return json.dumps(asdict(self)).encode() + b"\n"
 
     def request(self, path: str) -> tuple[bool, str]:
-        """Send a request; return whether it was accepted, and the answer in words."""
+        """Send a request; return whether it was accepted, and the answer in words.
+
+        A connection that ends without an answer is replaced: other programs may flood the endpoint
+        with connections, and a stop must get through all the same.
+        """
+        until_s = monotonic() + TIMEOUT_S
+        while True:
+            try:
+                return self._answer(path, until_s)
+            except TimeoutError:
+                return False, f"no answer within {TIMEOUT_S:g} s"
+            except ConnectionRefusedError as error:
+                return False, f"no answer: {error.strerror or error}"
+            except OSError as error:
+                if monotonic() + AGAIN_S > until_s:
+                    return False, f"no answer: {error.strerror or error}"
+            except (ValueError, KeyError, IndexError, TypeError, RecursionError):
+                return False, "an answer that is none of a drive"
+            sleep(AGAIN_S)
+
+    def _answer(self, path: str, until_s: float) -> tuple[bool, str]:
         body = json.dumps({"token": self.token}).encode()
         head = f"POST {path} HTTP/1.1\r\nHost: {self.host}\r\nConnection: close\r\n"
         head += f"Content-Length: {len(body)}\r\n\r\n"
-        until_s = monotonic() + TIMEOUT_S
-        try:
-            with socket.create_connection((self.host, self.port), TIMEOUT_S) as link:
-                link.sendall(head.encode() + body)
-                start, _, answer = received(link, until_s).partition(b"\r\n\r\n")
-            return start.split(b" ")[1] == b"200", str(json.loads(answer)["message"])
-        except TimeoutError:
-            return False, f"no answer within {TIMEOUT_S:g} s"
-        except OSError as error:
-            return False, f"no answer: {error.strerror or error}"
-        except (ValueError, KeyError, IndexError, TypeError, RecursionError):
-            return False, "an answer that is none of a drive"
+        with socket.create_connection((self.host, self.port), TIMEOUT_S) as link:
+            link.sendall(head.encode() + body)
+            data = received(link, until_s)
+        if not data:
+            message = "the connection was closed"
+            raise ConnectionResetError(message)
+        start, _, answer = data.partition(b"\r\n\r\n")
+        return start.split(b" ")[1] == b"200", str(json.loads(answer)["message"])
 
 
 def received(link: socket.socket, until_s: float) -> bytes:

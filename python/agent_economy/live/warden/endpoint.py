@@ -2,12 +2,14 @@
 
 The body is JSON of any content type, so that a page can send it as text without a request in
 advance; it has the token, which keeps other users and pages in browsers from reaching the robots.
-Each connection is served by itself, with limits of size and time: none delays the stop of another.
+Each connection is served by itself, with limits of size, time and number: none delays the stop of
+another, nor the turns of the warden.
 """
 
 import asyncio
 import hmac
 import json
+import random
 import secrets
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -15,15 +17,19 @@ from dataclasses import dataclass
 from http import HTTPStatus
 from typing import Any
 
-MAX_BYTES = 65_536
+from agent_economy.live.warden.admission import Admission
+
+MAX_BYTES = 16_384
+"""Bytes of a head, and of a body: a list of a thousand robots."""
+
 READ_TIMEOUT_S = 2.0
 """Time for the rest of a request, from its first byte on."""
 
 IDLE_S = 60.0
 """Time between two requests of one connection."""
 
-MAX_CONNECTIONS = 200
-"""With more, the oldest is closed: new ones must always be accepted."""
+MAX_CONNECTIONS = 64
+"""With more, one is closed: new ones must always be accepted."""
 
 STOPS = ("/stop", "/hold")
 """Requests of these paths need the token only; others of a page also its origin."""
@@ -90,8 +96,9 @@ class Endpoint:
         self.token, self.address = secrets.token_urlsafe(16), ("127.0.0.1", 0)
         self._actions = actions
         self._origins: set[str] = set()
-        self._open: dict[asyncio.StreamWriter, None] = {}
+        self._open: dict[asyncio.StreamWriter, bool] = {}
         self._server: asyncio.Server | None = None
+        self._admission = Admission()
 
     async def start(self) -> None:
         """Listen on a free port of the loopback interface."""
@@ -111,11 +118,9 @@ class Endpoint:
             writer.close()
 
     async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        self._open[writer] = None
+        self._open[writer] = False
         if len(self._open) > MAX_CONNECTIONS:
-            oldest = next(iter(self._open))
-            self._open.pop(oldest)
-            oldest.transport.abort()
+            self._close_one()
         try:
             while await self._serve_one(reader, writer):
                 pass
@@ -127,6 +132,16 @@ class Endpoint:
             with suppress(OSError):
                 writer.close()
 
+    def _close_one(self) -> None:
+        """Close a connection: the oldest that had the token, or one at random of the others.
+
+        At random, because a program that opens many would else close each new one of others.
+        """
+        strangers = [writer for writer, is_known in self._open.items() if not is_known]
+        chosen = random.choice(strangers) if strangers else next(iter(self._open))  # noqa: S311
+        self._open.pop(chosen)
+        chosen.transport.abort()
+
     async def _serve_one(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> bool:
         """Answer the next request; return whether another one may follow."""
         try:
@@ -134,11 +149,14 @@ class Endpoint:
                 first = await reader.readexactly(1)
         except (TimeoutError, asyncio.IncompleteReadError):
             return False
+        await self._admission.wait()
         request = None
         try:
             async with asyncio.timeout(READ_TIMEOUT_S):
                 request = await _read(first, reader)
             status, answer = self._answer(request)
+            if writer in self._open and status in (HTTPStatus.OK, HTTPStatus.CONFLICT):
+                self._open[writer] = True
         except NO_REQUEST:
             text = "not a request that this endpoint takes"
             status, answer = HTTPStatus.BAD_REQUEST, {"message": text}
