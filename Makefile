@@ -171,8 +171,9 @@ goals: .venv/installed ## Measure how soon robots give up goals that they cannot
 
 drive: .venv/installed ## Drive an emulated robot around a wall to two waypoints, and replay the recording
 	@$(BIN)/agent-economy bender-emulator & emulator=$$!; trap "kill $$emulator" EXIT; \
-		$(BIN)/agent-economy drive fleets/bender.toml --headless --arm --record bender.mcap && \
-		$(BIN)/agent-economy replay bender.mcap
+		record=$$(mktemp -d)/bender.mcap; \
+		$(BIN)/agent-economy drive fleets/bender.toml --headless --arm --record $$record && \
+		$(BIN)/agent-economy replay $$record
 
 fuzz: ## Fuzz every reader of input, one minute each
 	set -e; for target in $$(cargo +nightly fuzz list); do \
