@@ -21,8 +21,7 @@ from wire_faults import lanes
 from agent_economy.live.clock import now_s
 from agent_economy.live.drivers import DRIVERS, Driver, LineSplitter
 from agent_economy.live.drivers.lines import MAX_LINE_BYTES
-from agent_economy.live.warden.connection import READ_BYTES, Connection
-from agent_economy.live.warden.robot import MAX_TURN_LINES, lines_per_port
+from agent_economy.live.warden.connection import MAX_BYTES, MAX_TURN_LINES, Connection, Share
 
 MAX_DELAY_S = 0.1
 """A robot is stopped within this time of the request."""
@@ -70,10 +69,14 @@ def test_of_a_flood_of_lines_only_the_newest_are_taken() -> None:
     ]
 
 
-@pytest.mark.parametrize(("ports", "lines"), [(3, 20), (15, 13), (40, 5), (4000, 4)])
-def test_the_ports_of_all_robots_share_the_lines_of_a_turn(ports: int, lines: int) -> None:
-    assert lines_per_port(ports) == lines
-    assert lines == 4 or ports * lines <= MAX_TURN_LINES
+@pytest.mark.parametrize(
+    ("ports", "read", "lines"), [(4, 16_384, 20), (20, 13_107, 10), (40, 6553, 5), (400, 1024, 1)]
+)
+def test_the_ports_of_all_robots_share_the_lines_of_a_turn(
+    ports: int, read: int, lines: int
+) -> None:
+    assert Share.of(ports) == Share(read, lines)
+    assert ports * lines <= max(MAX_TURN_LINES, ports)
 
 
 def test_a_port_is_read_once_per_turn_and_gives_no_line_while_others_wait_behind_it() -> None:
@@ -82,12 +85,12 @@ def test_a_port_is_read_once_per_turn_and_gives_no_line_while_others_wait_behind
         counts: list[int] = []
 
         async def serve(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-            writer.write(b"old\n" * READ_BYTES + b"newer\nnewest\n")
+            writer.write(b"old\n" * MAX_BYTES + b"newer\nnewest\n")
             await writer.drain()
 
         server = await asyncio.start_server(serve, "127.0.0.1", 0)
         host, port = server.sockets[0].getsockname()[:2]
-        connection = Connection(lines.append, 20)
+        connection = Connection(lines.append, Share())
         await asyncio.get_running_loop().create_connection(lambda: connection, host, port)
         deadline_s = now_s() + 10
         while b"newest" not in lines and now_s() < deadline_s:
@@ -210,7 +213,7 @@ def flood():
                         pass
         except OSError:
             pass
-for _ in range(150):
+for _ in range(40):
     threading.Thread(target=flood, daemon=True).start()
 threading.Event().wait()
 """

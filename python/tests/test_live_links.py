@@ -16,13 +16,13 @@ from agent_economy.live.clock import now_s
 from agent_economy.live.emulator import packet_loss
 from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.warden import port_link
-from agent_economy.live.warden.connection import Connection
+from agent_economy.live.warden.connection import Connection, Share
 from agent_economy.live.warden.name_lookup import NameLookup
 from agent_economy.live.warden.port_link import PortLink
 
 
 def link_to(host: str, port: int, lookup: NameLookup, lines: list[bytes]) -> PortLink:
-    return PortLink((host, port), lookup, lambda: Connection(lines.append, 20), lambda: None)
+    return PortLink((host, port), lookup, lambda: Connection(lines.append, Share()), lambda: None)
 
 
 @pytest.fixture
@@ -85,7 +85,7 @@ def test_a_motor_port_that_another_program_has_locked_is_not_connected_until_it_
         link = PortLink(
             ("localhost", port),
             NameLookup("localhost"),
-            lambda: Connection(lambda _: None, 20),
+            lambda: Connection(lambda _: None, Share()),
             lambda: None,
             own,
         )

@@ -17,7 +17,7 @@ LEFT, RIGHT, BOTH, STOP = range(4)
 """Channels of a motor line."""
 
 _MOTOR = re.compile(rb"x,([012]),(\d{1,3}),|x,3,(?:\d{1,3},)?")
-_HEADING = re.compile(rb"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,2})?\s*")
+_HEADING = re.compile(rb"\s*[+-]?(\d+(?:\.\d*)?|\.\d+)([eE][+-]?\d{1,2})?\s*")
 
 
 @dataclass(frozen=True)

@@ -6,18 +6,43 @@ import socket
 import struct
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 
-from agent_economy.live.drivers.lines import LineSplitter
+from agent_economy.live.drivers.lines import MAX_LINES, LineSplitter
 
 _SIOCOUTQ = 0x5411 if sys.platform == "linux" else None
 
-READ_BYTES = 16_384
-"""Bytes that are read of one port in one turn of the warden."""
+MAX_TURN_BYTES, MAX_TURN_LINES = 262_144, 200
+"""What is taken in one turn of the warden, of all ports of all robots together."""
+
+MIN_BYTES, MAX_BYTES = 1024, 16_384
+"""Bytes that are read of one port in one turn: at least, so that any line is read, and at most."""
 
 _RESET = struct.pack("ii", 1, 0)
 """The option SO_LINGER with which a close resets the connection."""
 
 Received = Callable[[bytes], None]
+
+
+@dataclass(frozen=True)
+class Share:
+    """What is taken of one port in one turn of the warden.
+
+    Attributes:
+        bytes: Bytes that are read.
+        lines: Lines that are taken; of more, the newest.
+    """
+
+    bytes: int = MAX_BYTES
+    lines: int = MAX_LINES
+
+    @classmethod
+    def of(cls, ports: int) -> "Share":
+        """Return the share of each of a number of ports."""
+        return cls(
+            max(MIN_BYTES, min(MAX_BYTES, MAX_TURN_BYTES // ports)),
+            max(1, min(MAX_LINES, MAX_TURN_LINES // ports)),
+        )
 
 
 class Connection(asyncio.BufferedProtocol):
@@ -33,12 +58,12 @@ class Connection(asyncio.BufferedProtocol):
         lost: Is set when it has ended, or should be replaced because nothing is acknowledged.
     """
 
-    def __init__(self, received: Received, max_lines: int) -> None:
+    def __init__(self, received: Received, share: Share) -> None:
         """Wait to be connected; `received` is called with each line, the newest of each read."""
         self.is_up, self.reason = False, "not connected yet"
         self.closed, self.lost = asyncio.Event(), asyncio.Event()
-        self._received, self._splitter = received, LineSplitter(max_lines)
-        self._buffer = bytearray(READ_BYTES)
+        self._received, self._splitter = received, LineSplitter(share.lines)
+        self._buffer = bytearray(share.bytes)
         self._transport: asyncio.Transport | None = None
         self._socket: socket.socket | None = None
         self._queued_since_s: float | None = None
@@ -63,7 +88,7 @@ class Connection(asyncio.BufferedProtocol):
         """
         assert self._transport is not None  # noqa: S101  (it is connected)
         self._transport.pause_reading()
-        if count == READ_BYTES:
+        if count == len(self._buffer):
             self._splitter.skip()
             return
         for line in self._splitter.feed(bytes(self._buffer[:count])):

@@ -3,34 +3,22 @@
 import asyncio
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 from agent_economy.live.drivers import DRIVERS, PortLine
-from agent_economy.live.drivers.lines import MAX_LINES
 from agent_economy.live.locks import AddressLocks
 from agent_economy.live.plan import Origin, RobotPlan
 from agent_economy.live.readings import Motion, Quantity, Reading
 from agent_economy.live.rules import Link, RobotInputs, Sample, Setpoint
-from agent_economy.live.warden.connection import Connection
+from agent_economy.live.warden.connection import Connection, Share
 from agent_economy.live.warden.geometry import world_of
 from agent_economy.live.warden.motor_line import MotorLines
 from agent_economy.live.warden.name_lookup import NameLookup
 from agent_economy.live.warden.port_link import PortLink
 
-MAX_TURN_LINES = 200
-"""Lines that are taken in one turn of the warden, of all ports of all robots together."""
-
-MIN_PORT_LINES = 4
-"""Lines of one port that are taken in one turn at least, however many ports there are."""
-
 LineReport = Callable[[str, str, bytes, float, bool], None]
 """Takes the robot, the port, a line, its time, and whether it was written."""
-
-
-def lines_per_port(ports: int) -> int:
-    """Return the number of lines of one port in one turn: an equal share of `MAX_TURN_LINES`."""
-    return max(MIN_PORT_LINES, min(MAX_LINES, MAX_TURN_LINES // ports))
 
 
 @dataclass(frozen=True)
@@ -41,13 +29,13 @@ class DriveContext:
         origin: The geographic origin of the world.
         stamp_s: Returns the time stamp of a line that is read now.
         report: Is called with each line.
-        max_lines: Lines that are taken of one port in one turn; of more, the newest.
+        share: What is taken of one port in one turn.
     """
 
     origin: Origin
     stamp_s: Callable[[], float]
     report: LineReport
-    max_lines: int = MAX_LINES
+    share: Share = field(default_factory=Share)
 
 
 class Robot:
@@ -91,7 +79,7 @@ class Robot:
         self._has_moved = False
         self._samples: dict[str, Sample] = {}
         self._arrived: dict[str, deque[tuple[bytes, float]]] = {
-            port: deque(maxlen=context.max_lines) for port in plan.ports
+            port: deque(maxlen=context.share.lines) for port in plan.ports
         }
         self._motors = MotorLines(self.driver, plan.settings, context.origin, plan.repeat_s)
         lookup, locks = NameLookup(plan.host), locks or AddressLocks()
@@ -99,7 +87,7 @@ class Robot:
             port: PortLink(
                 (plan.host, number),
                 lookup,
-                partial(Connection, partial(self._received, port), context.max_lines),
+                partial(Connection, partial(self._received, port), context.share),
                 partial(self._connected, port),
                 locks if port == self.driver.motor_port else None,
             )

@@ -13,11 +13,12 @@ from agent_economy.live.plan import FleetPlan, Point, plan_of
 from agent_economy.live.readings import Motion
 from agent_economy.live.rules import Action, Decision, Inputs, LoopInputs, Outputs, Setpoint
 from agent_economy.live.rules.faults import SETTLING_S, STANDSTILL_S
+from agent_economy.live.warden.connection import Share
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.loop_process import LoopProcess
 from agent_economy.live.warden.mission import Mission
 from agent_economy.live.warden.operator import Operator
-from agent_economy.live.warden.robot import DriveContext, Robot, lines_per_port
+from agent_economy.live.warden.robot import DriveContext, Robot
 
 TURN_S = 0.02
 """Time between two turns."""
@@ -86,8 +87,8 @@ class Warden:
             plan: The fleet.
             locks: The locks of each robot, which the caller closes.
         """
-        lines = lines_per_port(sum(len(robot.ports) for robot in plan.robots))
-        context = DriveContext(plan.origin, self._stamp_s, self._line, lines)
+        share = Share.of(sum(len(robot.ports) for robot in plan.robots))
+        context = DriveContext(plan.origin, self._stamp_s, self._line, share)
         for each in plan.robots:
             self.robots[each.name] = Robot(each, context, (locks or {}).get(each.name))
         async with asyncio.TaskGroup() as tasks:
