@@ -157,8 +157,8 @@ test.describe("the emergency stop", () => {
     await pointer(page, stopButton(page)).begin();
     await expect(bar(page)).toContainText("bender/0: standstill not confirmed");
     await page.mouse.up();
-    warden.robot.is_standing = true;
-    await expect(bar(page)).toContainText("bender/0: standstill confirmed");
+    warden.confirmStandstill();
+    await expect(bar(page)).toContainText("bender/0: standstill confirmed (slower than 0.22 m/s)");
     // It is repeated if the answer is late.
     expect(warden.requests("client")[0]).toEqual(["/stop", undefined]);
     expect(new Set(warden.requests().map(String))).toEqual(new Set(["/stop"]));
@@ -206,14 +206,41 @@ test.describe("the emergency stop", () => {
     warden,
   }) => {
     await open(page, server);
-    warden.robot.is_standing = true;
+    warden.confirmStandstill();
     warden.mode = "frozen";
     await page.keyboard.press("Escape");
     await expect(bar(page)).toContainText("Stop requested, not confirmed: the warden does not respond");
     await expect.poll(() => warden.count("/stop")).toBeGreaterThan(3);
     await expect(bar(page)).not.toContainText("standstill confirmed");
     warden.mode = "running";
-    await expect(bar(page)).toContainText("bender/0: standstill confirmed");
+    await expect(bar(page)).toContainText("bender/0: standstill confirmed (slower than 0.22 m/s)");
+  });
+
+  test("never shows that a standstill is confirmed without the number", async ({ page, server, warden }) => {
+    await open(page, server);
+    await page.keyboard.press("Escape");
+    await expect(bar(page)).toContainText("Stop is latched");
+    warden.robot.is_standing = true;
+    await page.waitForTimeout(1000);
+    await expect(bar(page)).toContainText("bender/0: standstill not confirmed");
+  });
+
+  test("shows the robots that may move first, and of the others one number, also on a phone", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    warden.confirmStandstill();
+    for (let i = 1; i < 5; i++) warden.state.robots.push({ ...warden.robot, name: `bender/${i}` });
+    Object.assign(warden.state.robots[3] as object, { is_standing: false, unseen: null });
+    await page.setViewportSize({ width: 390, height: 780 });
+    await open(page, server);
+    await page.keyboard.press("Escape");
+    const text = bar(page).getByRole("status");
+    await expect(text).toHaveText(
+      "Stop is latched. bender/3: standstill not confirmed · 4 others: standstill confirmed (slower than 0.22 m/s)",
+    );
+    expect(await text.evaluate((each) => each.scrollHeight <= each.clientHeight)).toBe(true);
   });
 
   test("reaches a warden that was killed and started again", async ({ page, server, warden }) => {
@@ -297,6 +324,75 @@ test.describe("manual control", () => {
     await expect(slider(page, "Left track")).toHaveValue("200");
     await expect(button(page, "Forward")).toBeDisabled();
     expect(new Set(warden.requests().map(String))).toEqual(new Set(["/stop"]));
+  });
+
+  test("a key that is held while the robot is armed is a reason against it", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    await openManual(page, server, warden);
+    Object.assign(warden.robot, { is_armed: false, action: "latched_stop" });
+    const why = page.getByRole("list", { name: "Why not: Arm" });
+    const arm = button(page, "Arm bender/0 hold 1 s");
+    await expect(arm).toBeEnabled();
+    await arm.focus(); // in the tabs, arrow keys would select tabs
+    await page.keyboard.down("ArrowUp");
+    await expect(why).toHaveText("controls deflected: the controls are not neutral: release them first");
+    await expect(arm).toBeDisabled();
+    await page.keyboard.up("ArrowUp");
+    await expect(why).toBeHidden();
+    await holdUntil(page, warden, "Arm bender/0", "/arm");
+    expect(warden.tracks().every(isNeutral)).toBe(true);
+  });
+
+  test("a control that is held since before a stop is a reason against arming, and moves nothing", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    await openManual(page, server, warden);
+    const hold = pointer(page, button(page, "Forward"));
+    await drive(warden, hold, 175, 175);
+    Object.assign(warden.robot, { is_armed: false, action: "latched_stop" });
+    await expect(page.getByRole("list", { name: "Why not: Arm" })).toHaveText(/controls are not neutral/);
+    warden.received.length = 0;
+    Object.assign(warden.robot, { is_armed: true, action: "move" });
+    await expect(button(page, "Forward")).toBeEnabled();
+    await page.waitForTimeout(1000);
+    expect(warden.tracks().every(isNeutral)).toBe(true);
+    await hold.end();
+    await drive(warden, hold, 175, 175);
+    await hold.end();
+  });
+
+  test("controls that the warden finds deflected are named where they are held", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    await openManual(page, server, warden);
+    warden.robot.faults = [
+      { name: "controls_deflected", reason: "the controls are not neutral: release them first" },
+    ];
+    const hint = page.getByText("The controls are not neutral: release them first.");
+    await expect(page.getByRole("region", { name: "bender/0" })).toContainText("controls deflected");
+    await expect(hint).toBeHidden();
+    await drive(warden, pointer(page, button(page, "Forward")), 175, 175);
+    await expect(hint).toBeVisible();
+    await page.mouse.up();
+    await expect(hint).toBeHidden();
+  });
+
+  test("giving up control, and taking it again, shows no error", async ({ page, server, warden }) => {
+    await openManual(page, server, warden);
+    for (let i = 0; i < 3; i++) {
+      await clickUntilShown(button(page, "Give up control"), page.getByText("No operator."));
+      await takeControl(page);
+    }
+    await expect(page.getByText("Not done.")).toBeHidden();
+    warden.received.length = 0;
+    await expect.poll(() => warden.tracks().length).toBeGreaterThan(3);
   });
 
   const releases: [string, (page: Page) => Promise<unknown>][] = [
@@ -390,6 +486,65 @@ test.describe("autonomous control", () => {
     await page.waitForTimeout(1500);
     await end();
     expect(warden.count("/arm")).toBe(0);
+  });
+
+  test("a doubted value is shown, and confirmed by a hold of the operator", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    warden.doubt("compass", "changed by 127.5 degrees at once and is not back");
+    Object.assign(warden.robot.heading as object, { magnetic_deg: 187.46 });
+    await open(page, server);
+    const confirm = button(page, "Confirm compass: 187.5 degrees magnetic hold 1 s");
+    await expect(page.getByRole("list", { name: "Why not: Run" })).toHaveText(/jump: compass: changed/);
+    await expect(confirm).toBeDisabled();
+    await takeControl(page);
+    await expect(confirm).toBeEnabled();
+    await expectAccessible(page);
+    await confirm.evaluate(pressShortly);
+    await page.waitForTimeout(1500);
+    expect(warden.count("/confirm")).toBe(0);
+    await holdUntil(page, warden, "Confirm compass", "/confirm");
+    expect(warden.requests("robot", "port").at(-1)).toEqual(["/confirm", "bender/0", "compass"]);
+    await expect(confirm).toBeHidden();
+    await holdUntil(page, warden, "Run bender/0", "/arm");
+    expect(warden.refusals).toEqual([]);
+  });
+
+  test("a doubted value is not confirmed while it is old, or the warden does not respond", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    warden.doubt("gps", "changed by 20.0 m at once");
+    warden.doubt("sonar", "no change in 3.0 s of commanded motion");
+    await open(page, server);
+    await takeControl(page);
+    const confirm = (port: string) => page.getByRole("button", { name: `Confirm ${port}:` });
+    await expect(confirm("gps")).toHaveText(/36° 35.7241′ N, 121° 52.4921′ W \(12.0, 15.0 m on the map\)/);
+    await expect(confirm("gps")).toBeEnabled();
+    await expect(confirm("sonar")).toBeDisabled();
+    await expect(page.getByRole("list", { name: "Why not: Confirm sonar" })).toHaveText(
+      "its value is old: 4.2 s of 0.5 s",
+    );
+    warden.mode = "frozen";
+    await expect(page.locator("#connection")).toContainText(isLate);
+    await expect(confirm("gps")).toBeDisabled();
+  });
+
+  test("another jump ends the hold that confirms a value", async ({ page, server, warden }) => {
+    warden.doubt("compass", "changed by 90.0 degrees at once");
+    await open(page, server);
+    await takeControl(page);
+    const hold = pointer(page, page.getByRole("button", { name: "Confirm compass" }));
+    await expect(page.getByRole("button", { name: "Confirm compass" })).toBeEnabled();
+    await hold.begin();
+    await page.waitForTimeout(300);
+    warden.robot.faults = [{ name: "jump", reason: "compass: changed by 45.0 degrees at once" }];
+    await page.waitForTimeout(1500);
+    expect(warden.count("/confirm")).toBe(0);
+    await hold.end();
   });
 
   test("a waypoint is typed in degrees and minutes, or clicked on the map and then added", async ({
@@ -504,8 +659,9 @@ test("a robot shows what is known of it, and no more", async ({ page, server, wa
   await expect(card).toContainText("72% (estimated)");
   await expect(card).toContainText("lost, 4.2 s of 0.5 s · closed by the robot");
   await expect(card).toContainText("not armed since the start");
-  Object.assign(warden.robot, { is_standing: true, written: null, requested: null });
-  await expect(card).toContainText(/Standstill\s*confirmed/);
+  Object.assign(warden.robot, { written: null, requested: null });
+  warden.confirmStandstill();
+  await expect(card).toContainText(/Standstill\s*confirmed \(slower than 0.22 m\/s and 1.44°\/s\)/);
   await expectAccessible(page);
   await page.getByRole("tab", { name: "Manual" }).click();
   await expectAccessible(page);

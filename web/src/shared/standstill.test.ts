@@ -26,6 +26,6 @@ test("a confirmed standstill has a number: the fastest motion of any of the robo
 
 test("robots whose standstill is not confirmed come first, by name", () => {
   expect(standstills([robot(0, 0.2), robot(1), robot(2, 0.3), robot(3)])).toBe(
-    "bender/1, bender/3: standstill not confirmed · 2 other robots: standstill confirmed (slower than 0.30 m/s)",
+    "bender/1, bender/3: standstill not confirmed · 2 others: standstill confirmed (slower than 0.30 m/s)",
   );
 });

@@ -37,5 +37,5 @@ const isUnconfirmed = ({ unseen }: Standing) => unseen === null;
 function groupOf(robots: Standing[]): string {
   const names = robots.filter((robot) => !isUnconfirmed(robot)).map(({ name }) => name);
   if (names.length === 1) return names[0] ?? "";
-  return names.length === robots.length ? `all ${names.length} robots` : `${names.length} other robots`;
+  return names.length === robots.length ? `all ${names.length} robots` : `${names.length} others`;
 }
