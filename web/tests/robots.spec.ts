@@ -470,6 +470,22 @@ test.describe("autonomous control", () => {
     ]);
   });
 
+  test("Run arms nothing later if a stop comes between", async ({ page, server, warden }) => {
+    const held = [{ name: "held", reason: "all robots are held: not resumed" }];
+    warden.state.is_held = true;
+    warden.robot.blockers = held;
+    await open(page, server);
+    await takeControl(page);
+    await expect(page.getByText("On hold.")).toBeVisible();
+    await holdUntil(page, warden, "Run bender/0", "/resume");
+    await expectStopBy(page, warden, () => page.keyboard.press("Escape"));
+    await expect(page.getByText("The emergency stop is latched.")).toBeVisible();
+    warden.state.is_stopped = false;
+    warden.robot.blockers = [];
+    await page.waitForTimeout(4000);
+    expect(warden.count("/arm")).toBe(0);
+  });
+
   test("a robot that cannot be armed cannot be run, and the reasons are listed", async ({
     page,
     server,

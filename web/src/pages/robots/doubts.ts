@@ -5,7 +5,7 @@ import { ageOf, isOld } from "./words";
 /** An input whose value is doubted. */
 export interface Doubt {
   port: string;
-  /** Its newest value in the terms of the operator, who compares it with what is seen at the robot. */
+  /** Its newest value in the terms of the operator, to be compared with what is seen at the robot. */
   value: string;
   /** Why its value cannot be confirmed now. */
   reasons: string[];

@@ -122,7 +122,7 @@ export class WardenSession {
     const answer = await ask<WardenState>(this.drive.warden, "/manual", body, signal);
     if (held.aborted) return;
     if (answer.kind === "answered") this.handle(eventOf(answer, sent_ms, limit.aborted));
-    // Nobody has requested neutral values: their answer neither shows a refusal nor hides that of a request.
+    // No operator has requested neutral values: their answer neither shows a refusal nor hides that of a request.
     if (answer.kind === "failed" || isNeutral(tracks)) return;
     this.refusal = refusalOf(answer);
     // What is refused must not begin to move the robot when the reason ends.
