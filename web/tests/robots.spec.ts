@@ -538,7 +538,9 @@ test.describe("autonomous control", () => {
     await open(page, server);
     await takeControl(page);
     const confirm = (port: string) => page.getByRole("button", { name: `Confirm ${port}:` });
-    await expect(confirm("gps")).toHaveText(/36° 35.7241′ N, 121° 52.4921′ W \(12.0, 15.0 m on the map\)/);
+    await expect(confirm("gps")).toHaveText(
+      /36°\s35.7241′\sN, 121°\s52.4921′\sW \(12.0,\s15.0\sm\son\sthe\smap\)/,
+    );
     await expect(confirm("gps")).toBeEnabled();
     await expect(confirm("sonar")).toBeDisabled();
     await expect(page.getByRole("list", { name: "Why not: Confirm sonar" })).toHaveText(

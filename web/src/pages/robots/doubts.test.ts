@@ -20,7 +20,7 @@ const robot = {
   position: { ...position, uncertainty_m: 2.5, age_s: 0.1 },
   ranges: { port: "sonar", values_m: [2.24, null, null], is_known: [true, true, false], age_s: 0.1 },
 } as unknown as WardenRobot;
-const values = (robot: WardenRobot) => doubtsOf(robot).map(({ value }) => value);
+const values = (robot: WardenRobot) => doubtsOf(robot).map(({ value }) => value.replaceAll("\u00a0", " "));
 
 test("a doubted value is shown in the terms of the operator", () => {
   expect(values(robot)).toEqual([

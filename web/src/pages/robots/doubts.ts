@@ -40,11 +40,14 @@ function headingOf(magnetic_deg: number): string {
 }
 
 function coordinatesOf({ latitude_deg, longitude_deg, x_m, y_m }: Position): string {
-  const place = `${x_m.toFixed(1)}, ${y_m.toFixed(1)} m on the map`;
-  return `${writeAngle("latitude", latitude_deg)}, ${writeAngle("longitude", longitude_deg)} (${place})`;
+  const angles = [writeAngle("latitude", latitude_deg), writeAngle("longitude", longitude_deg)].map(unbroken);
+  return `${angles.join(", ")} ${unbroken(`(${x_m.toFixed(1)}, ${y_m.toFixed(1)} m on the map)`)}`;
 }
 
 function rangeOf(value_m: number | null, isKnown: boolean): string {
-  if (value_m !== null) return `${value_m.toFixed(1)} m`;
-  return isKnown ? "no echo" : "unknown";
+  if (value_m !== null) return unbroken(`${value_m.toFixed(1)} m`);
+  return isKnown ? unbroken("no echo") : "unknown";
 }
+
+/** A text that is not broken into lines. */
+const unbroken = (text: string) => text.replaceAll(" ", "\u00a0");
