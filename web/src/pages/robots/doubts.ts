@@ -49,5 +49,5 @@ function rangeOf(value_m: number | null, isKnown: boolean): string {
   return isKnown ? unbroken("no echo") : "unknown";
 }
 
-/** A text that is not broken into lines. */
+/** The same words, never broken into lines. */
 const unbroken = (text: string) => text.replaceAll(" ", "\u00a0");
