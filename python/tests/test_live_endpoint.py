@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from http.client import HTTPConnection
 from typing import Any
 
@@ -18,8 +18,9 @@ from bare_timer import repeated_if_late
 from agent_economy.live import fleet, rules
 from agent_economy.live.clock import now_s
 from agent_economy.live.plan import FleetPlan
+from agent_economy.live.readings import Quantity, Reading
 from agent_economy.live.rules import Inputs, LoopInputs, Mode, Requests
-from agent_economy.live.warden import authority
+from agent_economy.live.warden import authority, sentences
 from agent_economy.live.warden.control import Control, Drive
 from agent_economy.live.warden.endpoint import MAX_CONNECTIONS, Endpoint
 from agent_economy.live.warden.event_log import MAX_EVENTS, EventLog
@@ -369,6 +370,42 @@ def test_before_anything_is_known_of_a_robot_its_state_claims_nothing(served: Se
     assert {"lost_link", "missing_input", "no_setpoint"} <= {
         each["name"] for each in robot["blockers"]
     }
+
+
+def test_each_reading_of_a_state_names_its_port(served: Served) -> None:
+    robot = served.warden.robots["bender/0"]
+    robot.readings["compass"] = (Reading(Quantity.HEADING, (187.5,)), now_s())
+    robot.readings["sonar"] = (Reading(Quantity.RANGES, (2.0,) * 6), now_s())
+    [state] = served.ask("/state", client="a", since=0)[1]["robots"]
+    assert (state["heading"]["port"], state["heading"]["magnetic_deg"]) == ("compass", 187.5)
+    assert state["ranges"]["port"] == "sonar"
+
+
+def test_only_the_value_of_a_doubted_port_is_confirmed_by_hand(served: Served) -> None:
+    served.turn()
+    body = {"client": "a", "robot": "bender/0", "port": "compass"}
+    status, answer = served.ask("/confirm", **body)
+    assert (status, answer["message"]) == (
+        409,
+        "compass of bender/0 is not doubted: there is nothing to confirm",
+    )
+    decision = served.warden.outputs.robots["bender/0"]
+    robots = {"bender/0": replace(decision, doubted=("compass",))}
+    served.warden.outputs = replace(served.warden.outputs, robots=robots)
+    assert served.ask("/state")[1]["robots"][0]["doubted"] == ["compass"]
+    assert served.ask("/confirm", **body | {"port": "motors"})[0] == 409
+    assert served.ask("/confirm", **body)[0] == 200
+    assert served.turn().confirm == {"bender/0": {"compass"}}
+
+
+@pytest.mark.parametrize(
+    ("speed_m_s", "shown"), [(0.2101, "0.22"), (0.22, "0.22"), (0.07, "0.07"), (0.29, "0.29")]
+)
+def test_the_motion_that_would_go_unseen_is_rounded_up_in_words(
+    speed_m_s: float, shown: str
+) -> None:
+    text = sentences.confirmation({"unconfirmed": [], "unseen_speed_m_s": speed_m_s})
+    assert text == f" All robots stand: slower than {shown} m/s."
 
 
 def test_the_end_of_a_drive_with_an_open_connection_is_no_error(

@@ -84,6 +84,30 @@ async function holdForward(page: Page, drive: RealDrive): Promise<number> {
   return t_s;
 }
 
+/** All notices of refused requests from now on, also of those that vanish. */
+function recordNotices(): string[] {
+  const found: string[] = [];
+  const look = () => {
+    const notices = [...document.querySelectorAll(".notices > *")].map(
+      ({ textContent }) => textContent ?? "",
+    );
+    found.push(...notices.filter((text) => text.includes("Not done.") && !found.includes(text)));
+  };
+  new MutationObserver(look).observe(document.body, { subtree: true, childList: true, characterData: true });
+  return found;
+}
+
+/** Sends requests as the page does, which has no control for them in this tab. */
+async function requestsAsOperator(page: Page): Promise<(path: string) => Promise<void>> {
+  const manual = await page.waitForRequest(/\/manual$/);
+  const { token, client } = manual.postDataJSON() as Record<string, string>;
+  return async (path) => {
+    const body = JSON.stringify({ token, client });
+    const response = await fetch(new URL(path, manual.url()), { method: "POST", body });
+    expect(response.status).toBe(200);
+  };
+}
+
 /** Expects stop on the wire within a time, and no motion in the second after it. */
 async function expectStop(drive: RealDrive, after_s: number, within_s: number): Promise<void> {
   await expect.poll(() => drive.stopAfter(after_s)).not.toBeNull();
@@ -107,7 +131,7 @@ driveTest("a robot is armed by a hold, drives, and is stopped by Escape", async 
   await expectStop(drive, t_s, 0.3);
   await expect(isArmed(page)).toBeHidden();
   await expect(page.getByRole("region", { name: "Emergency stop" })).toContainText(
-    "Stop is latched. bender/0: standstill confirmed",
+    /Stop is latched. bender\/0: standstill confirmed \(slower than \d\.\d\d m\/s\)/,
   );
 });
 
@@ -128,6 +152,74 @@ driveTest("a hand that is released, or cut off, stops the robot", async (page, d
   await page.waitForTimeout(1500);
   await page.mouse.up();
   expect(await drive.movesAfter(back_s)).toEqual([]);
+});
+
+driveTest(
+  "a control that is held through a hold moves nothing until it was released",
+  async (page, drive) => {
+    await armByHand(page);
+    await holdForward(page, drive);
+    const request = await requestsAsOperator(page);
+    const held_s = (await drive.look()).t_s;
+    await request("/hold");
+    await expectStop(drive, held_s, 0.3);
+    await request("/resume");
+    await expect(card(page)).toContainText("controls deflected");
+    await expect(card(page)).not.toContainText("all robots are held");
+    await expect(page.getByText("The controls are not neutral: release them first.")).toBeVisible();
+    await page.waitForTimeout(2000);
+    expect(await drive.movesAfter(held_s + 0.3)).toEqual([]);
+    await page.mouse.up();
+    await holdForward(page, drive);
+    await page.mouse.up();
+  },
+);
+
+driveTest(
+  "a compass that has turned keeps the robot stopped until its value is confirmed",
+  async (page, drive) => {
+    await button(page, "Take control").click();
+    await run(page, drive);
+    await drive.fault("compass", "jump", 90);
+    await expect(page.getByRole("list", { name: "Why not: Run" })).toHaveText(/jump: compass: changed by/);
+    await page.waitForTimeout(3000);
+    await expect(button(page, "Run bender/0")).toBeDisabled();
+    const confirm = button(page, "Confirm compass");
+    await expect(confirm).toHaveText(/^Confirm compass: \d+\.\d degrees magnetic/);
+    await press(page, confirm);
+    await expect(confirm).toBeHidden();
+    await page.mouse.up();
+    await arm(page, "Run bender/0");
+    await page.keyboard.press("Escape");
+  },
+);
+
+driveTest("normal use shows no error notice", async (page, drive) => {
+  const notices = await page.evaluateHandle(recordNotices);
+  await armByHand(page);
+  await holdForward(page, drive);
+  await page.mouse.up();
+  await page.getByRole("tab", { name: "Autonomous" }).click();
+  await button(page, "Switch to automatic mode").click();
+  await run(page, drive);
+  await button(page, "Hold all robots").click();
+  await expect(page.getByText("On hold.")).toBeVisible();
+  await press(page, button(page, "Run bender/0"));
+  await expect(page.getByText("On hold.")).toBeHidden();
+  await page.mouse.up();
+  const navigates = page.getByRole("checkbox", { name: "Navigate to waypoints" });
+  await navigates.click();
+  await expect(navigates).not.toBeChecked();
+  await page.keyboard.press("Escape");
+  await press(page, button(page, "Release"));
+  await expect(button(page, "Release")).toBeHidden();
+  await page.mouse.up();
+  await page.getByRole("tab", { name: "Manual" }).click();
+  await button(page, "Switch to manual mode").click();
+  await arm(page, "Arm bender/0");
+  await button(page, "Give up control").click();
+  await expect(page.getByText("No operator.")).toBeVisible();
+  expect(await notices.jsonValue()).toEqual([]);
 });
 
 driveTest("a robot whose connections were lost remains stopped when it is back", async (page, drive) => {

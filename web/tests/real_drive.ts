@@ -94,12 +94,22 @@ export class RealDrive {
 
   /** The time of the emulator and its log, and the robot's place. */
   async look(): Promise<{ t_s: number; x_m: number }> {
+    const { state } = await this.ask({ get: "state" });
+    return { t_s: state.t_s, x_m: state.robots[0].pose.x_m };
+  }
+
+  /** Switches a fault of the emulated robot on. */
+  async fault(port: Port, fault: string, value: number): Promise<void> {
+    await this.ask({ robot: 0, port, fault, value });
+  }
+
+  /** Sends a request to the emulator; returns its reply. */
+  private async ask(request: object) {
     const link = connect(this.control, "127.0.0.1");
     try {
-      link.write('{"get": "state"}\n');
+      link.write(`${JSON.stringify(request)}\n`);
       const { value } = await createInterface(link)[Symbol.asyncIterator]().next();
-      const { state } = JSON.parse(value as string);
-      return { t_s: state.t_s, x_m: state.robots[0].pose.x_m };
+      return JSON.parse(value as string);
     } finally {
       link.destroy();
     }

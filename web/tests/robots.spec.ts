@@ -1,151 +1,19 @@
-import type { Locator, Page } from "@playwright/test";
-import { expect, expectAccessible, openRun, test as base } from "./page";
-import { FakeWarden, isNeutral } from "./warden";
-
-/** A page whose server belongs to a drive, with a fake warden. */
-const test = base.extend<{ warden: FakeWarden }>({
-  // The policy of this server does not name the fake warden's port; python/tests/test_server_drive.py tests that.
-  bypassCSP: true,
-  warden: async ({ page }, use) => {
-    const warden = new FakeWarden();
-    await warden.start();
-    await warden.attach(page);
-    await use(warden);
-    await warden.kill();
-  },
-});
-
-const bar = (page: Page) => page.getByRole("region", { name: "Emergency stop" });
-/** The connection is stale for a moment only, which the test may miss. */
-const isLate = /Stale|Lost/;
-const stopButton = (page: Page) => page.getByRole("button", { name: "Emergency stop of all robots" });
-
-async function open(page: Page, { url }: { url: string }): Promise<void> {
-  await page.goto(`${url}/#/robots`);
-  await expect(page.getByRole("region", { name: "bender/0" })).toBeVisible();
-}
-
-/**
- * After which an attempt is repeated: while the warden's state is late, as on a busy machine, controls are
- * disabled, so that a click is lost and a hold ends.
- */
-const attempt_ms = 5000;
-
-/** Clicks a control until that has had its effect. */
-async function clickUntil(control: Locator, isDone: () => boolean | Promise<boolean>): Promise<void> {
-  await expect(async () => {
-    if (!(await isDone())) await control.click({ timeout: attempt_ms });
-    await expect.poll(isDone, { timeout: attempt_ms }).toBe(true);
-  }).toPass();
-}
-
-const clickUntilShown = (control: Locator, shown: Locator) => clickUntil(control, () => shown.isVisible());
-
-const takeControl = (page: Page) =>
-  clickUntilShown(button(page, "Take control"), page.getByText("This page is the operator."));
-
-/** Opens the view as operator, with the robot armed in manual mode. */
-async function openManual(page: Page, server: { url: string }, warden: FakeWarden): Promise<void> {
-  Object.assign(warden.robot, { mode: "manual", is_armed: true, action: "move" });
-  await open(page, server);
-  await takeControl(page);
-  await page.getByRole("tab", { name: "Manual" }).click();
-  warden.received.length = 0;
-}
-
-const button = (page: Page, name: string) => page.getByRole("button", { name, exact: true });
-const slider = (page: Page, name: string) => page.getByRole("slider", { name });
-
-/** A control that can be held. */
-interface Hold {
-  begin(): Promise<void>;
-  end(): Promise<void>;
-}
-
-function pointer(page: Page, control: Locator): Hold {
-  return {
-    async begin() {
-      await control.hover({ timeout: attempt_ms });
-      await page.mouse.down();
-    },
-    end: () => page.mouse.up(),
-  };
-}
-
-/** Drags a slider to its right end. */
-function drag(page: Page, control: Locator): Hold {
-  const { begin, end } = pointer(page, control);
-  return {
-    async begin() {
-      await begin();
-      const box = await control.boundingBox();
-      if (!box) throw new Error("not visible");
-      await page.mouse.move(box.x + box.width - 2, box.y + box.height / 2, { steps: 4 });
-    },
-    end,
-  };
-}
-
-/** Holds a key, in a control if one is given. */
-function key(page: Page, name: string, control?: Locator): Hold {
-  return {
-    async begin() {
-      await control?.focus();
-      await page.keyboard.down(name);
-    },
-    end: () => page.keyboard.up(name),
-  };
-}
-
-/** Holds a control until its motor values are sent. */
-async function drive(warden: FakeWarden, { begin, end }: Hold, left: number, right: number): Promise<void> {
-  await expect(async () => {
-    await end();
-    await begin();
-    await expect.poll(() => warden.tracks().at(-1), { timeout: attempt_ms }).toMatchObject({ left, right });
-  }).toPass();
-}
-
-/** Holds a button until its request has been sent. */
-async function holdUntil(page: Page, warden: FakeWarden, name: string, path: string): Promise<void> {
-  const { begin, end } = pointer(page, page.getByRole("button", { name }));
-  await expect(async () => {
-    if (warden.count(path) === 0) {
-      await begin();
-      await expect(page.locator(".held")).toHaveCount(0);
-      await end();
-    }
-    await expect.poll(() => warden.count(path), { timeout: attempt_ms }).toBe(1);
-  }).toPass();
-}
-
-/** Expects neutral values, and no others, once the motion has ended and what was sent before has arrived. */
-async function expectNeutralAfter(warden: FakeWarden, end: () => Promise<unknown>): Promise<void> {
-  await end();
-  await expect.poll(() => warden.tracks().slice(-5).every(isNeutral)).toBe(true);
-}
-
-/** Expects no motor values once the motion has ended and what was sent before has arrived. */
-async function expectNothingAfter(
-  page: Page,
-  warden: FakeWarden,
-  end: () => Promise<unknown>,
-): Promise<void> {
-  await end();
-  await expect(async () => {
-    const { length } = warden.tracks();
-    await page.waitForTimeout(600);
-    expect(warden.tracks()).toHaveLength(length);
-  }).toPass();
-}
-
-/** Expects an action to latch the stop. */
-async function expectStopBy(page: Page, warden: FakeWarden, action: () => Promise<unknown>): Promise<void> {
-  warden.state.is_stopped = false;
-  await expect(bar(page)).toContainText("Stops all robots at once.");
-  await action();
-  await expect(bar(page)).toContainText("Stop is latched");
-}
+import { expect, expectAccessible, openRun } from "./page";
+import {
+  bar,
+  button,
+  clickUntil,
+  clickUntilShown,
+  expectStopBy,
+  holdUntil,
+  isLate,
+  open,
+  pointer,
+  pressShortly,
+  stopButton,
+  takeControl,
+  test,
+} from "./robots_page";
 
 test.describe("the emergency stop", () => {
   test("is sent by one press, alone, and confirmed by the standstill of each robot", async ({
@@ -157,8 +25,8 @@ test.describe("the emergency stop", () => {
     await pointer(page, stopButton(page)).begin();
     await expect(bar(page)).toContainText("bender/0: standstill not confirmed");
     await page.mouse.up();
-    warden.robot.is_standing = true;
-    await expect(bar(page)).toContainText("bender/0: standstill confirmed");
+    warden.confirmStandstill();
+    await expect(bar(page)).toContainText("bender/0: standstill confirmed (slower than 0.22 m/s)");
     // It is repeated if the answer is late.
     expect(warden.requests("client")[0]).toEqual(["/stop", undefined]);
     expect(new Set(warden.requests().map(String))).toEqual(new Set(["/stop"]));
@@ -206,14 +74,41 @@ test.describe("the emergency stop", () => {
     warden,
   }) => {
     await open(page, server);
-    warden.robot.is_standing = true;
+    warden.confirmStandstill();
     warden.mode = "frozen";
     await page.keyboard.press("Escape");
     await expect(bar(page)).toContainText("Stop requested, not confirmed: the warden does not respond");
     await expect.poll(() => warden.count("/stop")).toBeGreaterThan(3);
     await expect(bar(page)).not.toContainText("standstill confirmed");
     warden.mode = "running";
-    await expect(bar(page)).toContainText("bender/0: standstill confirmed");
+    await expect(bar(page)).toContainText("bender/0: standstill confirmed (slower than 0.22 m/s)");
+  });
+
+  test("never shows that a standstill is confirmed without the number", async ({ page, server, warden }) => {
+    await open(page, server);
+    await page.keyboard.press("Escape");
+    await expect(bar(page)).toContainText("Stop is latched");
+    warden.robot.is_standing = true;
+    await page.waitForTimeout(1000);
+    await expect(bar(page)).toContainText("bender/0: standstill not confirmed");
+  });
+
+  test("shows the robots that may move first, and of the others one number, also on a phone", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    warden.confirmStandstill();
+    for (let i = 1; i < 5; i++) warden.state.robots.push({ ...warden.robot, name: `bender/${i}` });
+    Object.assign(warden.state.robots[3] as object, { is_standing: false, unseen: null });
+    await page.setViewportSize({ width: 390, height: 780 });
+    await open(page, server);
+    await page.keyboard.press("Escape");
+    const text = bar(page).getByRole("status");
+    await expect(text).toHaveText(
+      "Stop is latched. bender/3: standstill not confirmed · 4 others: standstill confirmed (slower than 0.22 m/s)",
+    );
+    expect(await text.evaluate((each) => each.scrollHeight <= each.clientHeight)).toBe(true);
   });
 
   test("reaches a warden that was killed and started again", async ({ page, server, warden }) => {
@@ -249,109 +144,6 @@ test.describe("the emergency stop", () => {
   });
 });
 
-test.describe("manual control", () => {
-  const buttons: [string, string, number, number][] = [
-    ["Forward", "ArrowUp", 175, 175],
-    ["Reverse", "ArrowDown", 125, 125],
-    ["Left", "ArrowLeft", 125, 175],
-    ["Right", "ArrowRight", 175, 125],
-  ];
-  for (const [name, arrow, left, right] of buttons) {
-    test(`${name} is sent while the button or the key is held, neutral values after`, async ({
-      page,
-      server,
-      warden,
-    }) => {
-      await openManual(page, server, warden);
-      for (const hold of [pointer(page, button(page, name)), key(page, arrow)]) {
-        await drive(warden, hold, left, right);
-        await expectNeutralAfter(warden, hold.end);
-      }
-      const all = warden.requests("robot", "left", "right");
-      expect(new Set(all.map(String))).toEqual(new Set([`/manual,bender/0,${left},${right}`]));
-    });
-  }
-
-  test("a slider sends what the sliders show, only while it is held", async ({ page, server, warden }) => {
-    await openManual(page, server, warden);
-    const holds: [Hold, number, number][] = [
-      [drag(page, slider(page, "Left track")), 200, 150],
-      [key(page, "Home", slider(page, "Right track")), 200, 100],
-      [key(page, "Home", slider(page, "Both tracks")), 100, 100],
-    ];
-    for (const [hold, left, right] of holds) {
-      await drive(warden, hold, left, right);
-      await expectNeutralAfter(warden, hold.end);
-      await expect(slider(page, "Left track")).toHaveValue(String(left));
-      await expect(slider(page, "Right track")).toHaveValue(String(right));
-    }
-  });
-
-  test("stop sends stop only, and moves no slider", async ({ page, server, warden }) => {
-    await openManual(page, server, warden);
-    const hold = key(page, "End", slider(page, "Left track"));
-    await drive(warden, hold, 200, 150);
-    await expectNeutralAfter(warden, hold.end);
-    warden.received.length = 0;
-    await expectStopBy(page, warden, () => button(page, "Stop (latched)").click());
-    await expect(slider(page, "Left track")).toHaveValue("200");
-    await expect(button(page, "Forward")).toBeDisabled();
-    expect(new Set(warden.requests().map(String))).toEqual(new Set(["/stop"]));
-  });
-
-  const releases: [string, (page: Page) => Promise<unknown>][] = [
-    ["the window loses the focus", (page) => page.evaluate("dispatchEvent(new Event('blur'))")],
-    ["the pointer is cancelled", (page) => page.evaluate("dispatchEvent(new Event('pointercancel'))")],
-    ["Escape is pressed", (page) => page.keyboard.press("Escape")],
-  ];
-  for (const [name, end] of releases) {
-    test(`only neutral values are sent once ${name}`, async ({ page, server, warden }) => {
-      await openManual(page, server, warden);
-      await drive(warden, pointer(page, button(page, "Forward")), 175, 175);
-      await expectNeutralAfter(warden, () => end(page));
-      await page.mouse.up();
-    });
-  }
-
-  const ends: [string, (page: Page, warden: FakeWarden) => Promise<unknown>][] = [
-    ["the tab is hidden", (page) => page.evaluate(hide)],
-    ["the tab Autonomous is opened", (page) => page.getByRole("tab", { name: "Autonomous" }).press("Enter")],
-    ["the view is left", (page) => page.evaluate("location.hash = '#/'")],
-    [
-      "another page takes over",
-      async (page, warden) => {
-        warden.giveToOther();
-        await expect(page.getByText("Controlled by another page.")).toBeVisible();
-      },
-    ],
-    [
-      "the warden freezes",
-      async (page, warden) => {
-        warden.mode = "frozen";
-        await expect(page.locator("#connection")).toContainText(isLate);
-      },
-    ],
-  ];
-  for (const [name, end] of ends) {
-    test(`nothing is sent any more once ${name}`, async ({ page, server, warden }) => {
-      await openManual(page, server, warden);
-      await drive(warden, pointer(page, button(page, "Forward")), 175, 175);
-      await expectNothingAfter(page, warden, () => end(page, warden));
-      await page.mouse.up();
-    });
-  }
-});
-
-function pressShortly(control: Element): void {
-  control.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
-  control.dispatchEvent(new PointerEvent("pointerup", { bubbles: true }));
-}
-
-function hide(): void {
-  Object.defineProperty(document, "hidden", { value: true, configurable: true });
-  document.dispatchEvent(new Event("visibilitychange"));
-}
-
 test.describe("autonomous control", () => {
   test("each control sends its request, and nothing else", async ({ page, server, warden }) => {
     await open(page, server);
@@ -374,6 +166,22 @@ test.describe("autonomous control", () => {
     ]);
   });
 
+  test("Run arms nothing later if a stop comes between", async ({ page, server, warden }) => {
+    const held = [{ name: "held", reason: "all robots are held: not resumed" }];
+    warden.state.is_held = true;
+    warden.robot.blockers = held;
+    await open(page, server);
+    await takeControl(page);
+    await expect(page.getByText("On hold.")).toBeVisible();
+    await holdUntil(page, warden, "Run bender/0", "/resume");
+    await expectStopBy(page, warden, () => page.keyboard.press("Escape"));
+    await expect(page.getByText("The emergency stop is latched.")).toBeVisible();
+    warden.state.is_stopped = false;
+    warden.robot.blockers = [];
+    await page.waitForTimeout(4000);
+    expect(warden.count("/arm")).toBe(0);
+  });
+
   test("a robot that cannot be armed cannot be run, and the reasons are listed", async ({
     page,
     server,
@@ -390,6 +198,67 @@ test.describe("autonomous control", () => {
     await page.waitForTimeout(1500);
     await end();
     expect(warden.count("/arm")).toBe(0);
+  });
+
+  test("a doubted value is shown, and confirmed by a hold of the operator", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    warden.doubt("compass", "changed by 127.5 degrees at once and is not back");
+    Object.assign(warden.robot.heading as object, { magnetic_deg: 187.46 });
+    await open(page, server);
+    const confirm = button(page, "Confirm compass: 187.5 degrees magnetic hold 1 s");
+    await expect(page.getByRole("list", { name: "Why not: Run" })).toHaveText(/jump: compass: changed/);
+    await expect(confirm).toBeDisabled();
+    await takeControl(page);
+    await expect(confirm).toBeEnabled();
+    await expectAccessible(page);
+    await confirm.evaluate(pressShortly);
+    await page.waitForTimeout(1500);
+    expect(warden.count("/confirm")).toBe(0);
+    await holdUntil(page, warden, "Confirm compass", "/confirm");
+    expect(warden.requests("robot", "port").at(-1)).toEqual(["/confirm", "bender/0", "compass"]);
+    await expect(confirm).toBeHidden();
+    await holdUntil(page, warden, "Run bender/0", "/arm");
+    expect(warden.refusals).toEqual([]);
+  });
+
+  test("a doubted value is not confirmed while it is old, or the warden does not respond", async ({
+    page,
+    server,
+    warden,
+  }) => {
+    warden.doubt("gps", "changed by 20.0 m at once");
+    warden.doubt("sonar", "no change in 3.0 s of commanded motion");
+    await open(page, server);
+    await takeControl(page);
+    const confirm = (port: string) => page.getByRole("button", { name: `Confirm ${port}:` });
+    await expect(confirm("gps")).toHaveText(
+      /36°\s35.7241′\sN, 121°\s52.4921′\sW \(12.0,\s15.0\sm\son\sthe\smap\)/,
+    );
+    await expect(confirm("gps")).toBeEnabled();
+    await expect(confirm("sonar")).toBeDisabled();
+    await expect(page.getByRole("list", { name: "Why not: Confirm sonar" })).toHaveText(
+      "its value is old: 4.2 s of 0.5 s",
+    );
+    warden.mode = "frozen";
+    await expect(page.locator("#connection")).toContainText(isLate);
+    await expect(confirm("gps")).toBeDisabled();
+  });
+
+  test("another jump ends the hold that confirms a value", async ({ page, server, warden }) => {
+    warden.doubt("compass", "changed by 90.0 degrees at once");
+    await open(page, server);
+    await takeControl(page);
+    const hold = pointer(page, page.getByRole("button", { name: "Confirm compass" }));
+    await expect(page.getByRole("button", { name: "Confirm compass" })).toBeEnabled();
+    await hold.begin();
+    await page.waitForTimeout(300);
+    warden.robot.faults = [{ name: "jump", reason: "compass: changed by 45.0 degrees at once" }];
+    await page.waitForTimeout(1500);
+    expect(warden.count("/confirm")).toBe(0);
+    await hold.end();
   });
 
   test("a waypoint is typed in degrees and minutes, or clicked on the map and then added", async ({
@@ -504,8 +373,9 @@ test("a robot shows what is known of it, and no more", async ({ page, server, wa
   await expect(card).toContainText("72% (estimated)");
   await expect(card).toContainText("lost, 4.2 s of 0.5 s · closed by the robot");
   await expect(card).toContainText("not armed since the start");
-  Object.assign(warden.robot, { is_standing: true, written: null, requested: null });
-  await expect(card).toContainText(/Standstill\s*confirmed/);
+  Object.assign(warden.robot, { written: null, requested: null });
+  warden.confirmStandstill();
+  await expect(card).toContainText(/Standstill\s*confirmed \(slower than 0.22 m\/s and 1.44°\/s\)/);
   await expectAccessible(page);
   await page.getByRole("tab", { name: "Manual" }).click();
   await expectAccessible(page);

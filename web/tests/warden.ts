@@ -14,6 +14,8 @@ export const token = "secret";
 /** The HTTP endpoint of a warden that drives nothing: it records requests, and fails on command. */
 export class FakeWarden {
   readonly received: Received[] = [];
+  /** The requests that it has refused, with the reasons. */
+  readonly refusals: string[] = [];
   readonly state: WardenState = stateOf();
   /** `frozen`: it accepts connections and never answers; `refusing`: it accepts no token. */
   mode: "running" | "frozen" | "refusing" | "stuck" = "running";
@@ -59,6 +61,18 @@ export class FakeWarden {
     await page.route("**/drive", (route) => route.fulfill({ json: drive }));
   }
 
+  /** Lets the inputs confirm the standstill of the robot. */
+  confirmStandstill(): void {
+    Object.assign(this.robot, { is_standing: true, unseen: { speed_m_s: 0.2149, turn_rate_rad_s: 0.0251 } });
+  }
+
+  /** Lets a value be doubted, which keeps the robot from being armed in automatic mode. */
+  doubt(port: string, reason: string): void {
+    this.robot.doubted.push(port);
+    const jump = { name: "jump", reason: `${port}: ${reason}` };
+    Object.assign(this.robot, { faults: [jump], blockers: [jump] });
+  }
+
   /** Makes another client the operator. */
   giveToOther(): void {
     this.operator = "other";
@@ -74,6 +88,7 @@ export class FakeWarden {
     const isSimple = request.method === "POST" && request.headers["content-type"] === "text/plain";
     const isAllowed = isSimple && sent === token && this.mode !== "refusing";
     const refusal = isAllowed ? this.act(path, body) : "the token is missing or wrong";
+    if (isAllowed && refusal) this.refusals.push(`${path}: ${refusal}`);
     if (this.mode !== "stuck") this.state.time_s = (performance.now() - this.started_ms) / 1000;
     response.writeHead(isAllowed ? (refusal ? 409 : 200) : 403, {
       "Content-Type": "application/json",
@@ -90,28 +105,71 @@ export class FakeWarden {
     return { ...this.state, operator, events };
   }
 
-  /** Why a request is refused; empty if it is not. */
+  /** Why a request is refused; empty if it is not. Requests without an effect are. */
   private act(path: string, { client, ...body }: Received["body"]): string {
     const { robot, state } = this;
     const needsOperator = !["/state", "/stop", "/hold", "/operator"].includes(path);
-    if (needsOperator && this.operator !== client) return "not the operator";
-    if (path === "/stop") {
-      state.is_stopped = true;
-      Object.assign(robot, { is_armed: false, action: "latched_stop" });
-    } else if (path === "/release") state.is_stopped = false;
-    else if (path === "/hold") state.is_held = true;
-    else if (path === "/resume") state.is_held = false;
-    else if (path === "/arm" && state.is_held) return "held: on hold";
-    else if (path === "/arm") Object.assign(robot, { is_armed: true, action: "move" });
-    else if (path === "/mode")
-      Object.assign(robot, { mode: body.mode, is_armed: false, action: "latched_stop" });
-    else if (path === "/navigate") robot.navigates = body.is_on === true;
-    else if (path === "/manual" && robot.mode !== "manual") return "in automatic mode";
-    else if (path === "/operator") {
-      const isFree = this.operator === null || this.operator === client || body.take_over === true;
-      if (body.take === true && !isFree) return "another page is the operator";
-      this.operator = body.take === true ? client : null;
+    if (needsOperator && this.operator !== client) return "this client is not the operator";
+    switch (path) {
+      case "/stop":
+        state.is_stopped = true;
+        Object.assign(robot, { is_armed: false, action: "latched_stop" });
+        return "";
+      case "/release":
+        if (!state.is_stopped) return "no emergency stop is latched";
+        state.is_stopped = false;
+        return "";
+      case "/hold":
+        state.is_held = true;
+        return "";
+      case "/resume":
+        if (!state.is_held) return "the robots are not held";
+        state.is_held = false;
+        return "";
+      case "/arm":
+        return this.arm();
+      case "/confirm":
+        return this.confirm(String(body.port));
+      case "/mode":
+        if (robot.mode === body.mode) return `in ${robot.mode} mode already`;
+        Object.assign(robot, { mode: body.mode, is_armed: false, action: "latched_stop" });
+        return "";
+      case "/navigate":
+        if (robot.navigates === body.is_on) return "the navigation has that state already";
+        robot.navigates = body.is_on === true;
+        return "";
+      case "/manual":
+        return robot.mode === "manual" ? "" : "not in manual mode";
+      case "/operator":
+        return this.operate(client, body);
+      default:
+        return "";
     }
+  }
+
+  private arm(): string {
+    const { robot, state } = this;
+    if (state.is_held) return "held: on hold";
+    if (robot.is_armed) return "armed already";
+    if (robot.blockers.length > 0) return robot.blockers.map(({ reason }) => reason).join("; ");
+    Object.assign(robot, { is_armed: true, action: "move" });
+    return "";
+  }
+
+  private confirm(port: string): string {
+    const { robot } = this;
+    if (!robot.doubted.includes(port)) return `${port} is not doubted: there is nothing to confirm`;
+    const doubted = robot.doubted.filter((each) => each !== port);
+    Object.assign(robot, { doubted, faults: [], blockers: [] });
+    return "";
+  }
+
+  private operate(client: unknown, body: Received["body"]): string {
+    const [isOwn, isTaken] = [this.operator === client, this.operator !== null];
+    if (body.take === true && isOwn) return "this client is the operator already";
+    if (body.take !== true && !isOwn) return "this client is not the operator";
+    if (body.take === true && isTaken && body.take_over !== true) return "another client is the operator";
+    this.operator = body.take === true ? client : null;
     return "";
   }
 }
@@ -162,6 +220,8 @@ function robotOf(): WardenRobot {
     requested: { speed_m_s: 0.4, turn_rate_rad_s: 0, heading_rad: null },
     written: { line: "x,3,", age_s: 0.1, is_acknowledged: true },
     is_standing: false,
+    unseen: null,
+    doubted: [],
     faults: [],
     latched: [{ name: "not_armed", reason: "not armed since the start" }],
     blockers: [],
@@ -173,6 +233,7 @@ function robotOf(): WardenRobot {
       { port: "sonar", state: "lost", age_s: 4.2, max_age_s: 0.5, reason: "closed by the robot" },
     ],
     position: {
+      port: "gps",
       x_m: 12,
       y_m: 15,
       latitude_deg: 36.595402,
@@ -180,8 +241,9 @@ function robotOf(): WardenRobot {
       uncertainty_m: 2.5,
       age_s: 0.7,
     },
-    heading: { magnetic_deg: 60, world_deg: 15.5, age_s: 0.1 },
+    heading: { port: "compass", magnetic_deg: 60, world_deg: 15.5, age_s: 0.1 },
     ranges: {
+      port: "sonar",
       values_m: [2.2, 3.1, null, null, 4.5, null],
       is_known: [true, true, true, true, true, false],
       age_s: 4.2,

@@ -32,6 +32,10 @@ export interface WardenRobot {
   written: { line: string; age_s: number; is_acknowledged: boolean } | null;
   /** Whether the inputs confirm a standstill. */
   is_standing: boolean;
+  /** The fastest motion that the inputs do not exclude; null unless they confirm a standstill. */
+  unseen: Unseen | null;
+  /** The ports whose values are doubted: they have to change, or to be confirmed by hand. */
+  doubted: string[];
   faults: Reason[];
   latched: Reason[];
   blockers: Reason[];
@@ -39,15 +43,21 @@ export interface WardenRobot {
   links: WardenLink[];
   position: Position | null;
   /** `world_deg` is counterclockwise from the x axis of the world. */
-  heading: { magnetic_deg: number; world_deg: number; age_s: number } | null;
+  heading: { port: string; magnetic_deg: number; world_deg: number; age_s: number } | null;
   /** A null value is a range without an echo, or without any value if it is not known. */
-  ranges: { values_m: (number | null)[]; is_known: boolean[]; age_s: number } | null;
+  ranges: { port: string; values_m: (number | null)[]; is_known: boolean[]; age_s: number } | null;
   battery: { share: number; is_estimated: boolean } | null;
   waypoints: Waypoint[];
   navigates: boolean;
 }
 
 export type Mode = "auto" | "manual";
+
+export interface Unseen {
+  speed_m_s: number;
+  /** Null without an input for headings. */
+  turn_rate_rad_s: number | null;
+}
 
 export interface WardenLink {
   port: string;
@@ -58,6 +68,7 @@ export interface WardenLink {
 }
 
 export interface Position {
+  port: string;
   x_m: number;
   y_m: number;
   latitude_deg: number;

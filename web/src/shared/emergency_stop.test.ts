@@ -6,15 +6,15 @@ const view: StopView = {
   failures: 0,
   isReachable: true,
   isLatched: false,
-  robots: [{ name: "bender/0", isStanding: false }],
+  robots: [{ name: "bender/0", unseen: null }],
 };
 
 test("a stop is confirmed only by the standstill of each robot", () => {
   expect(describe({ ...view, request: "requested" })).toBe("Stop requested, not confirmed.");
   expect(describe({ ...view, request: "accepted", isLatched: true })).toContain("standstill not confirmed");
-  const robots = [{ name: "bender/0", isStanding: true }];
+  const robots = [{ name: "bender/0", unseen: { speed_m_s: 0.2149 } }];
   expect(describe({ ...view, request: "accepted", isLatched: true, robots })).toBe(
-    "Stop is latched. bender/0: standstill confirmed",
+    "Stop is latched. bender/0: standstill confirmed (slower than 0.22 m/s)",
   );
 });
 

@@ -1,4 +1,5 @@
-import { post, type Warden, type WardenState } from "../api/warden";
+import { post, type Unseen, type Warden, type WardenState } from "../api/warden";
+import { type Standing, standstills } from "./standstill";
 
 /** What is known of the emergency stop: never more than the warden has confirmed. */
 export interface StopView {
@@ -10,7 +11,7 @@ export interface StopView {
   isReachable: boolean | null;
   /** Whether the stop is latched; also if another page requested it. */
   isLatched: boolean;
-  robots: { name: string; isStanding: boolean }[];
+  robots: Standing[];
 }
 
 const limit_ms = 500;
@@ -52,7 +53,7 @@ export class EmergencyStop {
   async watch(): Promise<void> {
     clearTimeout(this.timer);
     await this.look();
-    const isSettled = !this.view.isLatched || this.view.robots.every(({ isStanding }) => isStanding);
+    const isSettled = !this.view.isLatched || this.view.robots.every(({ unseen }) => unseen);
     const isIdle = this.view.request !== "requested" && this.view.isReachable === true && isSettled;
     this.timer = setTimeout(() => void this.watch(), isIdle ? idle_ms : active_ms);
   }
@@ -79,7 +80,7 @@ export class EmergencyStop {
       this.take((await response.json()) as WardenState, sent_ms);
     } catch {
       // What was true is no longer known.
-      const robots = this.view.robots.map(({ name }) => ({ name, isStanding: false }));
+      const robots = this.view.robots.map(({ name }) => ({ name, unseen: null }));
       this.show({ isReachable: false, robots });
     }
   }
@@ -91,7 +92,7 @@ export class EmergencyStop {
     this.show({
       isReachable: true,
       isLatched: state.is_stopped,
-      robots: state.robots.map((robot) => ({ name: robot.name, isStanding: isConfirmed(robot) })),
+      robots: state.robots.map((robot) => ({ name: robot.name, unseen: unseenBy(robot) })),
       ...(isEnded ? { request: "none" as const } : {}),
     });
   }
@@ -102,9 +103,9 @@ export class EmergencyStop {
   }
 }
 
-/** A standstill counts only while stop is latched. */
-function isConfirmed({ action, is_standing }: WardenState["robots"][number]): boolean {
-  return action === "latched_stop" && is_standing;
+/** A standstill counts only while stop is latched, and with the fastest motion that would go unseen. */
+function unseenBy({ action, is_standing, unseen }: WardenState["robots"][number]): Unseen | null {
+  return action === "latched_stop" && is_standing ? unseen : null;
 }
 
 function within(): { signal: AbortSignal } {
@@ -128,8 +129,5 @@ export function describe({ request, failures, isReachable, isLatched, robots }: 
   if (isReachable === null) return "Connecting to the warden.";
   if (!isReachable) return `The warden does not respond. Standstill is not confirmed. ${cut}`;
   if (request === "none" && !isLatched) return "Stops all robots at once.";
-  const each = robots.map(
-    ({ name, isStanding }) => `${name}: ${isStanding ? "standstill confirmed" : "standstill not confirmed"}`,
-  );
-  return [isLatched ? "Stop is latched." : "Stop accepted by the warden.", ...each].join(" ");
+  return `${isLatched ? "Stop is latched." : "Stop accepted by the warden."} ${standstills(robots)}`.trim();
 }

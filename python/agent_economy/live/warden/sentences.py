@@ -1,5 +1,6 @@
 """Events of a drive in words."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -45,8 +46,13 @@ def server(event: Mapping[str, Any]) -> str:
 def confirmation(event: Mapping[str, Any]) -> str:
     """Return which robots are known to be stationary."""
     if not event["unconfirmed"]:
-        return f" All robots stand: slower than {event['unseen_speed_m_s']:.2f} m/s."
+        return f" All robots stand: {_slower_than(event)}."
     return f" Not confirmed as stationary: {', '.join(event['unconfirmed'])}."
+
+
+def _slower_than(event: Mapping[str, Any]) -> str:
+    """Return the fastest motion that would go unseen, rounded up: an upper limit remains one."""
+    return f"slower than {math.ceil(100.0 * event['unseen_speed_m_s'] - 1e-9) / 100.0:.2f} m/s"
 
 
 def lateness(event: Mapping[str, Any]) -> str:
@@ -68,7 +74,7 @@ def robot_sentence(event: Mapping[str, Any]) -> str:
         return f"{name}: stopped" + reasons(event, "faults", "because of")
     state = "stopped"
     if event["is_confirmed"]:
-        state = f"stopped (standstill confirmed: slower than {event['unseen_speed_m_s']:.2f} m/s)"
+        state = f"stopped (standstill confirmed: {_slower_than(event)})"
     why = reasons(event, "faults", "because of") or reasons(event, "latched", "since")
     return f"{name}: {state}, not armed{why}"
 

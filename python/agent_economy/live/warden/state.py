@@ -104,6 +104,7 @@ def _position(robot: Robot, origin: Origin, now_s: float) -> Values | None:
         return None
     x_m, y_m = robot.position_m(plan.port)
     return {
+        "port": plan.port,
         "x_m": x_m,
         "y_m": y_m,
         "latitude_deg": values[0],
@@ -118,7 +119,12 @@ def _heading(robot: Robot, origin: Origin, now_s: float) -> Values | None:
     if plan is None or not all(map(_is_number, values)):
         return None
     world_deg = world_heading_deg(origin, values[0])
-    return {"magnetic_deg": values[0], "world_deg": world_deg, "age_s": age_s}
+    return {
+        "port": plan.port,
+        "magnetic_deg": values[0],
+        "world_deg": world_deg,
+        "age_s": age_s,
+    }
 
 
 def _ranges(robot: Robot, origin: Origin, now_s: float) -> Values | None:
@@ -127,7 +133,8 @@ def _ranges(robot: Robot, origin: Origin, now_s: float) -> Values | None:
     if plan is None:
         return None
     is_known = [each is not None and not math.isnan(each) for each in values]
-    return {"values_m": [_finite(each) for each in values], "is_known": is_known, "age_s": age_s}
+    values_m = [_finite(each) for each in values]
+    return {"port": plan.port, "values_m": values_m, "is_known": is_known, "age_s": age_s}
 
 
 _READINGS = {"position": _position, "heading": _heading, "ranges": _ranges}

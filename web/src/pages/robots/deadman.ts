@@ -5,6 +5,7 @@ export interface Tracks {
 }
 
 export const neutral: Tracks = { left: 150, right: 150 };
+export const isNeutral = ({ left, right }: Tracks) => left === neutral.left && right === neutral.right;
 export const repeat_ms = 100;
 
 /**

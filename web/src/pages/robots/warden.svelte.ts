@@ -9,7 +9,7 @@ import {
 } from "../../api/warden";
 import { onEmergencyStop } from "../../shared/emergency_stop";
 import { type Connection, type ConnectionEvent, lastOf, next } from "./connection";
-import { Deadman, onHoldEnd, type Tracks } from "./deadman";
+import { Deadman, isNeutral, onHoldEnd, type Tracks } from "./deadman";
 import { eventOf, Poller } from "./poller";
 import { readable } from "./words";
 
@@ -121,10 +121,12 @@ export class WardenSession {
     const signal = AbortSignal.any([held, limit]);
     const answer = await ask<WardenState>(this.drive.warden, "/manual", body, signal);
     if (held.aborted) return;
-    this.refusal = answer.kind === "failed" ? this.refusal : refusalOf(answer);
     if (answer.kind === "answered") this.handle(eventOf(answer, sent_ms, limit.aborted));
+    // No operator has requested neutral values: their answer neither shows a refusal nor hides that of a request.
+    if (answer.kind === "failed" || isNeutral(tracks)) return;
+    this.refusal = refusalOf(answer);
     // What is refused must not begin to move the robot when the reason ends.
-    else if (answer.kind !== "failed") this.deadman.close();
+    if (answer.kind !== "answered") this.deadman.release();
   }
 
   private handle(event: ConnectionEvent): void {

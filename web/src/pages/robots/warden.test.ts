@@ -12,6 +12,8 @@ let bodies: Record<string, unknown>[];
 let taken: string[];
 /** The time at which the warden's time no longer advances. */
 let stuckAt_ms: number;
+/** Why the warden refuses motor values; empty if it takes them. */
+let refusal: string;
 let session: WardenSession;
 
 function state(): WardenState {
@@ -22,12 +24,14 @@ function state(): WardenState {
 
 beforeEach(async () => {
   vi.useFakeTimers();
-  [bodies, taken, stuckAt_ms] = [[], [], Infinity];
+  [bodies, taken, stuckAt_ms, refusal] = [[], [], Infinity, ""];
   vi.stubGlobal("addEventListener", () => undefined);
   vi.stubGlobal("removeEventListener", () => undefined);
   vi.stubGlobal("document", { addEventListener: () => undefined, removeEventListener: () => undefined });
   vi.stubGlobal("fetch", async (url: string, { body }: { body: string }) => {
     if (url.endsWith("/manual")) bodies.push(JSON.parse(body) as Record<string, unknown>);
+    if (url.endsWith("/manual") && refusal)
+      return { ok: false, status: 409, json: async () => ({ message: refusal }) };
     const isRepeated = url.endsWith("/operator") && taken.push(url) > 1;
     if (isRepeated) return { ok: false, status: 409, json: async () => ({ message: "already" }) };
     return { ok: true, status: 200, json: async () => state() };
@@ -72,4 +76,31 @@ test("a double click is one request, and shows no refusal", async () => {
   await vi.advanceTimersByTimeAsync(500);
   expect(await session.request("/operator", { take: true })).toBe(false);
   expect(session.refusal).toContain("already");
+});
+
+test("a refusal of a motion is shown and releases the control; one of neutral values is not shown", async () => {
+  refusal = "bender/0 is not in manual mode";
+  await vi.advanceTimersByTimeAsync(200);
+  expect(session.refusal).toContain(refusal);
+  expect(session.deadman.source).toBeNull();
+  session.refusal = "";
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(session.refusal).toBe("");
+});
+
+test("the refusal of a request remains while neutral values are accepted", async () => {
+  session.deadman.release();
+  session.refusal = "no";
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(session.refusal).toBe("no");
+});
+
+test("after a refusal, neutral values are sent again, which a robot needs to be armed, and no motion", async () => {
+  refusal = "the drive ends";
+  await vi.advanceTimersByTimeAsync(200);
+  refusal = "";
+  const { length } = bodies;
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(bodies.slice(length)).toHaveLength(10);
+  expect(bodies.slice(length).some(isAhead)).toBe(false);
 });

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { WardenRobot } from "../../api/warden";
-import { actionOf, motionOf } from "./words";
+import { actionOf, motionOf, readable } from "./words";
 
 const robot = (speed_m_s: number, turn_rate_rad_s: number, heading_rad: number | null = null) =>
   ({ action: "move", requested: { speed_m_s, turn_rate_rad_s, heading_rad } }) as WardenRobot;
@@ -13,4 +13,23 @@ test("a robot of which no motion is requested is not shown as moving", () => {
 
 test("a turn that rounds to zero has no sign", () => {
   expect(motionOf({ ...robot(0.6, -0.001), written: null })[0]).toEqual(["Requested", "0.60 m/s, turn 0°/s"]);
+});
+
+test("a standstill is confirmed with the fastest speed and turn that would go unseen, or not at all", () => {
+  const standstill = (change: Partial<WardenRobot>) =>
+    motionOf({ ...robot(0, 0), written: null, is_standing: true, ...change })[3]?.[1];
+  const unseen = { speed_m_s: 0.2149, turn_rate_rad_s: 0.0251 };
+  expect(standstill({ unseen })).toBe("confirmed (slower than 0.22 m/s and 1.44°/s)");
+  expect(standstill({ unseen: { ...unseen, turn_rate_rad_s: null } })).toBe(
+    "confirmed (slower than 0.22 m/s; turns are not measured)",
+  );
+  expect(standstill({ unseen: null })).toBe("not confirmed");
+  expect(standstill({ unseen, is_standing: false })).toBe("not confirmed");
+});
+
+test("names of faults are words", () => {
+  expect(["controls_deflected", "outside_world"].map(readable)).toEqual([
+    "controls deflected",
+    "outside world",
+  ]);
 });

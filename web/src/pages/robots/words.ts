@@ -1,4 +1,5 @@
 import type { WardenLink, WardenRobot } from "../../api/warden";
+import { roundedUp, slowerThan } from "../../shared/standstill";
 import type { Connection } from "./connection";
 
 export function actionOf({ action, requested }: WardenRobot): string {
@@ -20,8 +21,17 @@ export function motionOf(robot: WardenRobot): [string, string][] {
     ["Requested", requested ? setpoint(requested) : "nothing"],
     ["Written", written ? `${written.line.trim()} · ${written.age_s.toFixed(1)} s ago` : "nothing"],
     ["Acknowledged", acknowledged(written)],
-    ["Standstill", robot.is_standing ? "confirmed" : "not confirmed"],
+    ["Standstill", standstillOf(robot)],
   ];
+}
+
+/** Whether a standstill is confirmed, always with the fastest motion that would go unseen. */
+function standstillOf({ is_standing, unseen }: WardenRobot): string {
+  if (!is_standing || !unseen) return "not confirmed";
+  const { speed_m_s, turn_rate_rad_s } = unseen;
+  const turn =
+    turn_rate_rad_s === null ? "; turns are not measured" : ` and ${roundedUp(degrees(turn_rate_rad_s))}°/s`;
+  return `confirmed (${slowerThan(speed_m_s)}${turn})`;
 }
 
 function setpoint({ speed_m_s, turn_rate_rad_s, heading_rad }: NonNullable<WardenRobot["requested"]>) {
