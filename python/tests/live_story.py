@@ -74,6 +74,7 @@ class Story:
         links: Links that are not up.
         loop: What differs from a healthy loop.
         pushed: The motion of the robot, whatever is commanded; None while it obeys.
+        operator: Counts the operators who hold the controls.
     """
 
     seed: int
@@ -88,6 +89,7 @@ class Story:
     is_loop_silent: bool = False
     pushed: Motion | None = None
     gap_s: float = STEP_S
+    operator: int = 0
 
     def __post_init__(self) -> None:
         self.random = random.Random(self.seed)  # noqa: S311  (no secret)
@@ -240,6 +242,6 @@ class Story:
 
     def _command(self) -> None:
         if self.setpoint is not None:
-            self.given = Setpoint(self.setpoint, 0, self.time_s, 0.3)
+            self.given = Setpoint(self.setpoint, 0, self.time_s, 0.3, self.operator)
         if not self.is_loop_silent:
             self.received_s = self.time_s

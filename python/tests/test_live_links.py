@@ -1,6 +1,7 @@
 """Links to robots that are slow to find, unreachable or half open: no robot delays another."""
 
 import asyncio
+import gc
 import socket
 import time
 from contextlib import suppress
@@ -178,3 +179,87 @@ def test_a_silent_connection_is_kept_until_another_one_is_established() -> None:
         return was_up, old.is_up, len(accepted)
 
     assert asyncio.run(connect()) == (True, False, 2)
+
+
+def test_attempts_that_fail_together_leave_no_error_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As those to a robot that is off, when the system has asked for its hardware address."""
+    errors: list[Any] = []
+
+    async def fail(*_: Any) -> None:
+        await asyncio.sleep(0.35)
+        raise OSError(113, "No route to host")
+
+    async def connect() -> str:
+        loop = asyncio.get_running_loop()
+        loop.set_exception_handler(lambda _, context: errors.append(context))
+        monkeypatch.setattr(loop, "create_connection", fail)
+        monkeypatch.setattr(port_link, "ATTEMPT_S", 0.05)
+        link = link_to("127.0.0.1", 9, NameLookup("127.0.0.1"), [])
+        task = asyncio.create_task(link.run())
+        await asyncio.sleep(1.0)
+        task.cancel()
+        await asyncio.sleep(0.1)
+        return link.connection.reason
+
+    reason = asyncio.run(connect())
+    gc.collect()
+    assert reason == "127.0.0.1:9: No route to host"
+    assert errors == []
+
+
+def test_a_robot_that_takes_one_connection_only_is_connected_again_when_it_refuses() -> None:
+    async def connect() -> list[str]:
+        events: list[str] = []
+        server: asyncio.Server
+
+        async def serve(reader: asyncio.StreamReader, _: asyncio.StreamWriter) -> None:
+            events.append("accepted")
+            server.close()  # while it has a client, it refuses others
+            with suppress(OSError):
+                await reader.read()
+            events.append("ended")
+            await listen(port)
+
+        async def listen(number: int) -> int:
+            nonlocal server
+            server = await asyncio.start_server(serve, "127.0.0.1", number)
+            return int(server.sockets[0].getsockname()[1])
+
+        port = await listen(0)
+        link = link_to("127.0.0.1", port, NameLookup("127.0.0.1"), [])
+        task = asyncio.create_task(link.run())
+        while not link.connection.is_up:
+            await asyncio.sleep(0.01)
+        old = link.connection
+        old.lost.set()  # as if nothing were acknowledged
+        async with asyncio.timeout(2):
+            while link.connection is old:
+                await asyncio.sleep(0.01)
+        await asyncio.sleep(0.05)
+        task.cancel()
+        server.close()
+        return events
+
+    assert asyncio.run(connect())[:3] == ["accepted", "ended", "accepted"]
+
+
+def test_a_slow_link_that_acknowledges_each_line_is_not_lost() -> None:
+    outstanding = 0
+    connection = Connection(lambda _: None, Share())
+    connection._outstanding = lambda: outstanding  # type: ignore[method-assign]
+    connection._transport, connection.is_up = Writer(), True  # type: ignore[assignment]
+    for turn in range(100):
+        now = 0.1 * turn
+        connection.write(b"x,3,\n", now)
+        outstanding = 10  # the last two lines are under way
+        assert connection.unacknowledged_s(now + 0.05) < 0.3
+    for turn in range(4):
+        silent_s = connection.unacknowledged_s(10.0 + 0.1 * turn)
+    assert silent_s > 0.25
+
+
+class Writer:
+    """A transport that takes everything."""
+
+    def write(self, data: bytes) -> None:
+        """Take it."""

@@ -1,16 +1,25 @@
 """A robot is not armed where it must not be, nor with inputs that cannot be believed."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import pytest
 from live_cases import BOTH, CASES, forks
-from live_story import DRIVE, FENCE_M, LEAP_S, PLAN, ROBOT, START_M, Story
+from live_story import DRIVE, FENCE_M, LEAP_S, PLAN, ROBOT, START_M, Story, Values
 
 from agent_economy.live.rules import Action, Mode, Requests, faults
 
 TURNED = {"compass": lambda true: ((true[0] + 90.0) % 360.0,)}
-MOVED = {"gps": lambda true: (true[0] + 40.0, true[1])}
+
+
+def shifted(by_m: float) -> dict[str, Callable[[Values], Values]]:
+    """Return what alters positions by a distance to the east."""
+    return {"gps": lambda true: (float(true[0] or 0.0) + by_m, true[1])}
+
+
+MOVED = shifted(40.0)
 
 
 def confirm(port: str) -> Requests:
@@ -135,3 +144,88 @@ def test_a_confirmation_of_what_is_not_doubted_changes_nothing() -> None:
     again = story.fork(0)
     requests = Requests(confirm={ROBOT: {"gps", "nothing"}, "unknown": {"gps"}})
     assert story.fork(0).step(requests) == again.step()
+
+
+def test_a_frozen_input_that_changes_by_more_than_was_commanded_has_jumped() -> None:
+    story = broken(Mode.AUTO, faults.FROZEN, "gps")
+    story.altered.update(shifted(80.0))
+    assert not arms(story)
+    assert story.now.blockers == (faults.JUMP,)
+
+
+@BOTH
+def test_doubts_survive_a_clock_that_goes_backwards(mode: Mode) -> None:
+    story = forks(mode, 1)[0]
+    story.altered.update(MOVED)
+    story.run(2.0)
+    story.step(elapsed_s=-0.05)
+    story.due_s = dict.fromkeys(story.due_s, story.time_s)
+    story.mode = Mode.AUTO
+    story.step(Requests(mode={ROBOT: Mode.AUTO}))
+    assert not arms(story)
+    story.step(confirm("gps"))
+    assert arms(story)
+
+
+def test_repeated_spikes_do_not_make_the_place_before_them_evidence() -> None:
+    story = forks(Mode.MANUAL, 1)[0]
+    at_m = story.samples["gps"].values
+    lines = iter(range(10_000))
+    story.altered["gps"] = lambda true: (float(true[0] or 0) + 40.0 * (next(lines) % 2), true[1])
+    story.setpoint = replace(DRIVE, turn_rate_rad_s=0.0)
+    story.run(30.0, LEAP_S)
+    story.altered["gps"] = lambda _: at_m
+    story.run(5.0, LEAP_S)
+    assert story.now.warnings == (faults.JUMP,)
+
+
+def test_a_spike_of_a_precise_receiver_is_over_although_the_robot_has_driven_on() -> None:
+    robot = PLAN.robots[0]
+    inputs = tuple(
+        replace(each, noise=0.02) if each.port == "gps" else each for each in robot.inputs
+    )
+    for seed in range(10):
+        story = Story(seed, plan=replace(PLAN, robots=(replace(robot, inputs=inputs),)))
+        exact = partial(place, story)
+        story.altered["gps"] = exact
+        story.started()
+        before_s = story.samples["gps"].time_s
+        story.altered.update(shifted(30.0))
+        while story.samples["gps"].time_s == before_s:
+            story.step()
+        story.altered["gps"] = exact
+        story.run(4.0)
+        assert story.now.doubted == ()
+
+
+def place(story: Story, _: object) -> tuple[float, float]:
+    """Return the exact position of a robot."""
+    return story.pose[:2]
+
+
+def test_a_confirmation_of_a_frozen_value_lasts_until_it_is_found_frozen_again() -> None:
+    story = broken(Mode.MANUAL, faults.FROZEN, "gps")
+    story.controls_neutral().run(1.0)
+    story.step(confirm("gps"))
+    story.run(10.0, LEAP_S)
+    assert story.now.doubted == ()
+
+
+def test_a_receiver_that_dies_outside_the_world_lets_a_robot_be_driven_home() -> None:
+    story = Story(1, Mode.MANUAL)
+    story.altered["gps"] = lambda _: (1e7, 9e6)
+    story.step(Requests(mode={ROBOT: Mode.MANUAL}))
+    assert not arms(story)
+    story.silent.add("gps")
+    assert arms(story)
+
+
+def test_the_controls_of_a_new_operator_have_to_be_neutral_first() -> None:
+    story = forks(Mode.MANUAL, 1)[0]
+    assert story.given is not None
+    story.operator += 1
+    assert story.step().action is Action.STOP
+    assert story.now.faults == (faults.CONTROLS_DEFLECTED,)
+    story.controls_neutral().run(1.1)
+    story.setpoint = DRIVE
+    assert story.step().motion == DRIVE

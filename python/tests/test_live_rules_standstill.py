@@ -10,7 +10,7 @@ from live_story import LEAP_S, PERIODS_S, PLAN, Story
 from agent_economy.live.plan import FleetPlan, InputPlan
 from agent_economy.live.readings import STOP, Motion, Quantity
 from agent_economy.live.rules import Action, Mode, Requests, Sample, faults
-from agent_economy.live.rules.standstill import NOTHING, observed
+from agent_economy.live.rules.standstill import NO_STANDSTILL, observed
 
 GPS = InputPlan("gps", Quantity.POSITION, 3.0, 0.4)
 
@@ -79,7 +79,7 @@ def test_no_standstill_is_confirmed_above_the_speed_that_is_stated_beside_it(
             assert unseen is None or unseen.speed_m_s > abs(speed_m_s)
 
 
-@pytest.mark.parametrize(("speed_m_s", "within_s"), [(0.25, 22.0), (0.35, 14.0), (0.5, 10.0)])
+@pytest.mark.parametrize(("speed_m_s", "within_s"), [(0.25, 24.0), (0.35, 17.0), (0.5, 13.0)])
 def test_a_runaway_in_open_ground_is_found_and_latched(speed_m_s: float, within_s: float) -> None:
     for seed in range(20):
         field = stopped(seed, 0.4, Motion(speed_m_s, 0.0))
@@ -145,7 +145,7 @@ def test_a_robot_that_moves_again_has_no_confirmed_standstill() -> None:
 
 def test_headings_around_north_have_no_slope() -> None:
     compass = InputPlan("compass", Quantity.HEADING, 1.0, 0.5, (0.0, 360.0))
-    standstill = NOTHING
+    standstill = NO_STANDSTILL
     for number in range(300):
         heading_deg = (359.9 + 0.2 * (number % 2)) % 360.0
         standstill = observed(standstill, Sample(0.1 * number, (heading_deg,)), compass)
@@ -154,7 +154,7 @@ def test_headings_around_north_have_no_slope() -> None:
 
 
 def test_positions_before_a_gap_do_not_count() -> None:
-    standstill = NOTHING
+    standstill = NO_STANDSTILL
     for second in [*range(20), *range(100, 109)]:
         standstill = observed(standstill, Sample(float(second), (0.01 * second, 0.0)), GPS)
     assert standstill.unseen is None

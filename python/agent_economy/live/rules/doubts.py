@@ -30,18 +30,21 @@ class Doubts:
     Attributes:
         frozen: The values with which it was found frozen; None if it was not.
         frozen_reason: What was found.
-        origin: The values before a jump; None without one.
+        origin: The sample before a jump; None without one.
         jump_reason: What was found.
-        jumped_s: When the last sample came that does not continue those before it: after a jump,
+        since_s: When the first jump came that has not been cleared.
+        broken_s: When the last sample came that does not continue those before it: after a jump,
             or when a frozen input changed.
-        was_driven: Whether the robot has been driven since; its values before are no evidence then.
+        was_driven: Whether the robot has been driven since the jump; its values before are no
+            evidence then.
     """
 
     frozen: Values | None = None
     frozen_reason: str = ""
-    origin: Values | None = None
+    origin: Sample | None = None
     jump_reason: str = ""
-    jumped_s: float = -math.inf
+    since_s: float = -math.inf
+    broken_s: float = -math.inf
     was_driven: bool = False
 
     def faults(self) -> tuple[Fault, ...]:
@@ -50,12 +53,17 @@ class Doubts:
         frozen = () if self.frozen is None else (FROZEN.because(self.frozen_reason),)
         return (*jumps, *frozen)
 
+    def without_times(self) -> "Doubts":
+        """Return the doubts after the clock went backwards: only an operator clears a jump."""
+        never = -math.inf
+        return replace(self, since_s=never, broken_s=never, was_driven=True)
 
-NONE = Doubts()
+
+NO_DOUBTS = Doubts()
 
 
 @dataclass(frozen=True, slots=True)
-class Commanded:
+class CommandedChange:
     """A motion that was commanded while the values of an input were equal.
 
     Attributes:
@@ -67,36 +75,56 @@ class Commanded:
     change: float
 
 
-def dispelled(
-    doubts: Doubts, sample: Sample, plan: InputPlan, robot: RobotPlan, *, is_driven: bool
-) -> Doubts:
-    """Return the doubts that a new sample leaves.
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A sample of an input that is judged, with what is known of the robot.
 
-    A frozen input has changed when its values are others. After a jump, they have to be again
-    where they were: as near as noise and the way of a robot that has just been stopped explain.
+    Attributes:
+        before: The last possible sample before it.
+        sample: The sample.
+        plan: The input.
+        robot: The robot.
+        commanded: The motion commanded since the values before last changed.
+        is_driven: Whether the robot is commanded to move.
     """
-    if doubts.frozen is not None and sample.values != doubts.frozen:
-        doubts = replace(doubts, frozen=None, frozen_reason="", jumped_s=sample.time_s)
-    if doubts.origin is None:
-        return doubts
-    was_driven = doubts.was_driven or (is_driven and sample.time_s - doubts.jumped_s > CLEAR_S)
-    limit = (max_rate(plan, robot) or 0.0) * JITTER_S + margin(plan)
-    if not was_driven and change(doubts.origin, sample.values, plan.quantity) <= limit:
-        return replace(doubts, origin=None, jump_reason="")
-    return replace(doubts, was_driven=was_driven)
+
+    before: Sample | None
+    sample: Sample
+    plan: InputPlan
+    robot: RobotPlan
+    commanded: CommandedChange
+    is_driven: bool
+
+    @property
+    def is_equal(self) -> bool:
+        """Whether the values are those before."""
+        return self.before is not None and self.before.values == self.sample.values
+
+    def explained(self, time_s: float) -> float:
+        """Return the change that the fastest motion of a time and the noise explain."""
+        rate = max_rate(self.plan, self.robot) or 0.0
+        return rate * (max(time_s, 0.0) + JITTER_S) + margin(self.plan)
 
 
-def after_jump(
-    doubts: Doubts, before: Sample | None, sample: Sample, plan: InputPlan, robot: RobotPlan
-) -> Doubts:
+def after_step(doubts: Doubts, step: Step, equal_lines: int) -> Doubts:
+    """Return the doubts about an input after a sample; `equal_lines` counts it."""
+    doubts = _after_jump(doubts, step)
+    doubts = _if_frozen(doubts, step, equal_lines)
+    return _cleared(doubts, step)
+
+
+def _after_jump(doubts: Doubts, step: Step) -> Doubts:
     """Return the doubts with a jump from the sample before, if it is one.
 
-    An input that was frozen and changes again makes up for what it has missed: that is no jump.
+    An input that was frozen and changes again makes up for what it has missed, which is the motion
+    that was commanded meanwhile.
     """
-    rate = max_rate(plan, robot)
-    if before is None or rate is None or doubts.frozen is not None:
+    before, sample, plan = step.before, step.sample, step.plan
+    if before is None or max_rate(plan, step.robot) is None:
         return doubts
-    limit = rate * (max(sample.time_s - before.time_s, 0.0) + JITTER_S) + margin(plan)
+    limit = step.explained(sample.time_s - before.time_s)
+    if doubts.frozen is not None:
+        limit += step.commanded.change
     size = change(before.values, sample.values, plan.quantity)
     if size <= limit:
         return doubts
@@ -105,20 +133,39 @@ def after_jump(
         f"{plan.port}: changed by {size:.1f} {unit} at once (limit {limit:.1f} {unit}) and is not "
         "back: it has to be confirmed by hand"
     )
-    origin = before.values if doubts.origin is None else doubts.origin
-    after = replace(doubts, origin=origin, jump_reason=reason, jumped_s=sample.time_s)
-    return replace(after, was_driven=doubts.was_driven and doubts.origin is not None)
+    doubts = replace(doubts, jump_reason=reason, broken_s=sample.time_s)
+    if doubts.origin is not None:
+        return doubts
+    return replace(doubts, origin=before, since_s=sample.time_s, was_driven=False)
 
 
-def if_frozen(
-    doubts: Doubts, sample: Sample, equal_lines: int, commanded: Commanded, plan: InputPlan
-) -> Doubts:
+def _if_frozen(doubts: Doubts, step: Step, equal_lines: int) -> Doubts:
     """Return the doubts with a frozen input, if enough motion was commanded without a change."""
-    is_enough = commanded.time_s >= FROZEN_S and commanded.change > margin(plan)
-    if not is_enough or equal_lines < FROZEN_LINES or not has_number(sample.values):
+    commanded, values = step.commanded, step.sample.values
+    is_enough = commanded.time_s >= FROZEN_S and commanded.change > margin(step.plan)
+    if not (step.is_equal and is_enough and equal_lines >= FROZEN_LINES and has_number(values)):
         return doubts
     reason = (
-        f"{plan.port}: no change in {commanded.time_s:.1f} s of commanded motion: it is frozen, or "
-        "the robot does not move; it has to change, or to be confirmed by hand"
+        f"{step.plan.port}: no change in {commanded.time_s:.1f} s of commanded motion: it is "
+        "frozen, or the robot does not move; it has to change, or to be confirmed by hand"
     )
-    return replace(doubts, frozen=sample.values, frozen_reason=reason)
+    return replace(doubts, frozen=values, frozen_reason=reason)
+
+
+def _cleared(doubts: Doubts, step: Step) -> Doubts:
+    """Return the doubts that a sample leaves.
+
+    A frozen input has changed when its values are others. After a jump, they have to be again
+    where they were: as near as noise and the way explain that the robot went until it was stopped.
+    """
+    sample, plan = step.sample, step.plan
+    if doubts.frozen is not None and sample.values != doubts.frozen:
+        doubts = replace(doubts, frozen=None, frozen_reason="", broken_s=sample.time_s)
+    if doubts.origin is None:
+        return doubts
+    is_late = sample.time_s - doubts.since_s > CLEAR_S
+    was_driven = doubts.was_driven or (step.is_driven and is_late)
+    limit = step.explained(doubts.since_s - doubts.origin.time_s)
+    if not was_driven and change(doubts.origin.values, sample.values, plan.quantity) <= limit:
+        return replace(doubts, origin=None, jump_reason="")
+    return replace(doubts, was_driven=was_driven)

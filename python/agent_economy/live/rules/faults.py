@@ -31,10 +31,11 @@ STILL_S = 3.0
 STANDSTILL_S = 10.0
 """Time over which the means of positions and headings must not change for that, too."""
 
-MOVES_SIGMAS, STANDS_SIGMAS, MISSED_SIGMAS = 6.5, 3.5, 3.0
+MOVES_SIGMAS, STANDS_SIGMAS, MISSED_SIGMAS = 8.0, 3.5, 3.0
 """A slope of positions or headings shows a motion above the first number of standard deviations of
 the slope, plus the drift; up to the second, it confirms a standstill. A motion that is faster by
-the third is noticed in 998 of 1000 cases."""
+the third is noticed in 998 of 1000 cases. The first is large because the errors of receivers are
+correlated, and slopes therefore larger than those of independent errors."""
 
 DRIFT_M_S, DRIFT_DEG_S = 0.1, 1.0
 """Positions and headings of a robot that stands may drift as fast as this."""

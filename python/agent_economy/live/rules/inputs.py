@@ -16,7 +16,7 @@ from agent_economy.live.rules.faults import (
 )
 from agent_economy.live.rules.interface import Sample, Unseen
 from agent_economy.live.rules.memory import RobotMemory
-from agent_economy.live.rules.monitors import Conditions, InputMemory, judge
+from agent_economy.live.rules.monitors import Conditions, InputMemory, age_s, judge
 
 _PLACES = (OUTSIDE_FENCE, OUTSIDE_WORLD)
 """Faults of what an input states, not of the input."""
@@ -53,18 +53,20 @@ def unseen(memory: RobotMemory, plan: RobotPlan, time_s: float) -> Unseen | None
     is_still = all(memory.inputs[each.port].is_still(time_s, each.quantity) for each in inputs)
     if not (memory.motion.is_stop and is_known and is_still):
         return None
-    speed_m_s = _slowest(memory, inputs, Quantity.POSITION)
+    speed_m_s = _slowest(memory, inputs, Quantity.POSITION, time_s)
     if speed_m_s is None or speed_m_s >= plan.max_speed_m_s:
         return None
-    turn_rate_deg_s = _slowest(memory, inputs, Quantity.HEADING)
+    turn_rate_deg_s = _slowest(memory, inputs, Quantity.HEADING, time_s)
     return Unseen(speed_m_s, None if turn_rate_deg_s is None else math.radians(turn_rate_deg_s))
 
 
-def _slowest(memory: RobotMemory, inputs: Iterable[InputPlan], quantity: Quantity) -> float | None:
+def _slowest(
+    memory: RobotMemory, inputs: Iterable[InputPlan], quantity: Quantity, time_s: float
+) -> float | None:
     """Return the unseen rate of the best input of a quantity."""
-    found = (memory.inputs[each.port] for each in inputs if each.quantity is quantity)
-    rates = [each.standstill.unseen for each in found if each.standstill.unseen is not None]
-    return min(rates, default=None)
+    found = (memory.inputs[each.port].standstill for each in inputs if each.quantity is quantity)
+    rates = (each.unseen_at(time_s) for each in found)
+    return min((rate for rate in rates if rate is not None), default=None)
 
 
 def values(memory: RobotMemory, plan: RobotPlan, quantity: Quantity) -> Iterator[tuple[float, ...]]:
@@ -79,9 +81,13 @@ def _numbers(sample: Sample) -> tuple[float, ...]:
     return tuple(value for value in sample.values if value is not None)
 
 
-def outside_world(memory: RobotMemory, plan: RobotPlan, size_m: Point | None) -> Iterator[Fault]:
-    """Yield a fault for each input that places a robot outside the world."""
+def outside_world(
+    memory: RobotMemory, plan: RobotPlan, size_m: Point | None, time_s: float
+) -> Iterator[Fault]:
+    """Yield a fault for each input that places a robot outside the world, and is not stale."""
     for each in plan.inputs:
         sample = memory.inputs[each.port].possible
-        if each.quantity is Quantity.POSITION and sample is not None:
+        if each.quantity is not Quantity.POSITION or sample is None:
+            continue
+        if age_s(time_s, sample.time_s) <= each.max_age_s:
             yield from causes.world(size_m, each, [_numbers(sample)])

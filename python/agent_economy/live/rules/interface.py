@@ -71,12 +71,14 @@ class Setpoint:
         tick: The step of the loop that it comes from.
         received_s: When it arrived.
         lifetime_s: Time for which it is valid; the plan of the fleet limits it.
+        operator: Counts the operators of the drive: another number is another person.
     """
 
     motion: Motion
     tick: int
     received_s: float
     lifetime_s: float
+    operator: int = 0
 
 
 @dataclass(frozen=True, slots=True)

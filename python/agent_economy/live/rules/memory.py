@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from agent_economy.live.readings import STOP, Motion
 from agent_economy.live.rules.faults import NOT_ARMED, Fault
 from agent_economy.live.rules.interface import Action, Mode
-from agent_economy.live.rules.monitors import NOTHING, Commanded, InputMemory
+from agent_economy.live.rules.monitors import NOTHING_COMMANDED, Commanded, InputMemory
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class RobotMemory:
         blocked_since_s: Since when faults other than a hold stop it; None while none does.
         turning_since_s: Since when it turns to a heading by itself; None if it does not.
         turned_s: When it did so last.
-        were_neutral: Whether the operator's controls have been neutral since it could move.
+        neutral_of: The operator whose controls have been neutral since it could move, if any.
     """
 
     mode: Mode = Mode.AUTO
@@ -44,13 +44,13 @@ class RobotMemory:
     held: Mapping[str, Held] = field(default_factory=dict)
     inputs: Mapping[str, InputMemory] = field(default_factory=dict)
     motion: Motion = STOP
-    commanded: Commanded = NOTHING
+    commanded: Commanded = NOTHING_COMMANDED
     action: Action = Action.LATCHED_STOP
     stopped_since_s: float | None = None
     blocked_since_s: float | None = None
     turning_since_s: float | None = None
     turned_s: float = -math.inf
-    were_neutral: bool = False
+    neutral_of: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,9 +11,13 @@ from itertools import zip_longest
 from agent_economy.live.plan import InputPlan, RobotPlan
 from agent_economy.live.readings import Motion, Quantity
 from agent_economy.live.rules.differences import Values, differs
-from agent_economy.live.rules.doubts import NONE as NO_DOUBTS
-from agent_economy.live.rules.doubts import Commanded as CommandedChange
-from agent_economy.live.rules.doubts import Doubts, after_jump, dispelled, if_frozen
+from agent_economy.live.rules.doubts import (
+    NO_DOUBTS,
+    CommandedChange,
+    Doubts,
+    Step,
+    after_step,
+)
 from agent_economy.live.rules.faults import (
     IMPOSSIBLE_VALUE,
     MISSING_INPUT,
@@ -23,8 +27,7 @@ from agent_economy.live.rules.faults import (
     Fault,
 )
 from agent_economy.live.rules.interface import Sample
-from agent_economy.live.rules.standstill import NOTHING as NO_STANDSTILL
-from agent_economy.live.rules.standstill import Standstill, observed
+from agent_economy.live.rules.standstill import NO_STANDSTILL, Standstill, observed
 
 MAX_AHEAD_S = 0.1
 """A stamp may be this much ahead of the time of the update."""
@@ -64,7 +67,7 @@ class Commanded:
         )
 
 
-NOTHING = Commanded()
+NOTHING_COMMANDED = Commanded()
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +78,7 @@ class Conditions:
         robot: The robot.
         time_s: The time.
         commanded: The motion commanded until now.
-        is_held: Whether the rules have stopped the robot.
+        is_stopped: Whether the rules have stopped the robot.
         stopped_since_s: Since when stop has been commanded; None while the robot moves.
         confirmed: The ports whose values an operator confirms by hand.
     """
@@ -83,7 +86,7 @@ class Conditions:
     robot: RobotPlan
     time_s: float
     commanded: Commanded
-    is_held: bool
+    is_stopped: bool
     stopped_since_s: float | None
     confirmed: Collection[str] = ()
 
@@ -108,11 +111,15 @@ class InputMemory:
     possible: Sample | None = None
     value_times_s: tuple[float | None, ...] = ()
     equal_lines: int = 0
-    commanded: Commanded = NOTHING
+    commanded: Commanded = NOTHING_COMMANDED
     reference: Sample | None = None
     still_since_s: float | None = None
     doubts: Doubts = NO_DOUBTS
     standstill: Standstill = NO_STANDSTILL
+
+    def without_times(self) -> "InputMemory":
+        """Return what remains of it after the clock went backwards."""
+        return InputMemory(doubts=self.doubts.without_times())
 
     def is_still(self, time_s: float, quantity: Quantity) -> bool:
         """Return whether it has shown no motion: for `STILL_S`, slow ones for longer."""
@@ -143,7 +150,8 @@ def judge(
     """Return what the newest sample of an input shows; None if there is none."""
     memory = _restarted(memory, now)
     if plan.port in now.confirmed:
-        memory = replace(memory, doubts=NO_DOUBTS)
+        # What has been commanded until now is no evidence any more.
+        memory = replace(memory, doubts=NO_DOUBTS, equal_lines=0, commanded=now.commanded)
     has_moved = False
     if sample is not None and _is_new(sample, memory):
         if _impossible(sample.values, plan):
@@ -151,7 +159,7 @@ def judge(
             memory = replace(memory, newest=sample, value_times_s=times)
         else:
             before, memory = memory, _after(memory, sample, plan, now)
-            has_moved = not _is_jump(memory, sample) and (
+            has_moved = not _is_break(memory, sample) and (
                 _moves_while_stopped(before, sample, plan, now) or memory.standstill.moves
             )
     faults = [*memory.doubts.faults(), *_freshness(memory, plan, now.time_s)]
@@ -231,21 +239,29 @@ def _is_possible(value: float, plan: InputPlan) -> bool:
 
 def _doubts(memory: InputMemory, sample: Sample, plan: InputPlan, now: Conditions) -> Doubts:
     """Return the doubts about an input after a possible sample."""
-    before, robot = memory.possible, now.robot
-    doubts = after_jump(memory.doubts, before, sample, plan, robot)
-    if before is not None and before.values == sample.values:
-        commanded = _commanded_change(plan, memory.commanded, now.commanded)
-        doubts = if_frozen(doubts, sample, memory.equal_lines + 1, commanded, plan)
-    return dispelled(doubts, sample, plan, robot, is_driven=now.stopped_since_s is None)
+    step = Step(
+        before=memory.possible,
+        sample=sample,
+        plan=plan,
+        robot=now.robot,
+        commanded=_commanded_change(plan, memory.commanded, now.commanded),
+        is_driven=now.stopped_since_s is None,
+    )
+    return after_step(memory.doubts, step, memory.equal_lines + 1)
 
 
-def _is_jump(memory: InputMemory, sample: Sample) -> bool:
-    return memory.doubts.jumped_s == sample.time_s
+def _is_break(memory: InputMemory, sample: Sample) -> bool:
+    return memory.doubts.broken_s == sample.time_s
 
 
 def _restarted(memory: InputMemory, now: Conditions) -> InputMemory:
-    """Return the memory without equal lines while the robot is stopped by the rules."""
-    if not now.is_held or (memory.equal_lines == 0 and memory.commanded is now.commanded):
+    """Return the memory without equal lines while the robot is stopped by the rules.
+
+    Of a frozen input, the motion that was commanded until it froze is kept: it explains a change.
+    """
+    if not now.is_stopped or memory.doubts.frozen is not None:
+        return memory
+    if memory.equal_lines == 0 and memory.commanded is now.commanded:
         return memory
     return replace(memory, equal_lines=0, commanded=now.commanded)
 
@@ -285,7 +301,7 @@ def _standstill(
 ) -> Standstill:
     """Return what the samples since the robot has settled show of slow motion."""
     settled_s = _settled_s(now)
-    if settled_s is None or sample.time_s < settled_s or _is_jump(memory, sample):
+    if settled_s is None or sample.time_s < settled_s or _is_break(memory, sample):
         return NO_STANDSTILL
     return observed(memory.standstill, sample, plan)
 

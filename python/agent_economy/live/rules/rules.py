@@ -99,9 +99,10 @@ def _turn(
 
 
 def _rewound(memory: RobotMemory, time_s: float) -> RobotMemory:
-    """Return the memory without times, after the clock went backwards."""
+    """Return the memory without times, after the clock went backwards. Doubts remain."""
     held = {name: Held(each.fault, time_s) for name, each in memory.held.items()}
-    return RobotMemory(memory.mode, memory.navigates, memory.latched, held)
+    inputs = {port: each.without_times() for port, each in memory.inputs.items()}
+    return RobotMemory(memory.mode, memory.navigates, memory.latched, held, inputs)
 
 
 # The rules of one robot.
@@ -114,7 +115,9 @@ def _decide(
     memory, found = judged(memory, inputs.samples, _conditions(memory, plan, turn))
     is_manual = memory.mode is Mode.MANUAL
     setpoint = inputs.manual if is_manual else inputs.setpoint
-    were_neutral = memory.were_neutral or not is_manual
+    were_neutral = not is_manual or (
+        setpoint is not None and setpoint.operator == memory.neutral_of
+    )
     lifetime_s = MANUAL_LIFETIME_S if is_manual else turn.plan.setpoint_lifetime_s
     expired = tuple(causes.setpoint(setpoint, lifetime_s, turn.time_s))
     now = gravest_first(
@@ -124,7 +127,7 @@ def _decide(
             *turn.faults,
             *causes.links(plan, inputs.links),
             *causes.fence(plan, values(memory, plan, Quantity.POSITION)),
-            *outside_world(memory, plan, turn.plan.size_m),
+            *outside_world(memory, plan, turn.plan.size_m, turn.time_s),
             *causes.battery(plan, values(memory, plan, Quantity.BATTERY)),
             *(expired or causes.controls(setpoint, were_neutral=were_neutral)),
             *_hold_of(memory, turn),
@@ -141,7 +144,7 @@ def _decide(
     memory = replace(
         memory,
         blocked_since_s=_blocked_since_s(memory, faults, turn.time_s),
-        were_neutral=_were_neutral(memory, faults, setpoint),
+        neutral_of=_neutral_of(memory, faults, setpoint),
     )
     decision = Decision(
         action=action,
@@ -167,7 +170,7 @@ def _conditions(memory: RobotMemory, plan: RobotPlan, turn: _Turn) -> Conditions
         robot=plan,
         time_s=turn.time_s,
         commanded=commanded,
-        is_held=memory.action is not Action.MOVE,
+        is_stopped=memory.action is not Action.MOVE,
         stopped_since_s=memory.stopped_since_s,
         confirmed=turn.requests.confirm.get(plan.name, ()),
     )
@@ -178,13 +181,15 @@ def _blocked_since_s(memory: RobotMemory, faults: tuple[Fault, ...], time_s: flo
     return _since(memory.blocked_since_s, time_s, is_true=is_blocked)
 
 
-def _were_neutral(
+def _neutral_of(
     memory: RobotMemory, faults: tuple[Fault, ...], setpoint: Setpoint | None
-) -> bool:
-    """Return whether the controls of a robot that could move are or have been neutral."""
+) -> int | None:
+    """Return the operator whose controls are or have been neutral while the robot could move."""
     can_move = not memory.latched and all(each == CONTROLS_DEFLECTED for each in faults)
-    is_neutral = setpoint is not None and setpoint.motion.is_stop
-    return memory.mode is Mode.MANUAL and can_move and (memory.were_neutral or is_neutral)
+    if memory.mode is not Mode.MANUAL or not can_move or setpoint is None:
+        return None
+    is_known = setpoint.motion.is_stop or setpoint.operator == memory.neutral_of
+    return setpoint.operator if is_known else None
 
 
 def _blockers(faults: tuple[Fault, ...], warnings: tuple[Fault, ...]) -> tuple[Fault, ...]:

@@ -28,8 +28,11 @@ BIN_S = 1.0
 SHORTEST_S, LONGEST_S = 5.0, 30.0
 """Lines are fitted to the readings of times of these lengths, and of all between."""
 
-MAX_GAP_S = 5.0
+MAX_PAUSE_S = 5.0
 """After a longer time without a reading, the readings before do not count."""
+
+MAX_AGE_S = 3.0
+"""A standstill is confirmed for this time after the last reading."""
 
 MIN_MEANS = 4
 """A line is fitted to this number of means at least."""
@@ -43,12 +46,14 @@ class Mean:
 
     Attributes:
         began_s: When the first one came.
+        newest_s: When the last one came.
         time_s: The mean of their times.
         values: The means of the values; headings are continuous, not 0 to 360.
         count: The number of readings.
     """
 
     began_s: float
+    newest_s: float
     time_s: float
     values: tuple[float, ...]
     count: int
@@ -58,7 +63,8 @@ class Mean:
         count = self.count + 1
         pairs = zip(self.values, values, strict=True)
         means = tuple(mean + (value - mean) / count for mean, value in pairs)
-        return Mean(self.began_s, self.time_s + (time_s - self.time_s) / count, means, count)
+        mean_s = self.time_s + (time_s - self.time_s) / count
+        return Mean(self.began_s, time_s, mean_s, means, count)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,8 +97,13 @@ class Standstill:
     moves: bool = False
     unseen: float | None = None
 
+    def unseen_at(self, time_s: float) -> float | None:
+        """Return the unseen motion at a time; None if there has been no reading for too long."""
+        is_fresh = len(self.means) > 0 and time_s - self.means[-1].newest_s <= MAX_AGE_S
+        return self.unseen if is_fresh else None
 
-NOTHING = Standstill()
+
+NO_STANDSTILL = Standstill()
 
 
 def observed(before: Standstill, sample: Sample, plan: InputPlan) -> Standstill:
@@ -100,7 +111,7 @@ def observed(before: Standstill, sample: Sample, plan: InputPlan) -> Standstill:
     drift = _DRIFTS.get(plan.quantity)
     numbers = tuple(each for each in sample.values if each is not None)
     if drift is None or len(numbers) != len(sample.values):
-        return NOTHING
+        return NO_STANDSTILL
     means = _with(before.means, sample.time_s, numbers, plan.quantity)
     slopes = list(_slopes(means, plan.noise))
     return Standstill(
@@ -113,8 +124,8 @@ def observed(before: Standstill, sample: Sample, plan: InputPlan) -> Standstill:
 def _with(
     means: tuple[Mean, ...], time_s: float, values: tuple[float, ...], quantity: Quantity
 ) -> tuple[Mean, ...]:
-    if not means or not 0.0 <= time_s - means[-1].time_s <= MAX_GAP_S:
-        return (Mean(time_s, time_s, values, 1),)
+    if not means or not 0.0 <= time_s - means[-1].time_s <= MAX_PAUSE_S:
+        return (Mean(time_s, time_s, time_s, values, 1),)
     newest = means[-1]
     if quantity is Quantity.HEADING:
         last = newest.values[0]
@@ -122,30 +133,30 @@ def _with(
     if time_s - newest.began_s < BIN_S:
         return (*means[:-1], newest.after(time_s, values))
     kept = tuple(each for each in means if time_s - each.began_s <= LONGEST_S)
-    return (*kept, Mean(time_s, time_s, values, 1))
+    return (*kept, Mean(time_s, time_s, time_s, values, 1))
 
 
 def _slopes(means: tuple[Mean, ...], noise: float) -> Iterator[Slope]:
-    """Yield the slopes of the last readings, of growing spans, from sums that grow with them.
+    """Yield the slopes of the last means, of growing spans, from sums that grow with them.
 
+    A mean counts as one reading, however many it is of: errors within a second are not independent.
     Times and values are relative to the newest mean: sums of large numbers would lose digits.
     """
     newest = means[-1]
     axes = range(len(newest.values))
-    weight = time = square = 0.0
+    time = square = 0.0
     values, products = [0.0 for _ in axes], [0.0 for _ in axes]
     for number, mean in enumerate(reversed(means), 1):
         time_s = mean.time_s - newest.time_s
-        weight += mean.count
-        time += mean.count * time_s
-        square += mean.count * time_s * time_s
+        time += time_s
+        square += time_s * time_s
         for axis in axes:
-            value = mean.count * (mean.values[axis] - newest.values[axis])
+            value = mean.values[axis] - newest.values[axis]
             values[axis] += value
             products[axis] += value * time_s
         if number >= MIN_MEANS and -time_s >= SHORTEST_S:
-            spread = square - time * time / weight
-            rates = [(products[axis] - time * values[axis] / weight) / spread for axis in axes]
+            spread = square - time * time / number
+            rates = [(products[axis] - time * values[axis] / number) / spread for axis in axes]
             yield Slope(-time_s, math.hypot(*rates), noise / math.sqrt(spread))
 
 

@@ -67,6 +67,7 @@ class Connection(asyncio.BufferedProtocol):
         self._transport: asyncio.Transport | None = None
         self._socket: socket.socket | None = None
         self._queued_since_s: float | None = None
+        self._written = self._acknowledged = 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Note the connection."""
@@ -117,6 +118,7 @@ class Connection(asyncio.BufferedProtocol):
         """Write or queue bytes."""
         if self._transport is not None and self.is_up:
             self._transport.write(data)
+            self._written += len(data)
             if self._queued_since_s is None:
                 self._queued_since_s = now_s
 
@@ -125,25 +127,33 @@ class Connection(asyncio.BufferedProtocol):
 
         Where the system does not show that, whether all has been handed to it.
         """
+        return self._outstanding() == 0
+
+    def _outstanding(self) -> int:
+        """Return how many of the written bytes have not been acknowledged."""
         if self._transport is None or not self.is_up:
-            return True
-        if self._transport.get_write_buffer_size() > 0:
-            return False
+            return 0
+        queued = self._transport.get_write_buffer_size()
         number = -1 if self._socket is None else self._socket.fileno()
         if _SIOCOUTQ is None or number < 0:  # closing
-            return True
-        queued = fcntl.ioctl(number, _SIOCOUTQ, b"\0" * 4)
-        return bool(struct.unpack("i", queued)[0] == 0)
+            return queued
+        sent = fcntl.ioctl(number, _SIOCOUTQ, b"\0" * 4)
+        return queued + int(struct.unpack("i", sent)[0])
 
     def is_acknowledged(self) -> bool:
         """Whether the robot's machine is known to have acknowledged all that was written."""
         return _SIOCOUTQ is not None and self.is_up and self.is_empty()
 
     def unacknowledged_s(self, now_s: float) -> float:
-        """Return for how long written bytes have not been acknowledged."""
-        if self._queued_since_s is None or self.is_empty():
+        """Return for how long nothing has been acknowledged although something was written."""
+        outstanding = self._outstanding()
+        before, self._acknowledged = self._acknowledged, self._written - outstanding
+        if self._queued_since_s is None or outstanding == 0:
             self._queued_since_s = None
             return 0.0
+        if self._acknowledged > before:
+            # A slow link acknowledges each line, and has another one under way all the time.
+            self._queued_since_s = now_s
         return now_s - self._queued_since_s
 
     def abort(self) -> None:

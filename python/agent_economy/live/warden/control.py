@@ -56,6 +56,7 @@ class Control:
         self._waypoints = WaypointOrders(warden, drive.plan)
         self._authority = Authority()
         self._numbers: dict[str, int] = {}
+        self._operators = 0
 
     def actions(self) -> dict[str, Action]:
         """Return what is done for each path."""
@@ -158,6 +159,7 @@ class Control:
     def _forget_manual(self) -> None:
         """Stop the robots in manual mode: what was requested by hand is no longer valid."""
         self._numbers = {}
+        self._operators += 1
         for robot in self._warden.robots.values():
             robot.manual = None
 
@@ -186,7 +188,7 @@ class Control:
             message = f"number {number} is overtaken: a request with number {newest} came before"
             raise ValueError(message)
         self._numbers[name] = number
-        robot.manual = Setpoint(motion, 0, now, MANUAL_LIFETIME_S)
+        robot.manual = Setpoint(motion, 0, now, MANUAL_LIFETIME_S, self._operators)
         return self._state(body)
 
     def _release(self, _: Body) -> Answer:

@@ -1,12 +1,13 @@
 """Keeps one port of a robot connected."""
 
 import asyncio
+import math
 import os
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from agent_economy.live.clock import now_s
-from agent_economy.live.locks import AddressLocks, LockedError
+from agent_economy.live.locks import AddressLocks
 from agent_economy.live.rules.faults import MAX_UNACKNOWLEDGED_S
 from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.name_lookup import NameLookup
@@ -88,30 +89,38 @@ class PortLink:
     async def _connect(self) -> bool:
         """Connect; return False if the address refuses. While nothing answers, it tries on."""
         attempts: set[asyncio.Task[Connection | None]] = set()
+        next_s = -math.inf
         try:
             while self.connection.lost.is_set() or not self.connection.is_up:
-                attempts.add(asyncio.create_task(self._attempt()))
-                wait = asyncio.FIRST_COMPLETED
-                done, attempts = await asyncio.wait(attempts, timeout=ATTEMPT_S, return_when=wait)
-                found = [each for task in done if (each := task.result()) is not None]
+                if now_s() >= next_s:
+                    next_s = now_s() + ATTEMPT_S
+                    attempts.add(asyncio.create_task(self._attempt()))
+                done, attempts = await _first_of(attempts, next_s - now_s())
+                found = [each for task in done if (each := _connection_of(task)) is not None]
                 if found:
                     self._replace(found)
                     return True
-        except LockedError as error:
-            self._lookup.forget()
-            # In a thread: the name of a user may be looked up on a server.
-            loop = asyncio.get_running_loop()
-            self.connection.reason = await loop.run_in_executor(None, str, error)
-            return False
+                for task in done:
+                    task.result()
         except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
-            self._lookup.forget()
-            host, port = self._address
-            self.connection.reason = f"{host}:{port}: {_words(error)}"
+            self._refused(error)
             return False
         finally:
             for task in attempts:
-                task.cancel()
+                _give_up(task)
         return True
+
+    def _refused(self, error: OSError | UnicodeError) -> None:
+        """Note why an address cannot be connected.
+
+        A robot that refuses can be reached. If it holds the connection on which nothing was
+        acknowledged, it may take no other one: that one is reset.
+        """
+        if isinstance(error, ConnectionRefusedError):
+            self.connection.reset()
+        self._lookup.forget()
+        host, port = self._address
+        self.connection.reason = f"{host}:{port}: {_words(error)}"
 
     def _replace(self, found: Sequence[Connection]) -> None:
         """Take the first of new connections, and reset the others and the one before."""
@@ -155,3 +164,27 @@ def _words(error: OSError | UnicodeError) -> str:
     if error.errno is not None and error.errno > 0:
         return os.strerror(error.errno)
     return error.strerror or str(error)
+
+
+async def _first_of(
+    attempts: set[asyncio.Task[Connection | None]], timeout_s: float
+) -> tuple[set[asyncio.Task[Connection | None]], set[asyncio.Task[Connection | None]]]:
+    """Wait until an attempt has ended, or for a time; return those that have, and the others."""
+    if not attempts:
+        await asyncio.sleep(max(0.0, timeout_s))
+        return set(), attempts
+    wait = asyncio.FIRST_COMPLETED
+    return await asyncio.wait(attempts, timeout=max(0.0, timeout_s), return_when=wait)
+
+
+def _connection_of(task: asyncio.Task[Connection | None]) -> Connection | None:
+    """Return the connection of an attempt; None if it has failed."""
+    return None if task.exception() is not None else task.result()
+
+
+def _give_up(task: asyncio.Task[Connection | None]) -> None:
+    """End an attempt; a connection that has just been established is reset."""
+    if not task.cancel() and not task.cancelled():
+        connection = _connection_of(task)
+        if connection is not None:
+            connection.reset()

@@ -71,6 +71,12 @@ async def _drive(options: Options, print_event: Report) -> End:
         printer(event)
         events.report(event)
 
+    def report_error(_: asyncio.AbstractEventLoop, context: Mapping[str, Any]) -> None:
+        # Not to standard error: a reader that does not read would hold the warden up.
+        error = context.get("exception") or context["message"]
+        report({"type": "message", "message": f"internal error: {error!r}"})
+
+    loop.set_exception_handler(report_error)
     warden = Warden(report, is_headless=options.is_headless)
     try:
         return await _supervised(options, warden, report, events)
