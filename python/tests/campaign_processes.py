@@ -36,7 +36,8 @@ def process_trial(folder: Path, state: State, row: ProcessRow, robots: int) -> T
         for robot in range(robots):
             delay_s = delay_of(stage, robot, row, (began_s, begin_s, stopped_s), problems)
             delays_s += [] if delay_s is None else [delay_s]
-        return Trial(begin_s, max(delays_s, default=None), tuple(problems), ended_s)
+        behind_s = stage.behind_s(began_s, ended_s)
+        return Trial(begin_s, max(delays_s, default=None), tuple(problems), ended_s, behind_s)
 
 
 def delay_of(

@@ -2,6 +2,7 @@
 
 import os
 import statistics
+import sys
 import threading
 import time
 from collections import defaultdict
@@ -91,12 +92,16 @@ class Trial:
         delay_s: The delay; None if there is none to measure.
         problems: What happened that must not, in words.
         end_s: When the trial ended: problems until then may be those of a late machine.
+        behind_s: By how much the emulator was late in the trial.
+        note: Details, for a delay that is too long.
     """
 
     begin_s: float
     delay_s: float | None
     problems: tuple[str, ...]
     end_s: float
+    behind_s: float = 0.0
+    note: str = ""
 
 
 @dataclass
@@ -127,7 +132,10 @@ class Row:
         late_trial_s = machine.timer.late_s(trial.begin_s, trial.end_s)
         beyond_s = (trial.delay_s or 0.0) - (self.limit_s or 0.0)
         is_late = late_s > MAX_LATE_S and self.limit_s is not None and self.limit_s < 1.0
-        if is_late or ((trial.problems or beyond_s > 0.0) and late_trial_s > MAX_LATE_TRIAL_S):
+        is_doubtful = late_trial_s > MAX_LATE_TRIAL_S or trial.behind_s > 0.0
+        if beyond_s > late_s:
+            sys.stderr.write(f"{self.key}: {1000 * (trial.delay_s or 0.0):.0f} ms{trial.note}\n")
+        if is_late or (is_doubtful and (trial.problems or beyond_s > late_s)):
             self.left_out += 1
             return
         # What the timer was late by is not the drive's.

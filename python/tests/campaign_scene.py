@@ -71,11 +71,13 @@ def box(left_m: float, low_m: float, right_m: float, high_m: float) -> str:
 
 def cell(x_m: float, y_m: float) -> Iterator[str]:
     """Yield the walls of a cell."""
-    half_m = CELL_M / 2
+    reach_m = CELL_M / 2
     for side in (-1, 1):
-        yield box(x_m - half_m, y_m + side * half_m - 0.1, x_m + half_m, y_m + side * half_m + 0.1)
-        low_m, high_m = y_m - half_m + 0.2, y_m + half_m - 0.2
-        yield box(x_m + side * half_m - 0.1, low_m, x_m + side * half_m + 0.1, high_m)
+        yield box(
+            x_m - reach_m, y_m + side * reach_m - 0.1, x_m + reach_m, y_m + side * reach_m + 0.1
+        )
+        low_m, high_m = y_m - reach_m + 0.2, y_m + reach_m - 0.2
+        yield box(x_m + side * reach_m - 0.1, low_m, x_m + side * reach_m + 0.1, high_m)
 
 
 @dataclass
@@ -162,6 +164,11 @@ class Scene:
         key = {"robot": robot, "port": port, "event": event, **facts}
         rows = (row for row in self._rows if key.items() <= row.items())
         return [(row["t_s"], row.get("line", "")) for row in rows]
+
+    def behind_s(self, begin_s: float, end_s: float) -> float:
+        """Return by how much the emulator was late in a time; after the end."""
+        rows = (row for row in self._rows if row["event"] == "behind")
+        return sum(row["skipped_s"] for row in rows if begin_s <= row["t_s"] <= end_s)
 
     def moves(self, robot: int, after_s: float) -> list[float]:
         """Return the times of motion lines that a robot received after a time."""

@@ -92,7 +92,7 @@ class WireRow:
         fault: The fault of the emulator; "unplug" is `refuse` and `close`.
         value: Its value.
         findings: What is found: while "driving", "turning" or "standing".
-        stop_s: The limit of a stop that is requested while the fault lasts.
+        request_limit_s: The limit of a stop that is requested while the fault lasts.
         is_deaf: Whether a stop that is requested has no effect, which has to be found.
         allowed: Faults that may appear although none has to.
         is_link: Whether no stop can reach the robot until it is healed: the report is timed.
@@ -102,7 +102,7 @@ class WireRow:
     fault: str
     value: Any
     findings: Mapping[str, Finding]
-    stop_s: float = REACTION_S
+    request_limit_s: float = REACTION_S
     is_deaf: bool = False
     allowed: tuple[str, ...] = ()
     is_link: bool = False
@@ -142,7 +142,7 @@ class WireRow:
         finding = self.finding(state)
         if finding is not None:
             return finding.limit_s
-        return UNSEEN_S if self.is_deaf else self.stop_s
+        return UNSEEN_S if self.is_deaf else self.request_limit_s
 
 
 def manual_kind(name: str) -> Kind:
@@ -178,9 +178,9 @@ FROZEN = {
 MOVES = Finding(("moves_while_stopped",), "at once", limit_s=UNSEEN_S)
 
 MOTORS = (
-    row("motors", "drop", 0.1, stop_s=0.6),
+    row("motors", "drop", 0.1, request_limit_s=0.6),
     row("motors", "drop", 1.0, is_deaf=True),
-    row("motors", "delay", 1.0, stop_s=1.1, allowed=("moves_while_stopped",)),
+    row("motors", "delay", 1.0, request_limit_s=1.1, allowed=("moves_while_stopped",)),
     row("motors", "duplicate"),
     row("motors", "garble", is_deaf=True),
     row("motors", "half", is_deaf=True),
@@ -201,7 +201,7 @@ def of_lines(port: str) -> tuple[WireRow, ...]:
     return (
         row(port, "drop", 0.1, allowed=("stale_input",)),
         row(port, "drop", 1.0, found=stale),
-        row(port, "delay", 0.2),
+        row(port, "delay", 0.1),
         row(port, "delay", 60.0, found=stale),
         row(port, "duplicate"),
         row(port, "garble", found=stale),

@@ -72,8 +72,8 @@ class Unit:
                 results = self.run(Path(folder), rows)
         except (AssertionError, OSError, TimeoutExpired) as error:
             results = []
-            where = traceback.extract_tb(error.__traceback__)[-1]
-            sys.stderr.write(f"no trial of {rows[0].key}: {error!r} in {where}\n")
+            sys.stderr.write(f"no trial of {rows[0].key}: {error!r}\n")
+            traceback.print_tb(error.__traceback__, limit=-4)
         if not results or any(
             each in why for _, t in results for why in t.problems for each in LATE
         ):

@@ -1,5 +1,6 @@
 """A trial of faults of single robots: each of a drive is broken in its way, and one is not."""
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -100,7 +101,8 @@ class WireTrial:
         delay_s = None if found_s is None else self._delay_s(each, kind, found_s) - begin_s
         if found_s is None:
             problems.append(f"{finding.name} was not reported: {self._events(each)}")
-        return Trial(begin_s, delay_s, tuple(problems), self.ended_s)
+        note = "" if found_s is None else f", reported after {1000 * (found_s - begin_s):.0f} ms"
+        return self._result(begin_s, delay_s, problems, note)
 
     def other(self) -> Trial | None:
         """Return the result of the robot that was not broken; None if there is none."""
@@ -108,15 +110,22 @@ class WireTrial:
             return None
         stage, robot = self.stage, self.healthy
         found = [each for each in stage.events(robot, self.began_s) if each["t"] < self.stopped_s]
-        problems = [f"the other robot: {each['faults']}" for each in found if _new(each)]
+        problems = [f"a fault was reported: {each['faults']}" for each in found if _new(each)]
         lines = stage.wire(robot, "motors", "received")
         times_s = [at_s for at_s, _ in lines if self.began_s <= at_s <= self.ended_s]
-        if max((after - before for before, after in pairwise(times_s)), default=1.0) > UNHEARD_S:
-            problems.append(f"the other robot received no line for more than {UNHEARD_S} s")
+        gap_s = max((after - before for before, after in pairwise(times_s)), default=math.inf)
+        if gap_s > UNHEARD_S:
+            problems.append(f"no line for {gap_s:.2f} s")
         if not stage.state.moves:
-            return Trial(self.began_s, None, tuple(problems), self.ended_s)
+            return self._result(self.began_s, None, problems)
         end_s = min(stage.stops(robot, self.stopped_s), default=self.ended_s)
-        return Trial(self.stopped_s, end_s - self.stopped_s, tuple(problems), self.ended_s)
+        return self._result(self.stopped_s, end_s - self.stopped_s, problems)
+
+    def _result(
+        self, begin_s: float, delay_s: float | None, problems: Sequence[str], note: str = ""
+    ) -> Trial:
+        behind_s = self.stage.behind_s(self.began_s, self.ended_s)
+        return Trial(begin_s, delay_s, tuple(problems), self.ended_s, behind_s, note)
 
     def _is_all_found(self) -> bool:
         findings = [(each, each.row.finding(self.stage.state)) for each in self.broken]
@@ -202,7 +211,7 @@ class WireTrial:
             at_s < each.healed_s + RETURN_S for at_s in stage.stops(each.robot, each.healed_s)
         ):
             problems.append(f"no stop within {RETURN_S} s of the return of its motor port")
-        if state.moves and stage.moves(each.robot, self.stopped_s + max(row.stop_s, 0.2)):
+        if state.moves and stage.moves(each.robot, self.stopped_s + max(row.request_limit_s, 0.2)):
             problems.append("motion lines after the stop")
         return problems
 
@@ -216,7 +225,7 @@ class WireTrial:
             if event["t"] < self.stopped_s and names - before:
                 problems.append(f"a fault was reported: {sorted(names)}")
         if not state.moves:
-            return Trial(each.at_s, None, tuple(problems), self.ended_s)
+            return self._result(each.at_s, None, problems)
         if row.is_deaf:
             end_s = stage.found_s(each.robot, ("moves_while_stopped",), self.stopped_s)
             missing = "moves_while_stopped was not reported"
@@ -226,8 +235,8 @@ class WireTrial:
             if not row.allowed and not self._moved_until_stopped(each):
                 problems.append("it did not drive on")
         if end_s is None:
-            return Trial(self.stopped_s, None, (*problems, missing), self.ended_s)
-        return Trial(self.stopped_s, end_s - self.stopped_s, tuple(problems), self.ended_s)
+            return self._result(self.stopped_s, None, [*problems, missing])
+        return self._result(self.stopped_s, end_s - self.stopped_s, problems)
 
     def _moved_until_stopped(self, each: Broken) -> bool:
         return any(at_s < self.stopped_s for at_s in self.stage.moves(each.robot, self._late_s()))

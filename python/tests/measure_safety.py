@@ -9,6 +9,7 @@ a verdict is not `ok`.
 
 import argparse
 import os
+import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
@@ -36,12 +37,15 @@ def measured(units: list[Unit], trials: int, jobs: int) -> list[Row]:
     machine, rows = Machine(), list[Row]()
     with ThreadPoolExecutor(jobs) as pool:
         running = {pool.submit(each.complete, trials, machine): each for each in units}
-        for number, done in enumerate(as_completed(running), 1):
-            done.result()
-            for row in running[done].rows:
-                print(row, flush=True)
-                rows.append(row)
-            sys.stderr.write(f"{number} of {len(units)} drives: {counted(rows)}\n")
+        try:
+            for number, done in enumerate(as_completed(running), 1):
+                done.result()
+                for row in running[done].rows:
+                    print(row, flush=True)
+                    rows.append(row)
+                sys.stderr.write(f"{number} of {len(units)} drives: {counted(rows)}\n")
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
     return rows
 
 
@@ -55,6 +59,7 @@ def main() -> int:
     """Print the table; return an exit code."""
     given = arguments()
     silence_processes()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
 
     def is_chosen(fault: str, state: State) -> bool:
         is_state = given.state in (None, state)

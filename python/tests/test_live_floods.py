@@ -15,7 +15,7 @@ from agent_economy.live.drivers.lines import MAX_LINE_BYTES
 from agent_economy.live.warden.connection import READ_BYTES, Connection
 from agent_economy.live.warden.robot import MAX_TURN_LINES, lines_per_port
 
-STOP_S = 0.1
+LIMIT_S = 0.1
 """A robot is stopped within this time of the request."""
 
 PATTERNS = (b"1", b"1.", b"1e", b" ", b"-", b"1,", b",", b"36,35.7,N,121,52.5,W,", b"\xff", b".1")
@@ -98,4 +98,4 @@ def test_a_port_is_read_once_per_turn_and_gives_no_line_while_others_wait_behind
 @pytest.mark.parametrize("name", FLOODS)
 def test_a_flood_on_all_ports_of_a_robot_delays_no_stop(name: str, tmp_path: Path) -> None:
     delays_s = repeated_if_late(stops_in_a_flood)(name, tmp_path)
-    assert max(delays_s) < STOP_S, delays_s
+    assert max(delays_s) < LIMIT_S, delays_s
