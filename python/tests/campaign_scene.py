@@ -168,7 +168,7 @@ class Scene:
     def behind_s(self, begin_s: float, end_s: float) -> float:
         """Return by how much the emulator was late in a time; after the end."""
         rows = (row for row in self._rows if row["event"] == "behind")
-        return sum(row["skipped_s"] for row in rows if begin_s <= row["t_s"] <= end_s)
+        return sum(float(row["skipped_s"]) for row in rows if begin_s <= row["t_s"] <= end_s)
 
     def moves(self, robot: int, after_s: float) -> list[float]:
         """Return the times of motion lines that a robot received after a time."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from subprocess import TimeoutExpired
 
+from campaign_judge import Judge
 from campaign_process_table import PROCESSES, REQUESTS, ProcessRow, fleets
 from campaign_processes import process_trial
 from campaign_results import Key, Machine, Row, Trial
@@ -104,8 +105,9 @@ def wire_unit(state: State, rows: Sequence[WireRow], *, is_alone: bool = False) 
     def run(folder: Path, missing: Sequence[Row]) -> Results:
         broken = {row.key: faults[row.key] for row in missing if row.key in faults}
         trial = wire_trial(folder, state, list(broken.values()), is_alone=is_alone)
-        found = dict(zip(broken, map(trial.trial, trial.broken), strict=True))
-        other = trial.other()
+        judge = Judge(trial)
+        found = dict(zip(broken, map(judge.trial, trial.broken), strict=True))
+        other = judge.other()
         results = [(row, found.get(row.key, other)) for row in missing]
         return [(row, result) for row, result in results if result is not None]
 
