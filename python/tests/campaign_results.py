@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from bare_timer import BareTimer
+from priority import raised_priority
 
 from agent_economy.live.clock import now_s
 
@@ -42,8 +43,9 @@ class Machine:
 
     def __init__(self) -> None:
         """Start to measure."""
-        self.timer = BareTimer()
         self._busy: list[tuple[float, float, float]] = []
+        with raised_priority():
+            self.timer = BareTimer()
         threading.Thread(target=self._run, daemon=True).start()
 
     def load(self, begin_s: float, end_s: float) -> float:

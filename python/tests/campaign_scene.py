@@ -8,12 +8,14 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
 from campaign_table import State
 from hands import Hands
 from live_bench import STOP_LINE, Bench, Drive, changed_scenario, driving, emulated, fleet_text
+from priority import STARTING, raise_priority
 
 from agent_economy.live.clock import now_s
 
@@ -107,13 +109,15 @@ class Scene:
         """Bring the robots into the state."""
         self._until(self._is_ready)
         self.loop_pid = self.drive.loop_pid()
+        for pid in (self.bench.process.pid, self.drive.process.pid, self.loop_pid):
+            raise_priority(pid)
         if self.by_hand:
             self.hands.take([name_of(robot) for robot in self.by_hand])
         self._until(self._can_be_armed)
         if self.state is State.UNARMED:
             time.sleep(SETTLED_S)
             return
-        self.ask("/arm")
+        self._until(self._arms)
         if self.by_hand:
             self._until(self._is_armed)
             self.hands.drive(FULL_VALUE)
@@ -127,7 +131,7 @@ class Scene:
     def ask(self, path: str, **body: Any) -> dict[str, Any]:
         """Send a request that must be accepted; return the answer."""
         status, answer = self.drive.ask(path, client=self.hands.client, **body)
-        assert status == 200, (path, answer)
+        assert status == HTTPStatus.OK, (path, answer)
         return answer
 
     def refuses_to_arm(self, robot: int) -> bool:
@@ -195,6 +199,9 @@ class Scene:
     def _can_be_armed(self) -> bool:
         return not any(each["blockers"] or each["warnings"] for each in self._robots())
 
+    def _arms(self) -> bool:
+        return self.drive.ask("/arm", client=self.hands.client)[0] == HTTPStatus.OK
+
     def _is_armed(self) -> bool:
         return all(each["is_armed"] for each in self._robots())
 
@@ -223,6 +230,8 @@ def scene(folder: Path, state: State, robots: int, by_hand: Sequence[int] = ()) 
         text = fleet_text(bench, scenario=str(scenario), keys=keys)
         fleet.write_text(text, encoding="utf-8")
         with driving(fleet, headless=False, program=PROGRAM) as drive:
+            for process in (bench.process, drive.process):
+                raise_priority(process.pid, STARTING)
             made = Scene(state, robots, by_hand, bench, drive, Hands(drive))
             try:
                 made.reach()

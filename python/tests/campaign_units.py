@@ -5,6 +5,7 @@ import tempfile
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from http.client import HTTPException
 from pathlib import Path
 from subprocess import TimeoutExpired
 
@@ -21,6 +22,9 @@ from agent_economy.live.clock import now_s
 
 MAX_REPEATS = 3
 """At most this many times the number of trials are run."""
+
+MAX_STARTS = 5
+"""A drive that does not reach its state is started again, up to this number of times in all."""
 
 PER_DRIVE, PER_DRIVE_BY_HAND = 9, 6
 """Robots that are broken in one drive."""
@@ -68,16 +72,9 @@ class Unit:
             self._try(missing, machine)
 
     def _try(self, rows: Sequence[Row], machine: Machine) -> None:
-        try:
-            with tempfile.TemporaryDirectory() as folder:
-                results = self.run(Path(folder), rows)
-        except (AssertionError, OSError, TimeoutExpired) as error:
-            results = []
-            sys.stderr.write(f"no trial of {rows[0].key}: {error!r}\n")
-            traceback.print_tb(error.__traceback__, limit=-4)
-        if not results or any(
-            each in why for _, t in results for why in t.problems for each in LATE
-        ):
+        results = self._results(rows)
+        problems = [each for _, trial in results for each in trial.problems]
+        if not results or any(fault in each for each in problems for fault in LATE):
             for row in rows:
                 row.left_out += 1
             return
@@ -85,6 +82,16 @@ class Unit:
             row.add(trial, machine)
             for problem in trial.problems:
                 sys.stderr.write(f"{row.key}: {problem}\n")
+
+    def _results(self, rows: Sequence[Row]) -> Results:
+        for _ in range(MAX_STARTS):
+            try:
+                with tempfile.TemporaryDirectory() as folder:
+                    return self.run(Path(folder), rows)
+            except (AssertionError, OSError, HTTPException, TimeoutExpired) as error:
+                sys.stderr.write(f"no trial of {rows[0].key}: {str(error)[:200]}\n")
+                traceback.print_tb(error.__traceback__, limit=-1)
+        return []
 
 
 def wire_unit(state: State, rows: Sequence[WireRow], *, is_alone: bool = False) -> Unit:
