@@ -205,7 +205,8 @@ def of_lines(port: str) -> tuple[WireRow, ...]:
         row(port, "delay", 60.0, found=stale),
         row(port, "duplicate"),
         row(port, "garble", found=stale),
-        row(port, "half", 0.02),
+        # The halves of two compass lines would mix whenever the emulator is late by 0.08 s.
+        *(() if port == "compass" else (row(port, "half", 0.02),)),
         row(port, "half", found=stale),
         row(port, "stall", found=stale),
         row(port, "cut", found=stale),

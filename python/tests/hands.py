@@ -9,7 +9,7 @@ from http.client import HTTPConnection, HTTPException
 from typing import Any
 
 from live_bench import Drive
-from priority import raise_priority
+from priority import raised_priority
 
 from agent_economy.live.clock import now_s
 
@@ -57,8 +57,7 @@ class Hands:
             self._thread.join(timeout=5)
 
     def _run(self, link: HTTPConnection, common: dict[str, Any]) -> None:
-        raise_priority()
-        with suppress(OSError, HTTPException):  # the drive has ended
+        with suppress(OSError, HTTPException), raised_priority():  # the drive has ended
             while not self._closed.is_set():
                 due_s = now_s() + PERIOD_S
                 self._number += 1
