@@ -43,7 +43,7 @@ class Machine:
 
     def __init__(self) -> None:
         """Start to measure."""
-        self._busy: list[tuple[float, float, float]] = []
+        self._busy = [busy_ticks()]
         with raised_priority():
             self.timer = BareTimer()
         threading.Thread(target=self._run, daemon=True).start()
@@ -57,10 +57,15 @@ class Machine:
 
     def _run(self) -> None:
         while True:
-            times = Path("/proc/stat").read_text(encoding="ascii").split("\n", 1)[0].split()[1:]
-            ticks = [float(each) for each in times]
-            self._busy.append((now_s(), sum(ticks) - sum(ticks[3:5]), sum(ticks)))
             time.sleep(0.5)
+            self._busy.append(busy_ticks())
+
+
+def busy_ticks() -> tuple[float, float, float]:
+    """Return the time, and the ticks of all cores: those that were busy, and all."""
+    times = Path("/proc/stat").read_text(encoding="ascii").split("\n", 1)[0].split()[1:]
+    ticks = [float(each) for each in times]
+    return now_s(), sum(ticks) - sum(ticks[3:5]), sum(ticks)
 
 
 @dataclass(frozen=True)
