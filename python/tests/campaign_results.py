@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from bare_timer import BareTimer
+from campaign_table import State
 from priority import raised_priority
 
 from agent_economy.live.clock import now_s
@@ -27,7 +28,7 @@ COLUMNS = (
     "robots",
     "state",
     "has to happen",
-    "stops",
+    "trials",
     "left out",
     "median, ms",
     "maximum, ms",
@@ -36,6 +37,10 @@ COLUMNS = (
     "load",
     "verdict",
 )
+
+
+GROUPED = (*COLUMNS[:2], "states", *COLUMNS[4:])
+"""The columns of the short table."""
 
 
 class Machine:
@@ -196,25 +201,26 @@ def counted(rows: Sequence[Row]) -> str:
 
 
 def grouped(rows: Iterable[Row]) -> str:
-    """Return a short table: the faults of a port after which the same has to happen are one row."""
-    groups: dict[tuple[str, str], list[Row]] = defaultdict(list)
+    """Return a short table: faults of a port after which the same has to happen are one row."""
+    groups: dict[tuple[str, str, float], list[Row]] = defaultdict(list)
     for row in rows:
-        groups[row.key.port, row.expected].append(row)
-    lines = [head(("fault", *COLUMNS[1:2], "states", *COLUMNS[4:]))]
-    for (port, expected), each in groups.items():
-        limits_s = [row.limit_s for row in each if row.limit_s is not None]
-        key = Key(_listed(row.key.fault for row in each), port, 0, "")
-        merged = Row(key, expected, max(limits_s, default=None))
-        for row in each:
-            merged.count, merged.left_out = merged.count + row.count, merged.left_out + row.left_out
-            merged.delays_s += row.delays_s
-            merged.late_s += row.late_s
-            merged.loads += row.loads
-        verdict = _listed(row.verdict for row in each)
-        names = (key.fault, port, _listed(row.key.state for row in each), expected)
-        lines.append(line((*names, merged.count, merged.left_out, *merged.figures(), verdict)))
-    return "\n".join(lines)
+        groups[row.key.port, row.expected, row.limit_s or 0.0].append(row)
+    return "\n".join([head(GROUPED), *(_group(groups[each]) for each in sorted(groups))])
 
 
-def _listed(texts: Iterable[str]) -> str:
-    return ", ".join(dict.fromkeys(texts))
+def _group(rows: Sequence[Row]) -> str:
+    key, expected = rows[0].key, rows[0].expected
+    merged = Row(key, expected, rows[0].limit_s)
+    for row in rows:
+        merged.delays_s += row.delays_s
+        merged.late_s += row.late_s
+        merged.loads += row.loads
+    names = (
+        ", ".join(sorted({row.key.fault for row in rows})),
+        key.port,
+        ", ".join(each for each in State if each in {row.key.state for row in rows}),
+        expected,
+    )
+    counts = (sum(row.count for row in rows), sum(row.left_out for row in rows))
+    verdicts = ", ".join(sorted({row.verdict for row in rows}))
+    return line((*names, *counts, *merged.figures(), verdicts))

@@ -105,7 +105,7 @@ def wire_unit(state: State, rows: Sequence[WireRow], *, is_alone: bool = False) 
         limit_s = each.limit_s(state) if state.moves or each.finding(state) else None
         table.append(Row(key, each.expected(state), limit_s))
     if not is_alone:
-        other = Key("none, beside the others", table[0].key.port, robots, state)
+        other = Key("none (another robot)", table[0].key.port, robots, state)
         expected = "stop on request" if state.moves else "stands"
         table.append(Row(other, expected, REACTION_S if state.moves else None))
 

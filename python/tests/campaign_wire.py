@@ -28,14 +28,14 @@ class Broken:
         row: What was done to it.
         at_s: When.
         healed_s: When its motor port could be reached again; None if it always could.
-        was_armed: Whether it could be armed although it must not.
+        was_armed: Whether it could be armed although it must not; None if that was not tried.
     """
 
     robot: int
     row: WireRow
     at_s: float
     healed_s: float | None = None
-    was_armed: bool = False
+    was_armed: bool | None = None
 
 
 @dataclass
@@ -65,7 +65,7 @@ class WireTrial:
         latest_s = self.began_s + UNSEEN_S + 1.0
         while now_s() < deadline_s or (not self._is_all_found() and now_s() < latest_s):
             time.sleep(0.1)
-        self._try_to_arm()
+            self._try_to_arm()
         self._heal()
         self.stopped_s = now_s()
         stage.ask("/stop")
@@ -77,11 +77,13 @@ class WireTrial:
         stage.end()
 
     def _is_all_found(self) -> bool:
-        findings = [(each, each.row.finding(self.stage.state)) for each in self.broken]
-        return all(
-            finding is None or self.stage.found_s(each.robot, finding.names, each.at_s)
-            for each, finding in findings
-        )
+        state = self.stage.state
+        return all(self._is_found(each) for each in self.broken if each.row.finding(state))
+
+    def _is_found(self, each: Broken) -> bool:
+        finding = each.row.finding(self.stage.state)
+        names = () if finding is None else finding.names
+        return self.stage.found_s(each.robot, names, each.at_s) is not None
 
     def _is_deafness_found(self) -> bool:
         return all(
@@ -91,10 +93,11 @@ class WireTrial:
         )
 
     def _try_to_arm(self) -> None:
-        if self.stage.state is State.UNARMED:
-            for each in self.broken:
-                is_found = each.row.finding(self.stage.state) is not None
-                each.was_armed = is_found and not self.stage.refuses_to_arm(each.robot)
+        """Try to arm each robot once, as soon as its fault is reported: some faults then end."""
+        for each in self.broken:
+            is_due = self.stage.state is State.UNARMED and each.was_armed is None
+            if is_due and self._is_found(each):
+                each.was_armed = not self.stage.refuses_to_arm(each.robot)
 
     def _heal(self) -> None:
         healed = [each for each in self.broken if each.row.is_link]
