@@ -214,7 +214,13 @@ PROCESSES = (
 )
 
 REQUESTS = (
-    ProcessRow("request: stop", partial(request, "/stop"), ("emergency_stop",), states=ALL),
+    # Where it is latched already, nothing new is reported.
+    ProcessRow(
+        "request: stop",
+        partial(request, "/stop"),
+        ("emergency_stop",),
+        states=tuple(state for state in State if state is not State.STOPPED),
+    ),
     ProcessRow("request: hold", partial(request, "/hold"), ("held",), states=MOVING),
     ProcessRow(
         "request: mode",
