@@ -54,7 +54,8 @@ class Machine:
         threading.Thread(target=self._run, daemon=True).start()
 
     def load(self, begin_s: float, end_s: float) -> float:
-        """Return the busy share of all cores in a time."""
+        """Return the busy share of all cores in a time, or in the two seconds before its end."""
+        begin_s = min(begin_s, end_s - 2.0)
         before = [each for each in self._busy if each[0] <= begin_s][-1:] or self._busy[:1]
         after = [each for each in self._busy if each[0] >= end_s][:1] or self._busy[-1:]
         (_, busy, total), (_, busy_after, total_after) = before[0], after[0]
