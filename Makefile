@@ -163,8 +163,8 @@ bench-page: .venv/released web ## Measure the page: first load, latency of chang
 	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent bench
 
 # Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
-safety: .venv/installed ## Measure how soon robots stop after each fault: 20 stops per fault (takes minutes)
-	$(BIN)/python python/tests/measure_safety.py
+safety: .venv/installed ## Break every port and process in every state, and measure the stops (a quarter of an hour); SAFETY=--quick
+	$(BIN)/python python/tests/measure_safety.py $(SAFETY)
 
 goals: .venv/installed ## Measure how soon robots give up goals that they cannot reach, in 400 random worlds
 	$(BIN)/python python/tests/measure_goals.py

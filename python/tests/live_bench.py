@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from http.client import HTTPConnection
@@ -250,11 +250,13 @@ class Drive:
 
 
 @contextmanager
-def driving(fleet: Path, *arguments: str, headless: bool = True) -> Iterator[Drive]:
+def driving(
+    fleet: Path, *arguments: str, headless: bool = True, program: Sequence[str] = COMMAND
+) -> Iterator[Drive]:
     """Run a drive, and end it if it still runs; its recording has a name that is free."""
     names = (fleet.with_name(f"{fleet.stem}{suffix}.mcap") for suffix in ("", *range(2, 100)))
     record = next(name for name in names if not name.exists())
-    command = [sys.executable, "-m", "agent_economy", "drive", str(fleet), "--json"]
+    command = [*program, "drive", str(fleet), "--json"]
     command += ["--record", str(record), *(("--headless", "--arm") if headless else ()), *arguments]
     environment = os.environ | {"XDG_RUNTIME_DIR": str(fleet.parent)}
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)

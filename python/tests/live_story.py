@@ -74,7 +74,7 @@ class Story:
         links: Links that are not up.
         loop: What differs from a healthy loop.
         pushed: The motion of the robot, whatever is commanded; None while it obeys.
-        operator: Counts the operators who hold the controls.
+        operator: Counts the operators that hold the controls.
     """
 
     seed: int

@@ -182,7 +182,7 @@ def test_a_silent_connection_is_kept_until_another_one_is_established() -> None:
 
 
 def test_attempts_that_fail_together_leave_no_error_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As those to a robot that is off, when the system has asked for its hardware address."""
+    """As those to a robot that is off, when no machine has its hardware address."""
     errors: list[Any] = []
 
     async def fail(*_: Any) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import process_faults
 from bare_timer import repeated_if_late
 from live_bench import driving, emulated, fleet_text
-from wire_faults import FAULTS, Evidence, inject, lanes
+from wire_faults import CHOSEN, FAULTS, Evidence, finding_of, inject, lanes
 
 from agent_economy.live.clock import now_s
 
@@ -16,6 +16,7 @@ LOOSE_S = 5.0
 
 @repeated_if_late
 def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
+    assert len(FAULTS) == len(CHOSEN)
     healthy, fenced = len(FAULTS), len(FAULTS) + 1
     robots = len(FAULTS) + 2
     scenario = lanes(tmp_path, robots)
@@ -30,7 +31,7 @@ def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
             bench.wait_for_motion(robots)
             inject(bench, FAULTS)
             for robot, fault in enumerate(FAULTS):
-                drive.wait_for_fault(f"bender/{robot}", fault.expected)
+                drive.wait_for_fault(f"bender/{robot}", finding_of(fault).name)
             drive.wait_for_fault(f"bender/{fenced}", "outside_fence")
             broken = [f"bender/{robot}" for robot in range(len(FAULTS))]
             drive.wait_until_latched([*broken, f"bender/{fenced}"])
@@ -43,7 +44,7 @@ def test_every_fault_of_a_robot_stops_it_and_no_other(tmp_path: Path) -> None:
             evidence = Evidence.of(bench, drive.record)
     for robot, fault in enumerate(FAULTS):
         delay_s = evidence.stop_delay_s(robot, fault)
-        assert -0.02 <= delay_s < LOOSE_S + 5 * fault.is_sensing, fault.name
+        assert -0.02 <= delay_s < LOOSE_S + finding_of(fault).limit_s, fault.name
 
 
 @repeated_if_late

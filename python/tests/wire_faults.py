@@ -1,10 +1,11 @@
-"""Faults of single robots on the wire: what breaks each, what is reported, and when it stops."""
+"""Some faults of single robots on the wire, and when each stops: a short form of the campaign."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from campaign_table import ROWS, Finding, State, WireRow
 from live_bench import STOP_LINE, Bench, changed_scenario
 
 from agent_economy.live.replay import read_drive
@@ -13,64 +14,37 @@ LANE_M = 8.0
 """Distance between two robots: farther than their sonars reach."""
 
 
-@dataclass(frozen=True)
-class WireFault:
-    """A fault of one robot.
-
-    Attributes:
-        port: The port that is broken.
-        fault: The fault of the emulator.
-        expected: The fault that the rules report.
-        value: The value of the emulator's fault.
-        limit_s: The age limit: the stop is timed from there.
-        cause: What the limit counts from: the last line sent "before" the fault, the first one
-            "after" it, the first motor line "written" after it, or the fault itself, "at once".
-        is_link: Whether the stop is timed where the warden writes it, not where the robot reads it.
-        is_sensing: Whether it has to be detected from a movement, which takes seconds.
-    """
-
-    port: str
-    fault: str
-    expected: str
-    value: Any = None
-    limit_s: float = 0.0
-    cause: str = "after"
-    is_link: bool = False
-    is_sensing: bool = False
-
-    @property
-    def name(self) -> str:
-        """Its name in tables."""
-        return f"{self.port} {self.fault}"
-
-
-def silent(port: str, fault: str, limit_s: float, value: Any = None) -> WireFault:
-    """Return a fault after which no more lines arrive, or none that is well formed."""
-    return WireFault(port, fault, "stale_input", value, limit_s, cause="before")
-
-
-FAULTS = (
-    silent("sonar", "stall", 0.5),
-    silent("compass", "stall", 1.0),
-    silent("gps", "stall", 3.0),
-    silent("sonar", "drop", 0.5, 1.0),
-    silent("compass", "half", 1.0),
-    silent("gps", "delay", 3.0, 60.0),
-    silent("sonar", "garble", 0.5, 1.0),
-    silent("sonar", "seven", 0.5),
-    silent("gps", "short", 3.0, 3),
-    WireFault("sonar", "close", "lost_link", cause="at once"),
-    WireFault("compass", "close", "lost_link", cause="at once"),
-    WireFault("gps", "close", "lost_link", cause="at once"),
-    WireFault("motors", "close", "lost_link", cause="at once"),
-    WireFault("motors", "cut", "lost_link", limit_s=0.3, cause="written", is_link=True),
-    WireFault("compass", "nan", "impossible_value"),
-    WireFault("gps", "nan", "impossible_value"),
-    WireFault("compass", "jump", "jump", 90.0),
-    WireFault("gps", "jump", "jump", 50.0),
-    WireFault("gps", "freeze", "frozen", cause="at once", is_sensing=True),
+CHOSEN = (
+    "sonar stall",
+    "compass stall",
+    "gps stall",
+    "sonar drop 1",
+    "compass half",
+    "gps delay 60",
+    "sonar garble",
+    "sonar seven",
+    "gps short 3",
+    "sonar close",
+    "compass close",
+    "gps close",
+    "motors close",
+    "motors cut",
+    "compass nan",
+    "gps nan",
+    "compass jump 90",
+    "gps jump 50",
+    "gps freeze",
 )
-"""One per robot."""
+
+FAULTS = tuple(each for each in ROWS if f"{each.port} {each.name}" in CHOSEN)
+"""Faults of the campaign that stop a robot that drives straight on: one per robot."""
+
+
+def finding_of(fault: WireRow) -> Finding:
+    """Return what has to be found."""
+    finding = fault.finding(State.STRAIGHT)
+    assert finding is not None
+    return finding
 
 
 def lanes(folder: Path, robots: int) -> Path:
@@ -87,7 +61,7 @@ def lanes(folder: Path, robots: int) -> Path:
     return changed_scenario(folder / "lanes.toml", changes)
 
 
-def inject(bench: Bench, faults: Sequence[WireFault]) -> None:
+def inject(bench: Bench, faults: Sequence[WireRow]) -> None:
     """Break each robot in its way."""
     for robot, fault in enumerate(faults):
         bench.fault(robot, fault.port, fault.fault, fault.value)
@@ -117,11 +91,11 @@ class Evidence:
                 written.setdefault(message["robot"], []).append(line)
         return cls(bench.rows(), written)
 
-    def limit_s(self, robot: int, fault: WireFault) -> float:
+    def limit_s(self, robot: int, fault: WireRow) -> float:
         """Return the time from which on a fault can be detected."""
-        return self._cause_s(robot, fault) + fault.limit_s
+        return self._cause_s(robot, fault) + finding_of(fault).detect_s
 
-    def stop_delay_s(self, robot: int, fault: WireFault) -> float:
+    def stop_delay_s(self, robot: int, fault: WireRow) -> float:
         """Return the time from there to the stop after the last motion line."""
         lines = self._motor_lines(robot, fault)
         moved_s = max(time_s for time_s, line in lines if line != STOP_LINE)
@@ -129,10 +103,10 @@ class Evidence:
         assert stops, f"{fault.name}: no stop"
         return stops[0] - self.limit_s(robot, fault)
 
-    def _cause_s(self, robot: int, fault: WireFault) -> float:
+    def _cause_s(self, robot: int, fault: WireRow) -> float:
         at_s = self._times_s(robot, fault, "fault")[0]
         sent = self._times_s(robot, fault, "sent")
-        match fault.cause:
+        match finding_of(fault).cause:
             case "before":
                 return max(time_s for time_s in sent if time_s < at_s)
             case "after":
@@ -142,14 +116,14 @@ class Evidence:
                 return min(time_s for time_s, _ in lines if time_s >= at_s)
         return at_s
 
-    def _times_s(self, robot: int, fault: WireFault, event: str) -> list[float]:
+    def _times_s(self, robot: int, fault: WireRow, event: str) -> list[float]:
         return [
             row["t_s"]
             for row in self.rows
             if (row["robot"], row["port"], row["event"]) == (robot, fault.port, event)
         ]
 
-    def _motor_lines(self, robot: int, fault: WireFault) -> list[tuple[float, str]]:
+    def _motor_lines(self, robot: int, fault: WireRow) -> list[tuple[float, str]]:
         if fault.is_link:
             return self.written[f"bender/{robot}"]
         return [

@@ -74,7 +74,7 @@ def _are_in(places: Sequence[float], edges: Iterable[Leg]) -> list[bool]:
 def is_within(point: Point, fence: Sequence[Point]) -> bool:
     """Return whether a point is inside a fence or on its edge."""
     is_on_edge = any(_distance_m(point, edge) <= EDGE_M for edge in _edges(fence))
-    return is_on_edge or _is_enclosed(point, fence)
+    return is_on_edge or is_inside(point, fence)
 
 
 class Walls:
@@ -101,7 +101,7 @@ class Walls:
 
 def _clearance_m(leg: Leg, wall: Wall) -> float:
     """Return the distance of a leg from a wall; 0 inside."""
-    if _is_enclosed(leg[0], wall.corners_m):
+    if is_inside(leg[0], wall.corners_m):
         return 0.0
     nearest_m = min(_gap_m(leg, edge) for edge in _edges(wall.corners_m))
     return max(0.0, nearest_m - wall.radius_m)
@@ -138,14 +138,14 @@ def _distance_m(point: Point, line: Leg) -> float:
     return math.hypot(x - x1 - share * along, y - y1 - share * across)
 
 
-def _is_enclosed(point: Point, corners: Sequence[Point]) -> bool:
-    """Return whether a ray to the right of a point crosses the edges oddly."""
+def is_inside(point: Point, corners: Sequence[Point]) -> bool:
+    """Return whether a point is inside a polygon: a ray to the right crosses its edges oddly."""
     x, y = point
-    is_in = False
+    inside = False
     for (x1, y1), (x2, y2) in _edges(corners):
         if (y1 > y) != (y2 > y) and x < x1 + (y - y1) / (y2 - y1) * (x2 - x1):
-            is_in = not is_in
-    return is_in
+            inside = not inside
+    return inside
 
 
 def _edges(corners: Sequence[Point]) -> Iterator[Leg]:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator, Mapping
 
+from agent_economy.live.legs import is_inside
 from agent_economy.live.plan import FleetPlan, InputPlan, Point, RobotPlan
 from agent_economy.live.readings import Motion, Quantity
 from agent_economy.live.rules.faults import (
@@ -25,7 +26,6 @@ from agent_economy.live.rules.faults import (
     TURN_MARGIN_S,
     Fault,
 )
-from agent_economy.live.rules.geometry import is_inside
 from agent_economy.live.rules.interface import Link, LoopInputs, Setpoint
 from agent_economy.live.rules.monitors import age_s
 
