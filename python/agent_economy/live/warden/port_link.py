@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 from agent_economy.live.clock import now_s
-from agent_economy.live.locks import AddressLocks
+from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.rules.faults import MAX_UNACKNOWLEDGED_S
 from agent_economy.live.warden.connection import Connection
 from agent_economy.live.warden.name_lookup import NameLookup
@@ -102,6 +102,12 @@ class PortLink:
                     return True
                 for task in done:
                     task.result()
+        except LockedError as error:
+            self._lookup.forget()
+            # In a thread: the name of a user may be looked up on a server.
+            loop = asyncio.get_running_loop()
+            self.connection.reason = await loop.run_in_executor(None, str, error)
+            return False
         except (OSError, UnicodeError) as error:  # the latter: no name of a host, such as "a..b"
             self._refused(error)
             return False
