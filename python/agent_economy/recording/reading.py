@@ -57,8 +57,8 @@ class Recorded:
         points: The recorded states, in order.
         changes: The changes of the scenario, in order.
         inputs: The external inputs, by tick.
-        is_complete: Whether the file has its end, that is, it is neither truncated nor damaged.
-        damage: Why it is damaged behind them; None if it is not.
+        is_complete: Whether the whole file has been read: it is neither truncated nor damaged.
+        damage: Why it is damaged, behind what has been read; None if it is not.
     """
 
     points: list[Point] = field(default_factory=list)
@@ -87,7 +87,7 @@ class Recorded:
 
     @property
     def damaged_tick(self) -> int | None:
-        """The last tick before the damage; None if the file is not damaged."""
+        """The tick of the last state before the damage; None if the file is not damaged."""
         return None if self.damage is None else self.points[-1].tick
 
     def add(self, record: McapRecord) -> None:
