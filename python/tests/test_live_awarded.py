@@ -125,12 +125,44 @@ def test_the_defaults_of_controllers_are_those_of_the_schema() -> None:
         assert float(re.findall(r'"default": ([\d.]+)', text)[0]) == value
 
 
-def test_a_goal_that_arrives_later_is_waited_for_and_one_that_expires_is_impossible(
+@pytest.mark.parametrize("range_m", [100, 0.5])
+def test_a_goal_that_arrives_later_is_given_up_only_a_quiet_time_after_its_arrival(
+    range_m: float, tmp_path: Path
+) -> None:
+    scenario = economy(tmp_path / "late.toml", places=NEAR[:1], range_m=range_m)
+    late = 'count = 1\narrive_s = 150\nplacement = { kind = "fixed", at_m = [[9, 15]] }\n'
+    scenario.write_text(f"{scenario.read_text()}\n[goals.late]\n{late}")
+    watch = Watch(scenario)
+    first = [watch.step(1)["late/0"][0] for _ in range(150)]
+    assert set(first) == {"pending"}
+    then = [watch.step(1)["late/0"][0] for _ in range(round(watch.goals.quiet_s) - 1)]
+    assert "impossible" not in then
+    assert ("complete" in then) is (range_m == 100)
+    last, robot = watch.step(10)["late/0"]
+    assert (last == "complete") is (robot is not None) is (range_m == 100)
+    assert last in FINAL
+
+
+def test_a_drive_goes_on_until_a_goal_that_arrives_after_the_quiet_time_is_served(
     tmp_path: Path,
 ) -> None:
-    late = Watch(economy(tmp_path / "late.toml", keys="arrive_s = 150"))
-    assert {verdict for verdict, _ in late.step(140).values()} == {"pending"}
-    assert {verdict for verdict, _ in late.step(70).values()} == {"complete"}
+    # A drive ends, also a headless one, when every verdict of its robots is final.
+    scenario = economy(tmp_path / "late.toml", 1, NEAR[:1])
+    arrive_s = 2.5 * Watch(scenario, ("bender/0",)).goals.quiet_s
+    late = f'count = 1\narrive_s = {arrive_s}\nplacement = {{ kind = "fixed", at_m = [[9, 15]] }}\n'
+    scenario.write_text(f"{scenario.read_text()}\n[goals.late]\n{late}")
+    watch = Watch(scenario, ("bender/0",))
+    begun_s = watch.now_s
+    seen = set()
+    while {verdict for verdict, _ in watch.step(0.2).values()} - FINAL:
+        seen |= {each["verdict"] for each in watch.goals.verdicts()}
+        assert watch.now_s - begun_s < arrive_s + 60
+    assert watch.now_s - begun_s > arrive_s
+    assert {each["verdict"] for each in watch.goals.verdicts()} == {"complete"}
+    assert "impossible" not in seen
+
+
+def test_a_goal_that_expires_is_impossible(tmp_path: Path) -> None:
     brief = Watch(economy(tmp_path / "brief.toml", keys="deadline_s = 1"))
     assert {verdict for verdict, _ in brief.step(2).values()} == {"impossible"}
 
@@ -171,34 +203,56 @@ def last_verdicts(drive: Drive) -> dict[tuple[str, str], tuple[str, str | None]]
     return {(each["robot"], each["goal"]): (each["verdict"], each["served_by"]) for each in goals}
 
 
+def one_goal_each(path: Path, places: list[list[int]]) -> Path:
+    """Write a scenario of two Benders that serve one goal at a time.
+
+    A robot that is not armed bids for nothing, so that the other one of its team could be awarded
+    every goal before it is.
+    """
+    scenario = economy(path, 2, places)
+    text = scenario.read_text(encoding="utf-8")
+    scenario.write_text(text.replace('kind = "serve"', 'kind = "serve", max_goals = 1'))
+    return scenario
+
+
+def test_a_simulated_robot_of_the_team_serves_goals_too(tmp_path: Path) -> None:
+    watch = Watch(economy(tmp_path / "economy.toml"), ("bender/0",))
+    verdicts = watch.step(60)
+    assert {verdict for verdict, _ in verdicts.values()} == {"complete"}
+    assert {robot for _, robot in verdicts.values()} == {"bender/0", "bender/1"}
+
+
 @repeated_if_late
-@pytest.mark.parametrize("real", [2, 1])
-def test_a_headless_drive_ends_when_every_awarded_goal_is_served(real: int, tmp_path: Path) -> None:
-    scenario = economy(tmp_path / "economy.toml")
-    with emulated(tmp_path, real, arguments=("--scenario", str(scenario))) as bench:
+def test_a_headless_drive_ends_with_0_when_every_goal_is_served_by_whatever_robot(
+    tmp_path: Path,
+) -> None:
+    scenario = one_goal_each(tmp_path / "economy.toml", [[8, 11], [8, 15]])
+    with emulated(tmp_path, 1, arguments=("--scenario", str(scenario))) as bench:
         fleet = tmp_path / "fleet.toml"
         fleet.write_text(fleet_text(bench, scenario=str(scenario)))
         with driving(fleet) as drive:
-            assert drive.wait(90) == 0
+            assert drive.wait(60) == 0
     verdicts = last_verdicts(drive)
-    assert len(verdicts) == 3 * real
-    # With one real robot, the other one of the team is simulated, and serves goals too.
-    robots = {robot for verdict, robot in verdicts.values() if verdict == "complete"}
-    assert robots == {"bender/0", "bender/1"}
-    assert {verdict for verdict, _ in verdicts.values()} == {"complete"}
+    # The other robot of the team is simulated.
+    assert set(verdicts) == {("bender/0", "spot/0"), ("bender/0", "spot/1")}
+    assert sorted(verdicts.values()) == [("complete", "bender/0"), ("complete", "bender/1")]
     assert replay(drive.record).agrees
 
 
 @repeated_if_late
 def test_a_headless_drive_ends_with_1_if_a_goal_has_expired(tmp_path: Path) -> None:
-    scenario = economy(tmp_path / "economy.toml", 1, [[7, 15]])
+    scenario = one_goal_each(tmp_path / "economy.toml", [[7, 11], [7, 15]])
     brief = 'count = 1\ndeadline_s = 0.5\nplacement = { kind = "fixed", at_m = [[20, 5]] }\n'
     scenario.write_text(f"{scenario.read_text()}\n[goals.brief]\n{brief}")
-    with emulated(tmp_path, 1, arguments=("--scenario", str(scenario))) as bench:
+    with emulated(tmp_path, 2, arguments=("--scenario", str(scenario))) as bench:
         fleet = tmp_path / "fleet.toml"
         fleet.write_text(fleet_text(bench, scenario=str(scenario)))
         with driving(fleet) as drive:
             assert drive.wait(60) == 1
     verdicts = last_verdicts(drive)
-    assert verdicts["bender/0", "spot/0"] == ("complete", "bender/0")
-    assert verdicts["bender/0", "brief/0"] == ("impossible", None)
+    assert len(verdicts) == 3 * 2  # of every goal, for every real robot
+    for robot in ("bender/0", "bender/1"):
+        served = [verdicts[robot, f"spot/{number}"] for number in (0, 1)]
+        assert sorted(served) == [("complete", "bender/0"), ("complete", "bender/1")]
+        assert verdicts[robot, "brief/0"] == ("impossible", None)
+    assert replay(drive.record).agrees

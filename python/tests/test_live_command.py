@@ -160,6 +160,7 @@ def test_a_drive_makes_up_for_a_late_step_without_a_burst(bench: Bench, tmp_path
         drive.process.send_signal(signal.SIGINT)
         assert drive.wait() == 130
     end = drive.events[-1]
+    assert end["was_late"]
     assert end["late_steps"] >= 1
     assert 0.1 < end["max_behind_s"] < 2
     recorded = read_drive(drive.record)
@@ -167,9 +168,9 @@ def test_a_drive_makes_up_for_a_late_step_without_a_burst(bench: Bench, tmp_path
     ticks = [message for topic, message in recorded.messages if topic == TICKS]
     start_s = float((recorded.values or {})["start_s"])
     assert all(other["t"] - one["t"] >= 0.09 - 1e-6 for one, other in pairwise(ticks))
-    assert max(each["behind_s"] for each in ticks[30:]) == pytest.approx(
-        end["max_behind_s"], abs=0.05
-    )
+    assert max(each["behind_s"] for each in ticks[30:]) > 0.1
+    longest_s = max(each["behind_s"] for each in ticks)
+    assert longest_s == pytest.approx(end["max_behind_s"], abs=1e-5)
     for each in ticks:
         behind_s = each["t"] - start_s - each["tick"] * STEP_S
         assert each["behind_s"] == pytest.approx(behind_s, abs=1e-6)

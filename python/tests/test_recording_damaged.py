@@ -8,15 +8,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+from mcap.opcode import Opcode
 from mcap.reader import make_reader
 from mcap.records import Attachment, Channel, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader
 from mcap.writer import Writer
 from metric import search
+from recorded_drive import made
 from test_recording import DRIVE, SCENARIOS, SHORT, short
+from test_recording_survives import whole
 
 import agent_economy as ae
 from agent_economy import InputError
+from agent_economy.live.replay import replay
 from agent_economy.recording.file import File
 from agent_economy.recording.summary import summarise
 
@@ -283,3 +287,52 @@ def test_a_replay_reads_no_other_files(mcap: Path) -> None:
         InputError, match=r"lacks files that the scenario refers to: open-field\.yaml"
     ):
         ae.replay(mcap)
+
+
+@pytest.mark.parametrize("end", ["run", "drive"])
+def test_every_byte_before_the_index_has_a_checksum(end: str, tmp_path: Path, mcap: Path) -> None:
+    if end == "drive":
+        made(mcap, 12)
+    else:
+        with ae.Recording(ae.Simulation(search(SHORT), 1), mcap) as recording:
+            recording.step(12)
+    assert replay(mcap).is_complete
+    before, kinds = whole(mcap), set()
+    for kind, start, stop in before.records:
+        damaged = bytearray(before.data)
+        # Letters and numbers, not the lengths of what follows: the record can still be read.
+        damaged[stop - 1 if kind != Opcode.HEADER else start + 20] ^= 1
+        (tmp_path / "damaged.mcap").write_bytes(damaged)
+        try:
+            again = replay(tmp_path / "damaged.mcap")
+        except InputError:
+            assert kind in (Opcode.METADATA, Opcode.ATTACHMENT, Opcode.CHUNK)
+        else:
+            assert not again.is_complete, (kind, start)
+            assert again.damaged_tick is not None
+        kinds.add(kind)
+    assert {Opcode.METADATA, Opcode.MESSAGE_INDEX, Opcode.HEADER, Opcode.CHUNK} <= kinds
+
+
+@pytest.mark.parametrize("key", ["tick", "hash", "decisions"])
+def test_an_end_that_is_not_that_of_the_last_state_is_damage(
+    key: str, mcap: Path, tmp_path: Path
+) -> None:
+    with ae.Recording(ae.Simulation(search(SHORT), 1), mcap) as recording:
+        recording.step(12)
+    value = "11" if key == "tick" else "0123456789abcdef"
+    records = with_entry(records_of(mcap), "agent_economy.end", key, value)
+    # With right checksums, as no accident leaves it.
+    again = replay(written(tmp_path / "end.mcap", records))
+    assert (again.agrees, again.is_complete, again.damaged_tick) == (True, False, 12)
+
+
+def test_a_killed_process_leaves_a_truncated_file_that_can_be_read(mcap: Path) -> None:
+    recording = ae.Recording(ae.Simulation(search(SHORT), 1), mcap, flush_s=1.0)
+    recording.step(30)
+    data = mcap.read_bytes()  # what another process would find
+    recording.close()
+    mcap.write_bytes(data)
+    again = replay(mcap)
+    assert (again.agrees, again.is_complete, again.damaged_tick) == (True, False, None)
+    assert again.tick >= 20

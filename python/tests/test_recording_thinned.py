@@ -13,8 +13,11 @@ from recorded_drive import made
 from test_recording_survives import whole
 
 from agent_economy import InputError
+from agent_economy.live.as_2002 import compare_2002
 from agent_economy.live.loop.log import LogOptions
-from agent_economy.live.replay import replay
+from agent_economy.live.replay import read_drive, replay
+from agent_economy.recording.live_topics import SETPOINTS
+from agent_economy.recording.reading import read
 from agent_economy.recording.records import stream_records
 
 STEPS = 123
@@ -83,14 +86,38 @@ def rewritten(path: Path, changed: Path, at: int) -> None:
         writer.finish()  # type: ignore[no-untyped-call]
 
 
-def test_a_thinned_drive_is_replayed_up_to_its_damage(tmp_path: Path) -> None:
-    before = whole(made(LogOptions(tmp_path / "thin.mcap", every=10), STEPS))
-    place = before.chunks[len(before.chunks) // 2][1]
-    (tmp_path / "cut.mcap").write_bytes(before.data[:place] + bytes(5000))
-    again = replay(tmp_path / "cut.mcap")
-    assert again.agrees
-    assert again.damaged_tick is not None
-    assert again.damaged_tick <= before.states(place)[-1].tick
+@pytest.mark.parametrize("every", [1, 10, 1000])
+def test_a_thinned_drive_is_replayed_up_to_the_exact_step_of_its_end_or_damage(
+    every: int, tmp_path: Path
+) -> None:
+    full = made(tmp_path / "full.mcap", STEPS)
+    hashes = {point.tick: point.hash for point in read(full)[1].points}
+    before = whole(made(LogOptions(tmp_path / "thin.mcap", every=every), STEPS))
+    cut, seen = tmp_path / "cut.mcap", set()
+    for share in (0.3, 0.5, 0.9):
+        _, place = before.chunks[int(share * len(before.chunks))]
+        cut.write_bytes(before.data[:place])
+        steps = 1 + max(tick for tick in setpoints(cut))
+        truncated = replay(cut)
+        assert (truncated.agrees, truncated.is_complete) == (True, False)
+        assert (truncated.tick, truncated.damaged_tick) == (steps, None)
+        assert truncated.hash == hashes[steps]
+        cut.write_bytes(before.data[:place] + bytes(5000))
+        damaged = replay(cut)
+        assert (damaged.agrees, damaged.is_complete) == (True, False)
+        assert (damaged.tick, damaged.damaged_tick) == (steps, steps)
+        assert damaged.hash == hashes[steps]
+        assert compare_2002(cut).damaged_tick == steps
+        assert f"damaged from step {steps} on" in run("replay", str(cut)).stdout
+        seen.add(steps)
+    assert len(seen) == 3
+
+
+def setpoints(path: Path) -> list[int]:
+    """Return the ticks of which a truncated file has setpoints."""
+    drive = read_drive(path)
+    assert drive is not None
+    return [message["tick"] for topic, message in drive.messages if topic == SETPOINTS]
 
 
 def test_the_lines_of_a_thinned_drive_are_in_the_file_within_a_second(tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ class Compared:
         robots: The comparison of each robot.
         is_complete: Whether the file is complete; a truncated file is read up to its end, a
             damaged one up to the damage.
-        damaged_tick: Tick from which on the file is damaged; None if it is not.
+        damaged_tick: The step from which on the file is damaged; None if it is not.
     """
 
     robots: tuple[Comparison, ...]
@@ -62,7 +62,9 @@ def compare_2002(path: str | Path, *, steers: bool = False) -> Compared:
         )
         for robot in plan.robots
     )
-    return Compared(robots, recorded.is_complete, recorded.damaged_tick)
+    is_damaged = drive.is_damaged or recorded.damaged_tick is not None
+    damaged_tick = drive.steps if is_damaged else None
+    return Compared(robots, recorded.is_complete and not is_damaged, damaged_tick)
 
 
 def first_waypoint_m(

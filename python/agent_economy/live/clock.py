@@ -1,4 +1,4 @@
-"""The clock of the warden and the loop."""
+"""The clock of the warden, the loop and the emulator."""
 
 import time
 

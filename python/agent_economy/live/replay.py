@@ -15,7 +15,7 @@ from agent_economy._core import InputError
 from agent_economy.live.loop.team import Team
 from agent_economy.live.plan import plan_of
 from agent_economy.recording import Replay
-from agent_economy.recording.fields import Entries
+from agent_economy.recording.fields import Entries, hash_text
 from agent_economy.recording.file import strict
 from agent_economy.recording.live_topics import EVENTS, LIVE, ORDERS, SETPOINTS, TICKS, WIRE
 from agent_economy.recording.reading import file_errors, named, read_records
@@ -33,20 +33,19 @@ class Drive:
     Attributes:
         values: Its metadata; None if the recording is not of a drive.
         messages: The lines and events, the ticks, the percepts and the setpoints.
-        damaged_tick: The first tick behind the damage of the file; None if it is not damaged.
+        is_damaged: Whether the file is damaged behind them.
     """
 
     values: Mapping[str, str] | None = None
     messages: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
-    damaged_tick: int | None = None
+    is_damaged: bool = False
     _topics: dict[int, str] = field(default_factory=dict)
     _tick: int = -1
 
     def read_all(self, stream: IO[bytes]) -> None:
         """Add the records of a file, up to its end, or to where it is truncated or damaged."""
         with suppress(EndOfFile):
-            if read_records(stream, self.add) is not None:
-                self.damaged_tick = self._tick + 1
+            self.is_damaged = read_records(stream, self.add) is not None
 
     def add(self, record: McapRecord) -> None:
         """Add a record of the file."""
@@ -78,8 +77,40 @@ class Drive:
         lines = (message for topic, message in self.messages if topic.startswith(WIRE))
         return [each for each in lines if each["robot"] == robot]
 
-    def mismatch(self, replayed: Replay) -> int | None:
-        """Return the first tick whose percepts or setpoints its lines do not give.
+    @property
+    def steps(self) -> int:
+        """The number of steps that are whole: the tick up to which a replay can verify it.
+
+        It does not depend on which states are recorded.
+        """
+        ticks = (message["tick"] for topic, message in self.messages if topic == SETPOINTS)
+        return 1 + max(ticks, default=-1)
+
+    def replayed(self, run: Replay) -> Replay:
+        """Return the replay of its run, with what its lines give up to its last whole step.
+
+        Raises:
+            InputError: If its metadata or messages are damaged.
+        """
+        simulation, tick = self._verified(run)
+        is_damaged = self.is_damaged or run.damaged_tick is not None
+        done = simulation.tick
+        result = replace(
+            run,
+            is_complete=run.is_complete and not is_damaged,
+            tick=done,
+            hash=hash_text(simulation.hash),
+            outcome=simulation.outcome(),
+            lines=self.lines,
+            damaged_tick=done if is_damaged else None,
+        )
+        before = run.mismatch_tick
+        if tick is None or (before is not None and before < tick):
+            return result
+        return replace(result, mismatch_tick=tick, mismatch="percepts or setpoints")
+
+    def _verified(self, replayed: Replay) -> tuple[Simulation, int | None]:
+        """Return its run, and the first tick whose percepts or setpoints its lines do not give.
 
         Raises:
             InputError: If its metadata are damaged.
@@ -98,7 +129,7 @@ class Drive:
                 seed=replayed.seed,
                 start_s=float(run.text("start_s")),
             )
-            return self._compare(team, simulation)
+            return simulation, self._compare(team, simulation)
         except (KeyError, TypeError, ValueError) as error:
             if isinstance(error, InputError):
                 raise
@@ -108,27 +139,29 @@ class Drive:
     def _compare(self, team: Team, simulation: Simulation) -> int | None:
         given: dict[int, Any] = {m["tick"]: m["percepts"] for t, m in self.messages if t == INPUT}
         motions = {m["tick"]: m["motions"] for t, m in self.messages if t == SETPOINTS}
-        last = max(motions, default=-1)
+        steps, mismatch_tick = self.steps, None
         for topic, message in self.messages:
             if topic == TICKS:
                 tick = int(message["tick"])
-                if tick > last:  # the file is truncated
-                    return None
+                if tick >= steps:  # the file is truncated
+                    break
                 percepts = team.percepts(tick, message["t"])
                 decided = team.motions(simulation.step(percepts=percepts))
                 both = (strict(percepts), strict(decided))
-                if both != (given.get(tick, {}), motions.get(tick)):
-                    return tick
+                differ = both != (given.get(tick, {}), motions.get(tick))
+                if differ and mismatch_tick is None:
+                    mismatch_tick = tick
             elif topic not in (INPUT, SETPOINTS):
                 team.add(message)
-        return None
+        return mismatch_tick
 
 
 def replay(path: str | Path, *, verify: bool = True) -> Replay:
     """Replay a recorded run or drive from its file alone. Ctrl-C stops it between two steps.
 
     Of a drive, the percepts are made again of the recorded lines of the robots, and have to be
-    the recorded ones, as have the setpoints.
+    the recorded ones, as have the setpoints: of every step, also if only every n-th state is
+    recorded.
 
     Args:
         path: A recording. A truncated file is compared up to its end, a damaged one up to the
@@ -147,17 +180,7 @@ def replay(path: str | Path, *, verify: bool = True) -> Replay:
     if drive is None:
         return replayed
     with named(Path(path)):
-        tick = drive.mismatch(replayed)
-    ticks = [each for each in (replayed.damaged_tick, drive.damaged_tick) if each is not None]
-    damaged_tick = min(ticks, default=None)
-    is_complete = replayed.is_complete and damaged_tick is None
-    replayed = replace(
-        replayed, lines=drive.lines, damaged_tick=damaged_tick, is_complete=is_complete
-    )
-    before = replayed.mismatch_tick
-    if tick is None or (before is not None and before < tick):
-        return replayed
-    return replace(replayed, mismatch_tick=tick, mismatch="percepts or setpoints")
+        return drive.replayed(replayed)
 
 
 def read_drive(path: Path) -> Drive | None:

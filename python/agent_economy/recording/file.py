@@ -94,7 +94,8 @@ class File:
         """
         self._output = Output(path)
         output = cast("IO[bytes]", self._output)  # the writer uses only these methods
-        self._writer = Writer(output, chunk_size=CHUNK_BYTES)
+        # Chunks and attachments have checksums of their own; metadata have none.
+        self._writer = Writer(output, chunk_size=CHUNK_BYTES, enable_data_crcs=True)
         self._writer.start(library=f"agent-economy/{__version__} {LIBRARY_IDENTIFIER}")
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}

@@ -15,6 +15,7 @@ from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.identity import (
     CHANGE,
+    END,
     RUN,
     Identity,
     read_change,
@@ -57,8 +58,8 @@ class Recorded:
         points: The recorded states, in order.
         changes: The changes of the scenario, in order.
         inputs: The external inputs, by tick.
-        is_complete: Whether the file has its end, that is, it is neither truncated nor damaged.
-        damage: Why it is damaged behind them; None if it is not.
+        is_complete: Whether the whole file has been read: it is neither truncated nor damaged.
+        damage: Why it is damaged, behind what has been read; None if it is not.
     """
 
     points: list[Point] = field(default_factory=list)
@@ -67,6 +68,7 @@ class Recorded:
     is_complete: bool = False
     damage: str | None = None
     _run: Mapping[str, str] | None = None
+    _end: Mapping[str, str] | None = None
     _attached: dict[str, bytes] = field(default_factory=dict)
     _topics: dict[int, str] = field(default_factory=dict)
 
@@ -77,7 +79,7 @@ class Recorded:
             InputError: If it is damaged before its first state.
         """
         with suppress(EndOfFile):
-            self.damage = read_records(stream, self.add)
+            self.damage = read_records(stream, self.add) or self._wrong_end()
             self.is_complete = self.damage is None
         if self.damage is not None and not self.points:
             message = self.damage
@@ -87,7 +89,7 @@ class Recorded:
 
     @property
     def damaged_tick(self) -> int | None:
-        """The last tick before the damage; None if the file is not damaged."""
+        """The tick of the last state before the damage; None if the file is not damaged."""
         return None if self.damage is None else self.points[-1].tick
 
     def add(self, record: McapRecord) -> None:
@@ -97,6 +99,8 @@ class Recorded:
                 self._run = record.metadata
             case Metadata() if record.name == CHANGE:
                 self.changes.append(read_change(record.metadata))
+            case Metadata() if record.name == END:
+                self._end = record.metadata  # it may be before the last messages
             case Attachment():
                 self._attached[record.name] = record.data
             case Channel():
@@ -123,6 +127,20 @@ class Recorded:
             message = "is damaged: it has percepts or commands for robots that accept none"
             raise InputError(message)
         return identity
+
+    def _wrong_end(self) -> str | None:
+        """Return what is wrong with the end of a whole file; None if nothing is."""
+        if self._end is None or not self.points:
+            return None
+        end, last = Entries(f"metadata {END!r}", self._end), self.points[-1]
+        try:
+            decisions = end.text("decisions") if "decisions" in end else last.decisions
+            states = end.whole("tick"), end.text("hash"), decisions
+        except InputError as error:
+            return str(error)
+        if states != (last.tick, last.hash, last.decisions):
+            return f"is damaged: its metadata {END!r} are not those of its last state"
+        return None
 
     def _add_message(self, topic: str, data: bytes) -> None:
         if topic == "/run":

@@ -36,7 +36,7 @@ class Replay:
             if it is unknown.
         is_complete: Whether the file is complete; a truncated file is compared up to its end, a
             damaged one up to the damage.
-        tick: Tick of the last compared state.
+        tick: Tick of the last compared state; of a drive, that after its last whole step.
         hash: Hash of that state in the replay: 64 bits, hexadecimal.
         mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
             it reproduces all.

@@ -10,11 +10,12 @@ from typing import Any, Self
 
 import numpy as np
 
+from agent_economy.live.clock import now_s
 from agent_economy.live.emulator import packet_loss
 from agent_economy.live.emulator.control_port import ControlPort
 from agent_economy.live.emulator.faults import PORTS, SENDING
 from agent_economy.live.emulator.lines import LINE_ENDS
-from agent_economy.live.emulator.log import Log, now_s
+from agent_economy.live.emulator.log import Log
 from agent_economy.live.emulator.ports import Port
 from agent_economy.live.emulator.robot import Robot
 from agent_economy.live.emulator.settings import Settings

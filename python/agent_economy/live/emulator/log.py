@@ -2,13 +2,13 @@
 
 import json
 import os
-import time
 from collections import deque
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
 from agent_economy._core import InputError
+from agent_economy.live.clock import now_s
 from agent_economy.recording.output import check_no_drive
 from agent_economy.regular_file import descriptor_of
 
@@ -17,12 +17,6 @@ MAX_ENTRIES = 100_000
 
 Entry = dict[str, Any]
 """An entry: `t_s`, `robot`, `port`, `event`, and what belongs to the event, such as `line`."""
-
-
-def now_s() -> float:
-    """Return a monotonic time in seconds that also advances while the machine sleeps."""
-    boot_time = getattr(time, "CLOCK_BOOTTIME", None)
-    return time.monotonic() if boot_time is None else time.clock_gettime(boot_time)
 
 
 class Log:

@@ -14,7 +14,7 @@ from agent_economy import _core
 from agent_economy.runs.simulation import Simulation
 
 QUIET_S = 30.0
-"""Goals are given up if none is awarded for this time, and that of auctions, while a robot drives.
+"""A goal is given up if none is awarded for this time, and that of auctions, while a robot drives.
 
 It exceeds the pause after which a controller offers a goal for the second time, 20 s.
 """
@@ -34,7 +34,8 @@ class AwardedGoals:
 
     Attributes:
         robots: The real robots that serve awarded goals.
-        quiet_s: Time without an awarded goal after which goals are given up.
+        quiet_s: Time without an awarded goal after which a goal is given up; it begins when the
+            goal is issued.
     """
 
     robots: frozenset[str]
@@ -45,6 +46,7 @@ class AwardedGoals:
     _awarded: dict[str, str] = field(default_factory=dict)
     _goals: Mapping[str, Any] = field(default_factory=dict)
     _busy_s: float | None = None
+    _issued_s: dict[str, float] = field(default_factory=dict)
 
     def add(self, robot: str, outbox: Iterable[Mapping[str, Any]]) -> None:
         """Take the messages that a real robot sends."""
@@ -70,10 +72,21 @@ class AwardedGoals:
         }
         if self._awarded or not is_driving or self._busy_s is None:
             self._busy_s = now_s
-        is_quiet = now_s - self._busy_s > self.quiet_s
         issued = np.isfinite(self._goals["issued_s"])
-        rows = zip(self._goals["name"], issued, self._goals["expired"], strict=True)
-        self._given_up |= {name for name, was, late in rows if late or (was and is_quiet)}
+        for name, was, late in zip(
+            self._goals["name"], issued, self._goals["expired"], strict=True
+        ):
+            if was:
+                self._issued_s.setdefault(name, now_s)
+            if late or self._is_quiet(name, now_s):
+                self._given_up.add(name)
+
+    def _is_quiet(self, name: str, now_s: float) -> bool:
+        """Return whether no goal was awarded for the quiet time, in which this one was issued."""
+        issued_s, busy_s = self._issued_s.get(name), self._busy_s
+        if issued_s is None or busy_s is None:
+            return False
+        return now_s - max(issued_s, busy_s) > self.quiet_s
 
     def verdicts(self) -> Iterator[dict[str, Any]]:
         """Yield the name, the place, the verdict and the robot of each goal, in order.

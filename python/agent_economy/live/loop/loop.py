@@ -8,15 +8,12 @@ from typing import Any
 from agent_economy.live.clock import now_s
 from agent_economy.live.fleet import Fleet
 from agent_economy.live.loop.log import Log, LogOptions
-from agent_economy.live.loop.pacer import Pacer
+from agent_economy.live.loop.pacer import MIN_PERIOD, Pacer
 from agent_economy.live.loop.pipe import Pipe
 from agent_economy.live.loop.team import Team
 from agent_economy.recording import RecordingError
 from agent_economy.recording.file import strict
 from agent_economy.runs.simulation import Simulation
-
-EXPLAINED_S = 5.0
-"""Lateness, as after a suspension, that is explained at once: it takes minutes to make up for."""
 
 
 class Loop:
@@ -86,17 +83,10 @@ class Loop:
                 self._step(self._log, now, lateness_s)
             except RecordingError as error:
                 self._fail(error)
-        if lateness_s > EXPLAINED_S:
-            self._pipe.send({"type": "message", "message": self._explanation(lateness_s)})
+        if self._pacer.must_report():
+            self._pipe.send({"type": "message", "message": explanation(self._pacer)})
         beat = {"type": "beat", "lateness_s": now_s() - now + lateness_s}
         self._pipe.send(beat | self._pacer.counts())
-
-    def _explanation(self, lateness_s: float) -> str:
-        behind_s, slew_s = self._pacer.behind_s, self._pacer.slew_s
-        return (
-            f"The brains were late by {lateness_s:.1f} s: the run is {behind_s:.1f} s behind the "
-            f"clock, and steps 10% faster for about {slew_s:.0f} s until both agree again."
-        )
 
     def _step(self, log: Log, now: float, lateness_s: float) -> None:
         tick = self._simulation.tick
@@ -142,3 +132,14 @@ class Loop:
                 self._log.close()
             except RecordingError as error:
                 self._fail(error)
+
+
+def explanation(pacer: Pacer) -> str:
+    """Return why a run is behind the clock, in words, and how long that lasts."""
+    fast_s = MIN_PERIOD * pacer.period_s
+    return (
+        f"The run is {pacer.behind_s:.1f} s behind the clock, because steps of the brains were "
+        f"late. It steps 10% faster until both agree again: for about {pacer.slew_s:.0f} s, if "
+        f"each step takes less than {fast_s:g} s. If this is reported again, steps take longer for "
+        "good: use a longer clock.step_s, fewer simulated robots, or a faster machine."
+    )

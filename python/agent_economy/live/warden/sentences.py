@@ -56,8 +56,11 @@ def _slower_than(event: Mapping[str, Any]) -> str:
 
 
 def lateness(event: Mapping[str, Any]) -> str:
-    """Return how late the brains were in a drive; empty if they never were."""
-    if not event["late_steps"]:
+    """Return how late the brains were in a drive; empty if they never were.
+
+    They are late too if each step takes a little longer than it may: the run then falls behind.
+    """
+    if not event["was_late"]:
         return ""
     return (
         f" Late steps of the brains: {event['late_steps']}; the run was behind the clock by "

@@ -121,6 +121,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
             "exit_code": end.exit_code,
             "unconfirmed": warden.unconfirmed(),
             "unseen_speed_m_s": warden.unseen_speed_m_s,
+            "was_late": warden.was_late,
             "late_steps": warden.late_steps,
             "behind_s": warden.behind_s,
             "max_behind_s": warden.max_behind_s,

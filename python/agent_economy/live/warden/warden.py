@@ -45,9 +45,10 @@ class Warden:
         goals: The newest verdict of each goal, by robot and goal.
         run: What the loop has reported of the run for a page; None without one.
         page: Takes the tick and the inputs of each step.
+        was_late: Whether the loop has reported late steps, or a run that has fallen behind.
         late_steps: Number of steps of the loop that were late by more than a step.
         behind_s: Time by which the run is behind the clock.
-        max_behind_s: The longest such time after a late step.
+        max_behind_s: The longest such time.
     """
 
     plan: FleetPlan | None
@@ -64,7 +65,8 @@ class Warden:
         self.page: Callable[[int, Mapping[str, Any]], None] = lambda *_: None
         self._peers: dict[str, tuple[str, int]] = {}
         self._loop_inputs = LoopInputs(is_alive=True, last_message_s=None)
-        self.late_steps, self.behind_s, self.max_behind_s = 0, 0.0, 0.0
+        self.was_late, self.late_steps = False, 0
+        self.behind_s, self.max_behind_s = 0.0, 0.0
         self._planned: asyncio.Future[FleetPlan | None] | None = None
         self._end: End | None = None
         self._is_impatient = False
@@ -259,8 +261,8 @@ class Warden:
                 self._report({"type": "message", "message": text})
                 self._set_plan(None)
             case "beat":
-                self.late_steps, self.behind_s = message["late_steps"], message["behind_s"]
-                self.max_behind_s = message["max_behind_s"]
+                self.was_late, self.late_steps = message["was_late"], message["late_steps"]
+                self.behind_s, self.max_behind_s = message["behind_s"], message["max_behind_s"]
             case "setpoint":
                 self._setpoint(message, now)
             case "run":

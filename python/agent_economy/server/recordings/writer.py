@@ -59,7 +59,7 @@ class RecordingWriter:
         begun = history.scenario, history.seed, history.run
         simulation = factory.create(*begun, history.external)
         check_size(history.latest_tick * size_of_step(simulation))
-        with write_errors(self._folder):
+        with saving_errors(self._folder):
             self._folder.mkdir(exist_ok=True)
             remove_abandoned(self._folder, SUFFIX)
             with temporary_file(self._folder, SUFFIX) as file:
@@ -102,8 +102,8 @@ def check_size(robot_steps: int) -> None:
 
 
 @contextmanager
-def write_errors(folder: Path) -> Iterator[None]:
-    """Name the folder in the errors of writing to it.
+def saving_errors(folder: Path) -> Iterator[None]:
+    """Name the folder in the errors of saving a recording to it.
 
     Raises:
         InputError: If a file cannot be written.

@@ -77,11 +77,6 @@ class LiveRun:
         self._wake = do_nothing if wake is None else wake
 
     @property
-    def is_ended(self) -> bool:
-        """Whether there will be no more inputs."""
-        return self._is_ended
-
-    @property
     def is_finished(self) -> bool:
         """Whether all inputs that will ever arrive have been simulated."""
         return self._is_ended and self.tick >= self._latest_tick
