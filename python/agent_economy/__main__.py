@@ -37,12 +37,18 @@ def stop() -> None:
         run_command()
     else:
         process, as_json = options
-        report = stop_drives(process, as_json=as_json)
-        for stream, lines in ((sys.stdout, report.output), (sys.stderr, report.errors)):
-            if stream is not None:  # closed by the parent
-                stream.writelines(f"{line}\n" for line in lines)
-                stream.flush()
+        report = stop_drives(process, print_line, as_json=as_json)
+        for line in report.errors:
+            print_line(line, is_error=True)
         sys.exit(report.exit_code)
+
+
+def print_line(line: str, *, is_error: bool = False) -> None:
+    """Print a line at once."""
+    stream = sys.stderr if is_error else sys.stdout
+    if stream is not None:  # closed by the parent
+        stream.write(f"{line}\n")
+        stream.flush()
 
 
 def run_command() -> None:

@@ -4,13 +4,14 @@ import base64
 import json
 import os
 import re
+import resource
 import signal
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 from urllib.request import Request, urlopen
@@ -104,6 +105,28 @@ def started(words: list[str], folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen([*COMMAND, *words], stdout=pipe, stderr=pipe, text=True, cwd=folder)
 
 
+DESCRIPTORS = 96
+"""The limit of a server that runs out of them, were it not for its maximum of connections."""
+
+
+@contextmanager
+def few_descriptors() -> Iterator[None]:
+    """Let programs that are started inside have a low limit of descriptors."""
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (DESCRIPTORS, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
+
+
+def flood(stack: ExitStack, port: int, data: bytes = b"") -> None:
+    """Connect many clients that have no token, or send no complete request, and stay."""
+    for _ in range(3 * DESCRIPTORS):
+        with suppress(ConnectionError):  # it may be closed at once
+            connected(stack, port, data)
+
+
 UI = ["ui", "--no-browser", "--port", "0"]
 EMULATOR = ["bender-emulator", "--ports", "0,0,0,0", "--robots", "2"]
 
@@ -142,6 +165,31 @@ def test_a_server_with_clients_ends_soon_after_a_signal_with_one_more_line(
             process.send_signal(number)
             assert process.wait(20) == code
             assert time.monotonic() - before_s < SOON_S
+        assert process.communicate(timeout=20) == ("", "Stopped.\n")
+    finally:
+        process.kill()
+
+
+@pytest.mark.parametrize("data", [b"", b"GET / HTTP/1.1\r\nHost: x", b"GET / HTTP/1.1\r\n\r\n"])
+def test_idle_connections_neither_keep_others_out_nor_make_the_server_print(
+    tmp_path: Path, data: bytes
+) -> None:
+    with few_descriptors():
+        process = started(UI, tmp_path)
+    try:
+        assert process.stdout
+        with ExitStack() as stack:
+            port = port_of(process.stdout.readline())
+            page = web_socket(stack, port, "/ws")
+            send(page, type="open", scenario="search-beliefs", seed="7", run="0")
+            assert page.recv(1)
+            for _ in range(3):
+                flood(stack, port, data)
+                urlopen(f"http://127.0.0.1:{port}/api/scenarios", timeout=5).close()
+            send(page, type="play", speed=None)
+            assert len(page.recv(4096)) > 1
+            process.send_signal(signal.SIGINT)
+            assert process.wait(20) == 0
         assert process.communicate(timeout=20) == ("", "Stopped.\n")
     finally:
         process.kill()

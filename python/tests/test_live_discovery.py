@@ -18,11 +18,17 @@ from bare_timer import repeated_if_late
 from other_programs import OTHER_UID, needs_abstract, needs_root, program
 
 from agent_economy.live import local_socket
-from agent_economy.live.discovery import contact, entry_file, running_drive
+from agent_economy.live.discovery import contact, entry_file, running_drive, search
 from agent_economy.live.discovery.publication import published
 from agent_economy.live.discovery.running_drive import RunningDrive, drive_of
 from agent_economy.live.discovery.search import NO_ENTRY, Search, Stopped
-from agent_economy.live.discovery.stopping import _sentence, nothing_found, options_of
+from agent_economy.live.discovery.stopping import (
+    MAX_SILENT,
+    _not_stopped,
+    _sentence,
+    nothing_found,
+    options_of,
+)
 
 
 class Warden(BaseHTTPRequestHandler):
@@ -319,6 +325,66 @@ def test_a_drive_in_a_container_where_its_user_has_another_number_is_found() -> 
     with program(LISTENER, name, "garbage") as listener:
         [answer] = Search(os.geteuid(), listener.pid).stop()
     assert (answer.pid, answer.uid) == (listener.pid, os.geteuid())
+
+
+FORGER = """
+links = []
+for number in range(int(sys.argv[2])):
+    links.append(socket.socket(socket.AF_UNIX))
+    links[-1].bind("\\0" + sys.argv[1] + format(number, "032x"))
+    links[-1].listen(4)
+print(flush=True)
+time.sleep(60)
+"""
+
+
+@needs_abstract
+@needs_root
+@repeated_if_late
+def test_a_user_with_hundreds_of_silent_sockets_delays_neither_the_answers_nor_the_end(
+    drive: RunningDrive, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prefix, number = f"{contact.PREFIX}/{OTHER_UID}/1-", 900
+    monkeypatch.setattr(entry_file, "folders_to_read", list)
+    times_s = []
+    with program(FORGER, prefix, str(number), uid=OTHER_UID) as forger, serving(drive):
+        # Only these: root would stop the drives of all users of this machine.
+        found = [
+            each
+            for each in contact.named_sockets()
+            if each.name.startswith(prefix) or each.pid == os.getpid()
+        ]
+        assert len(found) == number + 1
+        monkeypatch.setattr(search, "named_sockets", lambda: found)
+        began_s = time.monotonic()
+        query = Search(0)
+        answers = query.stop(lambda _: times_s.append(time.monotonic() - began_s))
+        assert time.monotonic() - began_s < search.TOTAL_S
+    assert [each.pid for each in answers if each.is_stopped] == [os.getpid()]
+    assert len(times_s) == 1
+    assert times_s[0] < 1.0
+    assert len([each for each in answers if each.pid == forger.pid]) == search.MAX_PER_USER
+    assert query.not_asked == {OTHER_UID: number - search.MAX_PER_USER}
+    silent = [each for each in answers if not each.is_stopped]
+    *lines, rest = _not_stopped(silent, query.not_asked)
+    assert len(lines) == MAX_SILENT
+    assert rest.startswith(f"{number - MAX_SILENT} more programs of user ")
+
+
+@needs_abstract
+@needs_root
+def test_what_has_not_answered_in_time_is_counted(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    prefix = f"{contact.PREFIX}/{OTHER_UID}/1-"
+    monkeypatch.setattr(entry_file, "folders_to_read", list)
+    monkeypatch.setattr(search, "TOTAL_S", 0.3)
+    with program(FORGER, prefix, "100", uid=OTHER_UID):
+        found = [each for each in contact.named_sockets() if each.name.startswith(prefix)]
+        monkeypatch.setattr(search, "named_sockets", lambda: found)
+        query = Search(0)
+        assert query.stop() == []
+    assert query.not_asked == {OTHER_UID: 100}
 
 
 READER = """

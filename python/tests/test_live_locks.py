@@ -6,15 +6,18 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from live_bench import driving, emulated, fleet_text
 from other_programs import OTHER_UID, needs_abstract, needs_root, program
 
 from agent_economy.live import local_socket
 from agent_economy.live.local_socket import HAS_ABSTRACT, user_name
 from agent_economy.live.locks import BACKLOG, PREFIX, Address, AddressLocks, LockedError
+from agent_economy.live.loop.last_resort import LAST_S
 
 HOLDER = """
 lock = socket.socket(socket.AF_UNIX)
@@ -156,6 +159,34 @@ def test_a_lock_vanishes_with_its_program_also_if_a_child_of_it_lives_on(address
         holder.kill()
         with suppress(ProcessLookupError):
             os.kill(child, signal.SIGKILL)
+
+
+def taken_after_s(address: Address, limit_s: float) -> float | None:
+    """Return when another program that tries all the time gets a lock; None if it does not."""
+    began_s = time.monotonic()
+    while (elapsed_s := time.monotonic() - began_s) < limit_s:
+        with suppress(OSError):
+            local_socket.listen(f"{PREFIX}/{address[0]}:{address[1]}").close()
+            return elapsed_s
+    return None
+
+
+@needs_abstract
+def test_when_the_warden_is_killed_the_loop_has_the_lock_without_a_gap(tmp_path: Path) -> None:
+    with emulated(tmp_path) as bench:
+        fleet = tmp_path / "fleet.toml"
+        fleet.write_text(fleet_text(bench), encoding="utf-8")
+        with driving(fleet) as drive:
+            drive.wait_until_moving()
+            loop = drive.loop_pid()
+            address = ("127.0.0.1", bench.robots[0]["motors"])
+            drive.process.kill()
+            killed_s = time.monotonic()
+            assert taken_after_s(address, 1.0) is None
+            with pytest.raises(LockedError, match=f"process {loop} "):
+                AddressLocks().take([address])
+            assert taken_after_s(address, 20.0) is not None
+            assert LAST_S <= time.monotonic() - killed_s < LAST_S + 5
 
 
 def test_of_programs_that_start_at_once_one_gets_all_addresses(address: Address) -> None:

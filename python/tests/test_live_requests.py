@@ -139,6 +139,57 @@ def test_a_change_to_the_mode_or_navigation_that_a_robot_has_is_refused(served: 
     assert refused(served, "/navigate", **on | {"is_on": False}).endswith("is off already")
 
 
+def ready(served: Served) -> None:
+    """Let the robot be without faults, but not armed."""
+    decision = replace(served.warden.outputs.robots[ROBOT], faults=(), blockers=())
+    served.warden.outputs = replace(served.warden.outputs, robots={ROBOT: decision})
+
+
+def test_a_waypoint_does_not_wait_for_an_arming_that_has_just_been_accepted(
+    served: Served,
+) -> None:
+    ready(served)
+    assert "bender/0 is not armed" in accepted(served, "/waypoint", **to(10, 10))
+    accepted(served, "/arm")
+    assert "queued" not in accepted(served, "/waypoint", **to(11, 10))
+
+
+def test_a_hold_states_which_arming_of_the_same_turn_it_cancels(served: Served) -> None:
+    ready(served)
+    accepted(served, "/arm")
+    text = accepted(served, "/hold")
+    cancelled = "cancelled: the arming of bender/0 that has just been requested"
+    assert text == f"hold of all robots; {cancelled}"
+    assert "cancelled" not in accepted(served, "/hold")
+    assert "bender/0 is not armed" in accepted(served, "/waypoint", **to(10, 10))
+    assert not served.turn().arm
+
+
+@pytest.mark.parametrize(("path", "value"), [("/mode", "manual"), ("/navigate", False)])
+def test_a_request_that_would_undo_another_one_of_its_turn_is_refused(
+    served: Served, path: str, value: Any
+) -> None:
+    key, back = ("mode", "auto") if path == "/mode" else ("is_on", True)
+    ready(served)
+    accepted(served, "/arm")
+    reason = refused(served, path, robot=ROBOT, **{key: value})
+    assert reason == "the arming of bender/0 has just been requested: repeat this afterwards"
+    assert served.turn().arm == {ROBOT}
+    accepted(served, path, robot=ROBOT, **{key: value})
+    assert refused(served, path, robot=ROBOT, **{key: value}).endswith("already")
+    assert refused(served, path, robot=ROBOT, **{key: back}).endswith("has just been requested")
+    served.turn()
+    accepted(served, path, robot=ROBOT, **{key: back})
+
+
+def test_a_second_confirmation_in_one_turn_is_refused(served: Served) -> None:
+    decision = replace(served.warden.outputs.robots[ROBOT], doubted=("compass",))
+    served.warden.outputs = replace(served.warden.outputs, robots={ROBOT: decision})
+    accepted(served, "/confirm", robot=ROBOT, port="compass")
+    reason = refused(served, "/confirm", robot=ROBOT, port="compass")
+    assert reason == "the confirmation of compass of bender/0 has been requested already"
+
+
 # The operator
 
 

@@ -32,9 +32,7 @@ def stop(
 
     Example: agent-economy stop
     """
-    report = stop_drives(process, as_json=as_json)
-    for line in report.output:
-        typer.echo(line)
+    report = stop_drives(process, typer.echo, as_json=as_json)
     for line in report.errors:
         typer.echo(line, err=True)
     raise typer.Exit(report.exit_code)

@@ -2,12 +2,16 @@
 
 On Linux, a lock is an abstract socket: it holds for all users and environments that share the
 network of the machine, and names its holder. Elsewhere it is a port of the loopback interface.
+
+A lock is held for as long as any process has its socket. The warden sends a copy of each to the
+loop, which holds them when the warden has ended.
 """
 
 import errno
 import os
 import socket
 from collections.abc import Sequence
+from contextlib import suppress
 from ipaddress import IPv6Address, ip_address
 from pathlib import Path
 from zlib import crc32
@@ -53,8 +57,9 @@ class LockedError(Exception):
 class AddressLocks:
     """Holds locks on the addresses of one robot until closed, or until this process dies."""
 
-    def __init__(self) -> None:
-        """Hold nothing."""
+    def __init__(self, heir: socket.socket | None = None) -> None:
+        """Hold nothing; another process gets a copy of each lock through `heir`."""
+        self._heir = heir
         self._sockets: dict[Address, socket.socket] = {}
         self._holders: dict[Address, Peer | None] = {}
 
@@ -71,7 +76,10 @@ class AddressLocks:
         """
         # In one order, so that of two programs that start at once one gets all.
         for address in sorted(set(map(_normal, addresses)) - set(self._sockets)):
-            self._sockets[address] = self._locked(address)
+            self._sockets[address] = lock = self._locked(address)
+            if self._heir is not None:
+                with suppress(OSError):  # it has ended
+                    socket.send_fds(self._heir, [b"\0"], [lock.fileno()])
 
     def close(self) -> None:
         """Give up all locks."""
@@ -96,6 +104,32 @@ class AddressLocks:
         if known is None or not Path(f"/proc/{known.pid}").exists():
             known = self._holders[address] = local_socket.holder_of(name)
         return known
+
+
+class InheritedLocks:
+    """The copies of the locks of another process; they are held also before they are received."""
+
+    def __init__(self, descriptor: int) -> None:
+        """Hold what arrives at a socket, of which the descriptor was inherited."""
+        self._source = socket.socket(fileno=descriptor)
+        self._source.setblocking(False)  # noqa: FBT003
+        self._source.set_inheritable(False)
+        self._sockets: list[socket.socket] = []
+
+    def take_over(self) -> None:
+        """Become the process that messages name as the holder."""
+        with suppress(OSError):  # there are no others
+            while descriptors := socket.recv_fds(self._source, 1, 1)[1]:
+                self._sockets += [socket.socket(fileno=each) for each in descriptors]
+        for each in self._sockets:
+            if local_socket.HAS_ABSTRACT:
+                with suppress(OSError):
+                    each.listen(BACKLOG)
+
+    def close(self) -> None:
+        """Give up all locks."""
+        for each in (self._source, *self._sockets):
+            each.close()
 
 
 def _loopback(name: str, address: Address) -> socket.socket:

@@ -85,12 +85,12 @@ def app(
         message = "the page of a drive needs a token"
         raise ValueError(message)
     web = Path(str(files("agent_economy") / "web"))
-    server = Server(workspace, web, StudyManager(workspace), token or "", live, drive)
-    return Guard(server.application(), host, token, None if drive is None else drive.address)
+    addresses = Addresses(workspace, web, StudyManager(workspace), token or "", live, drive)
+    return Guard(addresses.application(), host, token, None if drive is None else drive.address)
 
 
 @dataclass
-class Server:
+class Addresses:
     """What all requests share."""
 
     workspace: Workspace

@@ -6,6 +6,7 @@ has no part in the drive: the warden runs on if it ends.
 
 import json
 import os
+import socket
 import sys
 import threading
 from base64 import b64decode
@@ -18,8 +19,6 @@ from typing import Any
 import uvicorn
 
 from agent_economy import _core
-from agent_economy._core import InputError
-from agent_economy.listening import listening_socket
 from agent_economy.live.channel import Decoder
 from agent_economy.scenario import Scenario, Source
 from agent_economy.server.app import app
@@ -28,7 +27,6 @@ from agent_economy.server.runs.live_run import LiveRun
 from agent_economy.server.serving import http_server
 from agent_economy.server.workspace import Workspace
 
-HOST, PORT = "127.0.0.1", 8765
 BLOCK_BYTES = 2**16
 
 
@@ -38,12 +36,15 @@ def main() -> None:
     start = next(received)
     scenario = scenario_of(start["scenario"])
     live = LiveRun(scenario, start["seed"], start["external"])
-    listening = listening_socket_of(start["port"])
+    listening = socket.socket(fileno=start["listening"])
+    # Of all programs, only this server may have it from here on.
+    listening.set_inheritable(False)
+    host, port = listening.getsockname()
     token = start["token"]
-    served = app(Workspace(Path.cwd()), HOST, token, live, drive_of(start, scenario))
+    served = app(Workspace(Path.cwd()), host, token, live, drive_of(start, scenario))
     server = http_server(served, partial(os._exit, 0))
     threading.Thread(target=receive, args=(received, live, server), daemon=True).start()
-    url = f"http://{HOST}:{listening.getsockname()[1]}/?token={token}#/robots"
+    url = f"http://{host}:{port}/?token={token}#/robots"
     with suppress(BrokenPipeError):  # the drive has ended already; so will the input
         os.write(sys.stdout.fileno(), json.dumps({"type": "ready", "url": url}).encode() + b"\n")
     server.run(sockets=[listening])
@@ -75,20 +76,6 @@ def scenario_of(source: Mapping[str, Any]) -> Scenario:
     """
     files = {name: b64decode(data) for name, data in source["files"].items()}
     return Scenario.of(Source(source["file"], source["text"], (), files))
-
-
-def listening_socket_of(port: int | None) -> Any:
-    """Return a socket on a port; without one on the usual port, or on any that is free.
-
-    Raises:
-        InputError: If none can be used.
-    """
-    if port is not None:
-        return listening_socket(HOST, port)
-    try:
-        return listening_socket(HOST, PORT)
-    except InputError:
-        return listening_socket(HOST, 0)
 
 
 def drive_of(start: Mapping[str, Any], scenario: Scenario) -> Drive:

@@ -7,10 +7,12 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import uvicorn
 from starlette.types import ASGIApp
 
+from agent_economy.server.limits import ConnectionLimits, Limited, protocol_within
 from agent_economy.server.request_body import MAX_BYTES
 
 GRACE_S = 0.3
@@ -21,19 +23,41 @@ LAST_S = 1.2
 
 POLL_S = 0.02
 
+AT_ONCE, QUEUE = 16, 1024
+"""Connections that are accepted in one turn of the event loop, and those that wait for that. Few at
+once: until they are counted they have descriptors, and one turn must not take all that are left."""
+
+OF_CONNECTIONS = frozenset({"socket", "transport", "protocol"})
+"""What asyncio reports with errors of a connection, or of accepting one."""
+
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
-class Server(uvicorn.Server):
-    """A server that ends soon after a signal, whatever its clients do.
+class HttpServer(uvicorn.Server):
+    """A server that ends soon after a signal, and prints nothing of what its clients do.
 
-    uvicorn would wait for requests that are never complete, and for answers that are never read.
+    uvicorn would wait for requests that are never complete, and for answers that are never read;
+    asyncio would print an error for each connection while no descriptor is left.
     """
 
-    def __init__(self, config: uvicorn.Config, overdue: Callable[[], None]) -> None:
+    def __init__(
+        self, config: uvicorn.Config, limits: ConnectionLimits, overdue: Callable[[], None]
+    ) -> None:
         """Create it; `overdue` ends the process, when the server does not end in time."""
         super().__init__(config)
-        self._overdue = overdue
+        self._limits, self._overdue = limits, overdue
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Start to accept connections."""
+        asyncio.get_running_loop().set_exception_handler(report_error)
+        await super().startup(sockets)
+        for listening in sockets or ():
+            listening.listen(QUEUE)  # asyncio has reduced it to the number that it accepts at once
+
+    async def on_tick(self, counter: int) -> bool:
+        """Close what waits for too long; called ten times per second."""
+        self._limits.close_late()
+        return await super().on_tick(counter)
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
@@ -72,15 +96,26 @@ class Server(uvicorn.Server):
             await asyncio.sleep(POLL_S)
 
 
-def http_server(application: ASGIApp, overdue: Callable[[], None]) -> Server:
+def report_error(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """Report an error of the event loop, unless a client has caused it."""
+    if not OF_CONNECTIONS & context.keys():
+        loop.default_exception_handler(context)
+
+
+def http_server(application: ASGIApp, overdue: Callable[[], None]) -> HttpServer:
     """Return a server of the application; run it with the sockets that it listens on.
 
     Args:
         application: What it serves.
         overdue: Ends the process; called in a thread, if the server does not end in time.
     """
+    limits = ConnectionLimits()
     config = uvicorn.Config(
-        application,
+        Limited(application, limits),
+        http=protocol_within(limits),
+        backlog=AT_ONCE,
+        # A field of a request must not replace the address of its connection.
+        proxy_headers=False,
         # Whatever clients send, nothing of it is printed.
         log_level="error",
         ws="websockets-sansio",
@@ -89,4 +124,4 @@ def http_server(application: ASGIApp, overdue: Callable[[], None]) -> Server:
         ws_per_message_deflate=False,
         lifespan="on",
     )
-    return Server(config, overdue)
+    return HttpServer(config, limits, overdue)

@@ -3,8 +3,9 @@
 import os
 import threading
 from collections import Counter
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,7 +19,13 @@ from agent_economy.live.discovery.contact import (
 )
 from agent_economy.live.discovery.running_drive import RunningDrive
 
-MAX_THREADS = 64
+MAX_THREADS, MAX_FILE_THREADS = 64, 8
+
+MAX_PER_USER = 256
+"""Programs of one user that are asked: any program can pretend to be thousands of drives."""
+
+TOTAL_S = 10.0
+"""Time for all answers; what has not answered then is reported as silent."""
 
 WAIT_S = 1.0
 """Time to wait for a place where too many connections wait."""
@@ -54,6 +61,7 @@ class Search:
 
     Attributes:
         others: Drives of other users, which only these or root can stop, by process and user.
+        not_asked: Number of programs that were not asked, or not in time, by user.
     """
 
     def __init__(self, uid: int, process: int | None = None) -> None:
@@ -62,16 +70,56 @@ class Search:
         self._seen: set[str] = set()
         self._guard = threading.Lock()
         self.others: list[tuple[int, int]] = []
+        self.not_asked: Counter[int] = Counter()
 
-    def stop(self) -> list[Stopped]:
-        """Find the drives, and stop them all at the same time."""
-        found = [(each, link) for each in named_sockets() if (link := contact(each, 0.0))]
-        with ThreadPoolExecutor(MAX_THREADS) as pool:
-            requests = [pool.submit(self._stop_named, *pair) for pair in self._in_order(found)]
-            # Files last: their file system may not answer.
-            requests += [pool.submit(self._stop_listed, each) for each in self._listed()]
-        answers = [each for request in requests if (each := request.result()) is not None]
+    def stop(self, answered: Callable[[Stopped], None] = lambda _: None) -> list[Stopped]:
+        """Find the drives, and stop them all at the same time.
+
+        Args:
+            answered: Takes the answer of each drive that has one, as soon as it arrives.
+        """
+        pools = ThreadPoolExecutor(MAX_THREADS), ThreadPoolExecutor(MAX_FILE_THREADS)
+        named = {
+            pools[0].submit(self._stop_named, *pair): pair
+            for pair in self._in_order(self._contacts())
+        }
+        # Files last: their file system may not answer.
+        listed = [pools[1].submit(self._stop_listed, each) for each in self._listed()]
+        answers = []
+        for each in self._completed([*named, *listed]):
+            answers.append(each)
+            if each.fleet is not None:
+                answered(each)
+        for request, (socket, found) in named.items():
+            if not request.done() or request.cancelled():
+                self.not_asked[socket.uid if found.peer is None else found.peer.uid] += 1
+        for pool in pools:
+            pool.shutdown(wait=False, cancel_futures=True)
         return sorted(_merged(answers), key=lambda each: (each.uid, each.pid))
+
+    def _completed(self, requests: list[Future[Stopped | None]]) -> Iterator[Stopped]:
+        """Yield the answers that arrive in time."""
+        with suppress(TimeoutError):
+            for request in as_completed(requests, TOTAL_S):
+                answer = request.result()
+                if answer is not None:
+                    yield answer
+
+    def _contacts(self) -> list[Named]:
+        """Connect to what may be drives, of each user to some only."""
+        found, numbers = [], Counter[int]()
+        for named in named_sockets():
+            each = contact(named, 0.0)
+            if each is None:
+                continue
+            if each.peer is not None:
+                numbers[each.peer.uid] += 1
+                if numbers[each.peer.uid] > MAX_PER_USER:
+                    _close(each)
+                    self.not_asked[each.peer.uid] += self._is_ours(each.peer.uid)
+                    continue
+            found.append((named, each))
+        return found
 
     def _in_order(self, found: list[Named]) -> list[Named]:
         """Return what may be a drive to stop; one user with thousands delays no drive of others.

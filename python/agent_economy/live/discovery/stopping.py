@@ -4,7 +4,8 @@ An emergency stop has to reach the robots soon, also on a slow machine.
 """
 
 import json
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +18,9 @@ NOT_STOPPED = 1
 
 MAX_OTHERS = 10
 """Drives of other users that are named: any program can pretend to be one."""
+
+MAX_SILENT = 10
+"""Programs of one user without an answer that are named; the others are counted."""
 
 REMAINS = "press Ctrl-C in its terminal, or use the robot's own switch"
 
@@ -43,25 +47,51 @@ def options_of(words: Sequence[str]) -> tuple[int | None, bool] | None:
 
 @dataclass(frozen=True)
 class Report:
-    """What the command prints, and its exit code."""
+    """How the command ends: what it prints as errors, and its exit code."""
 
     exit_code: int
-    output: list[str]
     errors: list[str]
 
 
-def stop_drives(process: int | None, *, as_json: bool) -> Report:
-    """Stop all drives of this user, or that of one process."""
+def stop_drives(process: int | None, output: Callable[[str], None], *, as_json: bool) -> Report:
+    """Stop all drives of this user, or that of one process.
+
+    Args:
+        process: The process of the drive; None for all drives.
+        output: Takes each line to print, as soon as the answer arrives.
+        as_json: Whether the lines are a JSON list, after all answers.
+    """
+
+    def answered(each: Stopped) -> None:
+        if each.is_stopped and not as_json:
+            output(_sentence(each))
+
     search = Search(user(), process)
-    answers = search.stop()
-    exit_code = 0 if answers and all(each.is_stopped for each in answers) else NOT_STOPPED
+    answers = search.stop(answered)
+    is_complete = answers and all(each.is_stopped for each in answers) and not search.not_asked
+    exit_code = 0 if is_complete else NOT_STOPPED
     if as_json:
-        return Report(exit_code, [json.dumps([_row(each) for each in answers], indent=2)], [])
-    output = [_sentence(each) for each in answers if each.is_stopped]
-    errors = [_sentence(each) for each in answers if not each.is_stopped]
-    if not answers:
-        errors = nothing_found(user(), process, sorted(set(search.others))[:MAX_OTHERS])
-    return Report(exit_code, output, errors)
+        output(json.dumps([_row(each) for each in answers], indent=2))
+        return Report(exit_code, [])
+    if not answers and not +search.not_asked:
+        others = sorted(set(search.others))[:MAX_OTHERS]
+        return Report(exit_code, nothing_found(user(), process, others))
+    return Report(exit_code, list(_not_stopped(answers, +search.not_asked)))
+
+
+def _not_stopped(answers: Sequence[Stopped], not_asked: Counter[int]) -> Iterator[str]:
+    """Yield what was not stopped: of each user the first ones, and the number of the others."""
+    named, others = Counter[int](), Counter(not_asked)
+    for each in answers:
+        if not each.is_stopped:
+            named[each.uid] += 1
+            if each.fleet is not None or named[each.uid] <= MAX_SILENT:
+                yield _sentence(each)
+            else:
+                others[each.uid] += 1
+    for uid, number in others.items():
+        what = f"{number} more programs of user {local_socket.user_name(uid)}"
+        yield f"{what} that may be drives: no answer, or not asked in time; {REMAINS}"
 
 
 def nothing_found(uid: int, process: int | None, others: Sequence[tuple[int, int]]) -> list[str]:

@@ -11,6 +11,7 @@ from typing import Any
 from agent_economy._core import InputError
 from agent_economy.live import fleet
 from agent_economy.live.channel import SILENCE_S
+from agent_economy.live.locks import InheritedLocks
 from agent_economy.live.loop.last_resort import stop_all
 from agent_economy.live.loop.log import LogOptions
 from agent_economy.live.loop.loop import Loop
@@ -29,7 +30,9 @@ def main() -> int:
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--page", action="store_true", help="Report the run and all its inputs.")
+    parser.add_argument("--locks", type=int, required=True, help="Descriptor that they arrive at.")
     arguments = parser.parse_args()
+    locks = InheritedLocks(arguments.locks)
     warden = os.getppid()
     pipe = Pipe()
     try:
@@ -46,7 +49,8 @@ def main() -> int:
     try:
         loop.run()
     except WardenLostError:
-        stop_all(loaded.plan, loop.peers, warden)
+        stop_all(loaded.plan, loop.peers, warden, locks)
+        locks.close()
         loop.close()
         explain()
         return LOST

@@ -10,7 +10,7 @@ from time import sleep
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.drivers import DRIVERS
-from agent_economy.live.locks import AddressLocks, LockedError
+from agent_economy.live.locks import AddressLocks, InheritedLocks, LockedError
 from agent_economy.live.plan import FleetPlan, RobotPlan
 
 Address = tuple[str, int]
@@ -19,8 +19,15 @@ REPEAT_S, LAST_S = 0.1, 5.0
 """Stop lines are repeated, and refused connections tried again, for this time."""
 
 
-def stop_all(plan: FleetPlan, peers: Mapping[str, Address], warden_pid: int) -> None:
+def stop_all(
+    plan: FleetPlan,
+    peers: Mapping[str, Address],
+    warden_pid: int,
+    locks: InheritedLocks | None = None,
+) -> None:
     """End the warden, open the motor ports and stop all robots; returns after some seconds.
+
+    The locks of the warden, of which this process has copies, keep other drives from starting.
 
     The warden is ended first: a robot may accept a single motor connection. `peers` has the
     numeric addresses of motor ports that have been connected; others would take a name lookup.
@@ -28,6 +35,8 @@ def stop_all(plan: FleetPlan, peers: Mapping[str, Address], warden_pid: int) -> 
     if os.getppid() == warden_pid:
         with suppress(ProcessLookupError):
             os.kill(warden_pid, signal.SIGKILL)
+    if locks is not None:
+        locks.take_over()
     began_s = now_s()
     links = [_MotorPort(robot, peers[robot.name]) for robot in plan.robots if robot.name in peers]
     while now_s() - began_s < LAST_S:
@@ -41,7 +50,7 @@ def stop_all(plan: FleetPlan, peers: Mapping[str, Address], warden_pid: int) -> 
 class _MotorPort:
     """A motor port that is connected without waiting, so that no robot delays another.
 
-    Its lock, which the warden held, keeps another drive from starting meanwhile.
+    Its lock is taken if no copy of it was inherited.
     """
 
     def __init__(self, robot: RobotPlan, address: Address) -> None:

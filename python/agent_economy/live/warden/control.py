@@ -107,6 +107,7 @@ class Control:
     def _hold(self, _: Body) -> Answer:
         text = effects.of_hold(self._warden)
         self._warden.operator.hold = True
+        self._warden.operator.arm.clear()
         return self._note(text)
 
     def _state(self, body: Body) -> Answer:
@@ -237,11 +238,7 @@ class Control:
         if port not in ports:
             message = f"port must be one of {', '.join(ports)}"
             raise ValueError(message)
-        decision = self._warden.outputs.robots.get(robot.name)
-        doubted = [] if decision is None else decision.doubted
-        if port not in doubted:
-            message = f"{port} of {robot.name} is not doubted: there is nothing to confirm"
-            raise ValueError(message)
+        effects.check_confirm(self._warden, robot.name, port)
         self._warden.operator.confirm.setdefault(robot.name, set()).add(port)
         text = f"{robot.name}: an operator confirms the value of {port}"
         return self._note(text, "warning", robot.name)

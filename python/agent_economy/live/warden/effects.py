@@ -50,7 +50,13 @@ def of_hold(warden: Warden) -> str:
     if warden.is_ending:
         return "hold: the drive ends, and all robots are being stopped already"
     is_resumed = warden.operator.resume and not warden.operator.hold
-    return "hold: already active" if is_held(warden) and not is_resumed else "hold of all robots"
+    text = "hold: already active" if is_held(warden) and not is_resumed else "hold of all robots"
+    arming = ", ".join(sorted(warden.operator.arm))
+    return (
+        f"{text}; cancelled: the arming of {arming} that has just been requested"
+        if arming
+        else text
+    )
 
 
 def check_drive(warden: Warden) -> None:
@@ -89,23 +95,42 @@ def check_resume(warden: Warden) -> None:
 
 
 def check_mode(warden: Warden, name: str, mode: Mode) -> None:
-    """Refuse a change to the mode that a robot has.
+    """Refuse a change to the mode that a robot has, and one that undoes a request of this turn.
 
     Raises:
-        ValueError: If the change has no effect.
+        ValueError: If the change has no effect, or if it would leave another request without one.
     """
     _refuse_if(mode_of(warden, name) is mode, f"{name} is in {mode} mode already")
+    is_changing = name in warden.operator.mode
+    _refuse_if(is_changing, f"a change of the mode of {name} has just been requested")
+    _refuse_while_arming(warden, name)
 
 
 def check_navigate(warden: Warden, name: str, *, is_on: bool) -> None:
-    """Refuse to switch navigation to the state that it has.
+    """Refuse to switch navigation to the state that it has, or to undo a request of this turn.
 
     Raises:
-        ValueError: If the switch has no effect.
+        ValueError: If the switch has no effect, or if it would leave another request without one.
     """
     state = "on" if is_on else "off"
     is_same = navigates(warden, name) == is_on
     _refuse_if(is_same, f"the navigation of {name} is {state} already")
+    is_changing = name in warden.operator.navigate
+    _refuse_if(is_changing, f"a change of the navigation of {name} has just been requested")
+    _refuse_while_arming(warden, name)
+
+
+def check_confirm(warden: Warden, name: str, port: str) -> None:
+    """Refuse to confirm the value of an input that is not doubted, or that is confirmed already.
+
+    Raises:
+        ValueError: If the confirmation has no effect.
+    """
+    decision = warden.outputs.robots.get(name)
+    is_doubted = decision is not None and port in decision.doubted
+    _refuse_if(not is_doubted, f"{port} of {name} is not doubted: there is nothing to confirm")
+    is_requested = port in warden.operator.confirm.get(name, ())
+    _refuse_if(is_requested, f"the confirmation of {port} of {name} has been requested already")
 
 
 def robots_to_arm(warden: Warden, names: Sequence[str]) -> list[str]:
@@ -132,7 +157,8 @@ def waiting(warden: Warden, name: str) -> Iterator[str]:
     decision = warden.outputs.robots.get(name)
     if mode_of(warden, name) is Mode.MANUAL:
         yield f"{name} is in manual mode"
-    if warden.operator.stop or not _is_armed(decision):
+    is_armed = name in warden.operator.arm or _is_armed(decision)
+    if warden.operator.stop or not is_armed:
         yield f"{name} is not armed"
     if is_held(warden):
         yield "the robots are held"
@@ -142,6 +168,12 @@ def waiting(warden: Warden, name: str) -> Iterator[str]:
 
 def _is_armed(decision: Decision | None) -> bool:
     return decision is not None and decision.is_armed
+
+
+def _refuse_while_arming(warden: Warden, name: str) -> None:
+    """Refuse what would disarm a robot of which the arming has been accepted in this turn."""
+    is_arming = name in warden.operator.arm
+    _refuse_if(is_arming, f"the arming of {name} has just been requested: repeat this afterwards")
 
 
 def _refuse_if(is_refused: bool, message: str) -> None:  # noqa: FBT001  (what it depends on)

@@ -3,6 +3,7 @@
 import asyncio
 import os
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
@@ -21,16 +22,18 @@ END_S = 5.0
 class LoopProcess:
     """Starts the loop, and exchanges messages with it without ever waiting for it.
 
-    It is started by exec, so that it holds no socket of the warden, and in a session of its own, so
-    that Ctrl-C, Ctrl-Z and a closed terminal reach the warden alone.
+    It is started by exec, so that it holds no socket of the warden except copies of its locks, and
+    in a session of its own, so that Ctrl-C, Ctrl-Z and a closed terminal reach the warden alone.
 
     Attributes:
+        heir: Where copies of locks are sent, which the loop holds; None before the start.
         has_ended: Whether it has ended or was closed.
     """
 
     def __init__(self, received: Callable[[dict[str, Any]], None]) -> None:
         """Create it without starting; `received` is called with each message."""
         self.has_ended = False
+        self.heir: socket.socket | None = None
         self._received, self._decoder = received, Decoder()
         self._queue = bytearray()
         self._is_writing = False
@@ -38,14 +41,19 @@ class LoopProcess:
 
     def start(self, arguments: Sequence[str]) -> None:
         """Start it; must be called in the event loop."""
-        command = [sys.executable, "-m", "agent_economy.live.loop", *arguments]
+        self.heir, inherited = socket.socketpair()
+        self.heir.setblocking(False)  # noqa: FBT003
+        locks = ["--locks", str(inherited.fileno())]
+        command = [sys.executable, "-m", "agent_economy.live.loop", *arguments, *locks]
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL if sys.stderr is None else None,  # closed by its parent
             start_new_session=True,
+            pass_fds=(inherited.fileno(),),
         )
+        inherited.close()
         for stream in (self._process.stdin, self._process.stdout):
             assert stream is not None  # noqa: S101  (both are pipes)
             os.set_blocking(stream.fileno(), False)
@@ -141,7 +149,7 @@ class LoopProcess:
         loop = asyncio.get_running_loop()
         loop.remove_reader(self._stdout)
         loop.remove_writer(self._stdin)
-        for stream in (self._process.stdin, self._process.stdout):
+        for stream in (self._process.stdin, self._process.stdout, self.heir):
             with suppress(OSError):
                 if stream is not None:
                     stream.close()

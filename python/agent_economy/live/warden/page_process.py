@@ -3,10 +3,11 @@
 It is `python -m agent_economy.server.live`. On its standard input it reads JSON, one object a line:
 
 * `{"type": "start", "fleet", "scenario": {"file", "text", "files"}, "seed", "external", "origin",
-  "fences_m", "warden": {"port", "token"}, "token", "port"}`, once. `files` are those that the
+  "fences_m", "warden": {"port", "token"}, "token", "listening"}`, once. `files` are those that the
   scenario refers to, in base 64. `token` is what requests of the page have to contain; it is not an
-  argument, because every user of the machine sees those. `port` is where to serve the page: that of
-  the server that it replaces, or null.
+  argument, because every user of the machine sees those. `listening` is the descriptor of
+  the socket to serve the page at. All servers of a drive inherit the same one: between two of them,
+  another program cannot take the address, of which the origin keeps the token in browsers.
 * `{"type": "input", "tick", "inputs"}` for each step, from the first one on: the percepts of the
   robots whose brains step in it.
 
@@ -17,6 +18,7 @@ serves: `{"type": "ready", "url": "http://127.0.0.1:8765/?token=...#/robots"}`.
 import asyncio
 import os
 import secrets
+import socket
 import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
@@ -30,6 +32,9 @@ from agent_economy.live.warden.endpoint import Endpoint
 from agent_economy.live.warden.history import BLOCK_BYTES, History
 
 COMMAND = (sys.executable, "-m", "agent_economy.server.live")
+
+HOST, PORT = "127.0.0.1", 8765
+"""The usual address of the page; another port if that one is used."""
 
 STUCK_S = 30.0
 """A server that has read nothing for this time, although there is something, is replaced."""
@@ -61,7 +66,7 @@ class PageProcess:
         """Create it without starting.
 
         Args:
-            start: The first message, without `port`.
+            start: The first message, without `listening`.
             ready: Is called with the address of the page, each time that a server serves it.
             failed: Is called when no server is started any more.
             command: The server.
@@ -70,6 +75,7 @@ class PageProcess:
         self._start, self._ready, self._failed = dict(start), ready, failed
         self._command = command
         self._history = History(self._loaded)
+        self._listening: socket.socket | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._decoder = Decoder()
         self._number = self._offset = 0
@@ -86,7 +92,12 @@ class PageProcess:
         return None if self._process is None else self._process.pid
 
     def start(self) -> None:
-        """Start to keep a server running, until `end`."""
+        """Start to keep a server running, until `end`.
+
+        Raises:
+            OSError: If there is no address to serve the page at.
+        """
+        self._listening = _listening_socket()
         self._loop = asyncio.get_running_loop()
         self._task = asyncio.create_task(self._keep_running())
 
@@ -105,6 +116,8 @@ class PageProcess:
         process = self._process
         self._close()
         self._history.close()
+        if self._listening is not None:
+            self._listening.close()
         began_s = now_s()
         while process is not None and process.poll() is None:
             if now_s() - began_s > END_S:
@@ -126,8 +139,9 @@ class PageProcess:
         self._failed()
 
     def _launch(self) -> None:
-        port = urlsplit(self.url).port if self.url else None
-        self._first = encode({**self._start, "port": port})
+        assert self._listening is not None  # noqa: S101  (it has started)
+        listening = self._listening.fileno()
+        self._first = encode({**self._start, "listening": listening})
         self._number = self._offset = 0
         self._block, self._decoder = None, Decoder()
         self._read_s, self._has_served = now_s(), False
@@ -138,6 +152,7 @@ class PageProcess:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL if sys.stderr is None else None,
                 start_new_session=True,
+                pass_fds=(listening,),
             )
             for stream in (self._process.stdin, self._process.stdout):
                 assert stream is not None  # noqa: S101  (both are pipes)
@@ -230,6 +245,26 @@ class PageProcess:
                     stream.close()
 
 
+def _listening_socket() -> socket.socket:
+    """Return a socket that listens on the usual port, or on any that is free."""
+    try:
+        return _listening_at(PORT)
+    except OSError:
+        return _listening_at(0)
+
+
+def _listening_at(port: int) -> socket.socket:
+    listening = socket.socket()
+    try:
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listening.bind((HOST, port))
+        listening.listen()
+    except OSError:
+        listening.close()
+        raise
+    return listening
+
+
 def origins(url: str) -> tuple[str, str]:
     """Return the origins of the pages at an address: this machine has two names."""
     parts = urlsplit(url)
@@ -241,8 +276,10 @@ def origins(url: str) -> tuple[str, str]:
 
 def start_page(
     run: Mapping[str, Any], endpoint: Endpoint, report: Callable[[Mapping[str, Any]], None]
-) -> PageProcess:
+) -> PageProcess | None:
     """Start to serve the page of a drive; its origin may read the answers of the endpoint.
+
+    Without an address to serve it at, that is reported, and there is none.
 
     Args:
         run: What the loop has reported of the run.
@@ -264,5 +301,10 @@ def start_page(
     token = secrets.token_urlsafe(24)
     start = {"type": "start", **run, "warden": warden, "token": token}
     page = PageProcess(start, ready, failed, COMMAND)
-    page.start()
+    try:
+        page.start()
+    except OSError as error:
+        text = f"There is no page: no port of {HOST} can be opened: {error.strerror or error}"
+        report({"type": "message", "message": text})
+        return None
     return page

@@ -102,7 +102,7 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
     with ExitStack() as stack:
         try:
             drive = Drive(plan, str(options.fleet), warden.record)
-            locks = await _locked(stack, plan)
+            locks = await _locked(stack, plan, warden.new_locks)
             endpoint = await _publish(stack, drive, Control(warden, drive, events), report)
         except (LockedError, OSError) as error:
             report({"type": "message", "message": str(error)})
@@ -130,10 +130,12 @@ async def _supervised(options: Options, warden: Warden, report: Report, events: 
     return end
 
 
-async def _locked(stack: ExitStack, plan: FleetPlan) -> dict[str, AddressLocks]:
+async def _locked(
+    stack: ExitStack, plan: FleetPlan, new: Callable[[], AddressLocks]
+) -> dict[str, AddressLocks]:
     """Lock the robots for this drive until the stack is closed; return the locks of each robot."""
     found = await asyncio.gather(*(addresses(robot) for robot in plan.robots))
-    locks = {robot.name: AddressLocks() for robot in plan.robots}
+    locks = {robot.name: new() for robot in plan.robots}
     for own, each in zip(locks.values(), found, strict=True):
         stack.callback(own.close)
         own.take(each)
