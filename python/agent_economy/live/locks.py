@@ -57,9 +57,9 @@ class LockedError(Exception):
 class AddressLocks:
     """Holds locks on the addresses of one robot until closed, or until this process dies."""
 
-    def __init__(self, heir: socket.socket | None = None) -> None:
-        """Hold nothing; another process gets a copy of each lock through `heir`."""
-        self._heir = heir
+    def __init__(self, backup: socket.socket | None = None) -> None:
+        """Hold nothing; a copy of each lock is sent to another process through `backup`."""
+        self._backup = backup
         self._sockets: dict[Address, socket.socket] = {}
         self._holders: dict[Address, Peer | None] = {}
 
@@ -77,9 +77,9 @@ class AddressLocks:
         # In one order, so that of two programs that start at once one gets all.
         for address in sorted(set(map(_normal, addresses)) - set(self._sockets)):
             self._sockets[address] = lock = self._locked(address)
-            if self._heir is not None:
+            if self._backup is not None:
                 with suppress(OSError):  # it has ended
-                    socket.send_fds(self._heir, [b"\0"], [lock.fileno()])
+                    socket.send_fds(self._backup, [b"\0"], [lock.fileno()])
 
     def close(self) -> None:
         """Give up all locks."""

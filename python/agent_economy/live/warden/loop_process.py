@@ -26,14 +26,14 @@ class LoopProcess:
     in a session of its own, so that Ctrl-C, Ctrl-Z and a closed terminal reach the warden alone.
 
     Attributes:
-        heir: Where copies of locks are sent, which the loop holds; None before the start.
+        backup: Where copies of locks are sent, which the loop holds; None before the start.
         has_ended: Whether it has ended or was closed.
     """
 
     def __init__(self, received: Callable[[dict[str, Any]], None]) -> None:
         """Create it without starting; `received` is called with each message."""
         self.has_ended = False
-        self.heir: socket.socket | None = None
+        self.backup: socket.socket | None = None
         self._received, self._decoder = received, Decoder()
         self._queue = bytearray()
         self._is_writing = False
@@ -41,8 +41,8 @@ class LoopProcess:
 
     def start(self, arguments: Sequence[str]) -> None:
         """Start it; must be called in the event loop."""
-        self.heir, inherited = socket.socketpair()
-        self.heir.setblocking(False)  # noqa: FBT003
+        self.backup, inherited = socket.socketpair()
+        self.backup.setblocking(False)  # noqa: FBT003
         locks = ["--locks", str(inherited.fileno())]
         command = [sys.executable, "-m", "agent_economy.live.loop", *arguments, *locks]
         self._process = subprocess.Popen(
@@ -149,7 +149,7 @@ class LoopProcess:
         loop = asyncio.get_running_loop()
         loop.remove_reader(self._stdout)
         loop.remove_writer(self._stdin)
-        for stream in (self._process.stdin, self._process.stdout, self.heir):
+        for stream in (self._process.stdin, self._process.stdout, self.backup):
             with suppress(OSError):
                 if stream is not None:
                     stream.close()

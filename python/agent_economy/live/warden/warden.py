@@ -84,7 +84,7 @@ class Warden:
 
     def new_locks(self) -> AddressLocks:
         """Return locks of a robot, which the loop holds too, also after the end of the warden."""
-        return AddressLocks(self._loop.heir)
+        return AddressLocks(self._loop.backup)
 
     async def drive(self, plan: FleetPlan, locks: Mapping[str, AddressLocks] | None = None) -> End:
         """Drive the robots until the drive ends; then stop them, and close everything.
