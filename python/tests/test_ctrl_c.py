@@ -106,7 +106,7 @@ def started(words: list[str], folder: Path) -> subprocess.Popen[str]:
 
 
 DESCRIPTORS = 96
-"""The limit of a server that runs out of them, were it not for its maximum of connections."""
+"""The limit of a server: without a maximum of connections, it would run out of them."""
 
 
 @contextmanager

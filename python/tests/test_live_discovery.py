@@ -364,9 +364,9 @@ def test_a_user_with_hundreds_of_silent_sockets_delays_neither_the_answers_nor_t
     assert len(times_s) == 1
     assert times_s[0] < 1.0
     assert len([each for each in answers if each.pid == forger.pid]) == search.MAX_PER_USER
-    assert query.not_asked == {OTHER_UID: number - search.MAX_PER_USER}
+    assert query.not_requested == {OTHER_UID: number - search.MAX_PER_USER}
     silent = [each for each in answers if not each.is_stopped]
-    *lines, rest = _not_stopped(silent, query.not_asked)
+    *lines, rest = _not_stopped(silent, query.not_requested)
     assert len(lines) == MAX_SILENT
     assert rest.startswith(f"{number - MAX_SILENT} more programs of user ")
 
@@ -384,7 +384,7 @@ def test_what_has_not_answered_in_time_is_counted(
         monkeypatch.setattr(search, "named_sockets", lambda: found)
         query = Search(0)
         assert query.stop() == []
-    assert query.not_asked == {OTHER_UID: 100}
+    assert query.not_requested == {OTHER_UID: 100}
 
 
 READER = """

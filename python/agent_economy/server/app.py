@@ -34,8 +34,8 @@ from starlette.websockets import WebSocket
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.server.drive import FIELD, Drive, drive_response
-from agent_economy.server.guard import REFUSAL, Guard, is_same
+from agent_economy.server.drive import Drive, drive_response
+from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, errors_response, text
@@ -162,7 +162,7 @@ class Addresses:
 
     async def current_drive(self, request: Request) -> Response:
         """Return the drive; the cookie is not enough, because servers on other ports get it too."""
-        given = request.headers.get(FIELD, request.query_params.get("token", ""))
+        given = request.headers.get(TOKEN_NAME, request.query_params.get("token", ""))
         if self.drive is not None and not is_same(given, self.token):
             return PlainTextResponse(REFUSAL, 403)
         return drive_response(self.drive)

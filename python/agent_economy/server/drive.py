@@ -10,9 +10,6 @@ from dataclasses import asdict, dataclass, field
 
 from starlette.responses import JSONResponse
 
-FIELD = "agent-economy-token"
-"""The field of a request that has the token."""
-
 Point = tuple[float, float]
 
 

@@ -19,14 +19,13 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from agent_economy.live.warden.endpoint import is_of_other_site
+
 REFUSAL = "Open the link with the token that was printed when the server was started."
 
-COOKIE = "agent-economy-token"
-"""The first part of the cookie's name; the port follows, because a browser sends the cookies of a
-host to all of its ports."""
-
-OTHER_SITES = ("cross-site", "same-site")
-"""Values of `Sec-Fetch-Site` of pages of other servers; another port is another server."""
+TOKEN_NAME = "agent-economy-token"  # noqa: S105  (a name, no secret)
+"""The field of a request that has the token, and the first part of the cookie's name; there the
+port follows, because a browser sends the cookies of a host to all of its ports."""
 
 POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; "
@@ -128,7 +127,7 @@ def refusal_of_sender(scope: Scope, headers: Headers, host: str) -> str | None:
     if origin is not None:
         is_own = place_of(origin) == host
         return None if is_own else f"Pages of {origin} may not use this server."
-    if headers.get("sec-fetch-site") in OTHER_SITES and not is_link(scope, headers):
+    if is_of_other_site(headers) and not is_link(scope, headers):
         return "Pages of other sites may not use this server."
     if scope["type"] == "websocket" and headers.get("user-agent", "").startswith("Mozilla"):
         return "Requests of browsers need an Origin header."
@@ -190,4 +189,4 @@ def cookie(headers: Headers) -> str:
 def cookie_name(headers: Headers) -> str:
     """Return the name of the cookie, which contains the port that the browser connects to."""
     _, separator, port = headers.get("host", "").rpartition(":")
-    return f"{COOKIE}-{port if separator and port.isdigit() else 80}"
+    return f"{TOKEN_NAME}-{port if separator and port.isdigit() else 80}"

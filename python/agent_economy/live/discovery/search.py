@@ -22,7 +22,7 @@ from agent_economy.live.discovery.running_drive import RunningDrive
 MAX_THREADS, MAX_FILE_THREADS = 64, 8
 
 MAX_PER_USER = 256
-"""Programs of one user that are asked: any program can pretend to be thousands of drives."""
+"""Programs of one user that a stop is requested from: any can pretend to be thousands of drives."""
 
 TOTAL_S = 10.0
 """Time for all answers; what has not answered then is reported as silent."""
@@ -61,7 +61,7 @@ class Search:
 
     Attributes:
         others: Drives of other users, which only these or root can stop, by process and user.
-        not_asked: Number of programs that were not asked, or not in time, by user.
+        not_requested: Number of programs that no stop was requested from in time, by user.
     """
 
     def __init__(self, uid: int, process: int | None = None) -> None:
@@ -70,7 +70,7 @@ class Search:
         self._seen: set[str] = set()
         self._guard = threading.Lock()
         self.others: list[tuple[int, int]] = []
-        self.not_asked: Counter[int] = Counter()
+        self.not_requested: Counter[int] = Counter()
 
     def stop(self, answered: Callable[[Stopped], None] = lambda _: None) -> list[Stopped]:
         """Find the drives, and stop them all at the same time.
@@ -92,7 +92,7 @@ class Search:
                 answered(each)
         for request, (socket, found) in named.items():
             if not request.done() or request.cancelled():
-                self.not_asked[socket.uid if found.peer is None else found.peer.uid] += 1
+                self.not_requested[socket.uid if found.peer is None else found.peer.uid] += 1
         for pool in pools:
             pool.shutdown(wait=False, cancel_futures=True)
         return sorted(_merged(answers), key=lambda each: (each.uid, each.pid))
@@ -116,7 +116,7 @@ class Search:
                 numbers[each.peer.uid] += 1
                 if numbers[each.peer.uid] > MAX_PER_USER:
                     _close(each)
-                    self.not_asked[each.peer.uid] += self._is_ours(each.peer.uid)
+                    self.not_requested[each.peer.uid] += self._is_ours(each.peer.uid)
                     continue
             found.append((named, each))
         return found

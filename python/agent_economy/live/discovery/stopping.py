@@ -68,20 +68,20 @@ def stop_drives(process: int | None, output: Callable[[str], None], *, as_json: 
 
     search = Search(user(), process)
     answers = search.stop(answered)
-    is_complete = answers and all(each.is_stopped for each in answers) and not search.not_asked
+    is_complete = answers and all(each.is_stopped for each in answers) and not search.not_requested
     exit_code = 0 if is_complete else NOT_STOPPED
     if as_json:
         output(json.dumps([_row(each) for each in answers], indent=2))
         return Report(exit_code, [])
-    if not answers and not +search.not_asked:
+    if not answers and not +search.not_requested:
         others = sorted(set(search.others))[:MAX_OTHERS]
         return Report(exit_code, nothing_found(user(), process, others))
-    return Report(exit_code, list(_not_stopped(answers, +search.not_asked)))
+    return Report(exit_code, list(_not_stopped(answers, +search.not_requested)))
 
 
-def _not_stopped(answers: Sequence[Stopped], not_asked: Counter[int]) -> Iterator[str]:
+def _not_stopped(answers: Sequence[Stopped], not_requested: Counter[int]) -> Iterator[str]:
     """Yield what was not stopped: of each user the first ones, and the number of the others."""
-    named, others = Counter[int](), Counter(not_asked)
+    named, others = Counter[int](), Counter(not_requested)
     for each in answers:
         if not each.is_stopped:
             named[each.uid] += 1
@@ -91,7 +91,7 @@ def _not_stopped(answers: Sequence[Stopped], not_asked: Counter[int]) -> Iterato
                 others[each.uid] += 1
     for uid, number in others.items():
         what = f"{number} more programs of user {local_socket.user_name(uid)}"
-        yield f"{what} that may be drives: no answer, or not asked in time; {REMAINS}"
+        yield f"{what} that may be drives: no answer in time; {REMAINS}"
 
 
 def nothing_found(uid: int, process: int | None, others: Sequence[tuple[int, int]]) -> list[str]:

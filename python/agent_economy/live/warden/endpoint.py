@@ -75,7 +75,7 @@ class Request:
     @property
     def is_of_unknown_page(self) -> bool:
         """Whether a page of another server sends it, without its origin."""
-        return not self.origin and self.fields.get("sec-fetch-site", "").strip() in OTHER_SITES
+        return not self.origin and is_of_other_site(self.fields)
 
     @property
     def is_last(self) -> bool:
@@ -201,6 +201,11 @@ class Endpoint:
             return HTTPStatus.OK, action(body)
         except ValueError as error:
             return HTTPStatus.CONFLICT, {"message": str(error)}
+
+
+def is_of_other_site(fields: Mapping[str, str]) -> bool:
+    """Return whether a browser states that a page of another server sends a request."""
+    return fields.get("sec-fetch-site", "").strip() in OTHER_SITES
 
 
 async def _read(first: bytes, reader: asyncio.StreamReader) -> Request:
