@@ -268,6 +268,17 @@ def driving(
     finally:
         if process.poll() is None:
             process.send_signal(signal.SIGCONT)
-            process.kill()
+            end(process)
         process.wait(timeout=10)
         reader.join(timeout=10)
+
+
+def end(process: subprocess.Popen[str]) -> None:
+    """End a drive soon, as two Ctrl-C do; killed, its loop would hold the locks for seconds."""
+    for _ in range(2):
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.1)
+    try:
+        process.wait(timeout=8)
+    except subprocess.TimeoutExpired:
+        process.kill()

@@ -26,8 +26,8 @@ ROBOTS = tuple(f"bender/{number}" for number in range(5))
 STEPS = 1500
 """2.5 minutes of a drive: the inputs of this number of steps take 5 MB in memory."""
 
-MAX_GROWTH_BYTES = 300_000
-"""Less than a tenth of the inputs as objects."""
+MAX_GROWTH_BYTES = 1_000_000
+"""Less than a third of the inputs as objects; threads and caches of the process take some, too."""
 
 
 def inputs(tick: int) -> Mapping[str, Any]:
