@@ -22,6 +22,9 @@ MOVING = (State.STRAIGHT, State.TURNING, State.MANUAL)
 AUTOMATIC = (State.STRAIGHT, State.TURNING)
 SOME = (State.STRAIGHT, State.MANUAL, State.HELD, State.STOPPED)
 ALL = tuple(State)
+LOOK_S = 0.1
+"""Time after which the loop looks again whether the warden is silent."""
+
 LATER_S = 1.0
 """Time between two faults."""
 
@@ -210,6 +213,8 @@ PROCESSES = (
         "both suspended: loop continued",
         last(SUSPEND_BOTH, signals(("loop", CONT))),
         detect_s=SILENCE_S,
+        # The silence counts from its first look, and it looks every 0.1 s.
+        limit_s=REACTION_S + LOOK_S,
     ),
 )
 
