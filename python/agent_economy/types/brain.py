@@ -743,6 +743,10 @@ class Body(TypedDict):
         rings: Its range rings, in the order of the scans of percepts.
         detectors: Its item detectors, in the order of its sensors.
         position_noise_m: Standard deviation of its position sensor, along each axis.
+        position_drift_m: Standard deviation of the slow error of its position sensor, along
+            each axis.
+        position_drift_s: Time after which that slow error is independent of what it was; 0
+            without one.
         heading_noise_rad: Standard deviation of its compass.
         neighbour_noise_m: Standard deviation of the measured positions of other robots, along
             each axis.
@@ -765,6 +769,8 @@ class Body(TypedDict):
     rings: NotRequired[Sequence[RangeRing]]
     detectors: NotRequired[Sequence[Detector]]
     position_noise_m: NotRequired[float]
+    position_drift_m: NotRequired[float]
+    position_drift_s: NotRequired[float]
     heading_noise_rad: NotRequired[float]
     neighbour_noise_m: NotRequired[float]
     item_kinds: NotRequired[Sequence[str]]

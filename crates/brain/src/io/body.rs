@@ -87,6 +87,14 @@ pub struct Body {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub position_noise_m: f64,
+    /// Standard deviation of the slow error of its position sensor, along each axis.
+    #[serde(default, skip_serializing_if = "is_none")]
+    #[schemars(range(min = 0.0))]
+    pub position_drift_m: f64,
+    /// Time after which that slow error is independent of what it was; 0 without one.
+    #[serde(default, skip_serializing_if = "is_none")]
+    #[schemars(range(min = 0.0))]
+    pub position_drift_s: f64,
     /// Standard deviation of its compass.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
@@ -212,6 +220,11 @@ pub struct RangeRing {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_zero(number: &u32) -> bool {
     *number == 0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_none(error: &f64) -> bool {
+    *error == 0.0
 }
 
 fn at_once() -> f64 {

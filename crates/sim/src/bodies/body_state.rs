@@ -2,6 +2,7 @@
 
 use super::kind::Kind;
 use super::source::BodySource;
+use brain::Motion;
 
 /// The state of a body, besides its pose.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -23,6 +24,14 @@ pub(crate) struct BodyState {
 }
 
 impl BodyState {
+    /// Its speed and turn rate.
+    pub(crate) fn motion(&self) -> Motion {
+        Motion {
+            speed_m_s: self.speed_m_s,
+            turn_rate_rad_s: self.turn_rate_rad_s,
+        }
+    }
+
     pub(crate) fn is_external(&self) -> bool {
         self.source == BodySource::External
     }

@@ -1,10 +1,17 @@
-//! Differential drive with limits, along exact arcs.
+//! Differential drive with limits and errors, along exact arcs.
+
+pub(crate) mod delay;
+mod gains;
+mod lag;
 
 use brain::Motion;
+use delay::{Delay, SetpointQueue};
+use gains::Gains;
+use lag::{Followed, Lag};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Limits of a differential drive.
+/// Limits and errors of a differential drive.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveSpec {
     /// Maximum forward speed, in m/s.
@@ -21,9 +28,46 @@ pub struct DriveSpec {
     /// angle and then drives straight.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub max_turn_rate_deg_s: Option<f64>,
+    /// Time constant of the first-order lag with which speed and turn rate follow their setpoints, in seconds.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub lag_s: f64,
+    /// Time from a setpoint until its effect begins, in seconds.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub delay_s: f64,
+    /// Factor on speed and turn rate: 1.2 makes the robot 20% faster than its setpoints and its limits.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0, max = 2.0))]
+    pub gain: f64,
+    /// Ratio of the gain of the left track or wheel to that of the right one. Their mean is `gain`. It requires
+    /// `max_turn_rate_deg_s`.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.1, max = 10.0))]
+    pub gain_left_right: f64,
+    /// Distance between the tracks or wheels, in metres; only `gain_left_right` depends on it. Without it, the
+    /// diameter of the robot.
+    #[schemars(range(min = 0.001, max = 100.0))]
+    pub track_width_m: Option<f64>,
+    /// Whether the robot measures its speed and turn rate. Without it, true for a drive without errors (lag, delay,
+    /// gains), and false for one with any.
+    pub odometry: Option<bool>,
 }
 
-/// Limits of a drive, converted for the step.
+impl DriveSpec {
+    /// Whether it executes setpoints with errors.
+    pub(crate) fn has_errors(&self) -> bool {
+        let has_time = self.lag_s > 0.0 || self.delay_s > 0.0;
+        has_time || self.gain != 1.0 || self.gain_left_right != 1.0
+    }
+
+    /// The distance between the tracks of a robot of this radius.
+    pub(crate) fn track_width_m(&self, radius_m: f64) -> f64 {
+        self.track_width_m.unwrap_or(2.0 * radius_m)
+    }
+}
+
+/// Limits and errors of a drive, converted for the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Drive {
     pub(crate) max_speed_m_s: f64,
@@ -33,10 +77,43 @@ pub(crate) struct Drive {
     pub(crate) max_turn_rate_rad_s: f64,
     /// Whether the turn of a step happens at its beginning.
     pub(crate) turns_at_once: bool,
+    /// Whether the robot measures its speed and turn rate.
+    pub(crate) has_odometry: bool,
+    /// How it executes setpoints; `None` if exactly.
+    pub(crate) errors: Option<DriveErrors>,
+}
+
+/// How a drive executes setpoints: after a delay, with gains, and with a lag.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DriveErrors {
+    delay: Delay,
+    gains: Gains,
+    lag: Option<Lag>,
+    /// Whether earlier steps have an effect on later ones, besides by the speed.
+    pub(crate) has_memory: bool,
+}
+
+impl DriveErrors {
+    fn new(spec: &DriveSpec, radius_m: f64, step_s: f64) -> Self {
+        let width_m = spec.track_width_m(radius_m);
+        Self {
+            delay: Delay::new(spec.delay_s, step_s),
+            gains: Gains::new(spec.gain, spec.gain_left_right, width_m),
+            lag: Lag::new(spec.lag_s, step_s),
+            has_memory: spec.delay_s > 0.0 || spec.lag_s > 0.0,
+        }
+    }
+
+    /// The setpoints that its delay keeps, if it needs any.
+    pub(crate) fn queue(&self, setpoint: Motion) -> Option<SetpointQueue> {
+        self.has_memory
+            .then(|| SetpointQueue::new(self.delay, setpoint))
+    }
 }
 
 impl Drive {
-    pub(crate) fn new(spec: &DriveSpec, step_s: f64) -> Self {
+    pub(crate) fn new(spec: &DriveSpec, radius_m: f64, step_s: f64) -> Self {
+        let has_errors = spec.has_errors();
         // No heading differs by more than half a turn.
         let at_once_rad_s = std::f64::consts::PI / step_s;
         let turn_rate = spec.max_turn_rate_deg_s.map(f64::to_radians);
@@ -45,7 +122,9 @@ impl Drive {
             max_reverse_speed_m_s: spec.max_reverse_speed_m_s,
             max_acceleration_m_s2: spec.max_acceleration_m_s2.unwrap_or(f64::INFINITY),
             max_turn_rate_rad_s: turn_rate.unwrap_or(at_once_rad_s),
-            turns_at_once: turn_rate.is_none(),
+            turns_at_once: turn_rate.is_none() && spec.lag_s == 0.0,
+            has_odometry: spec.odometry.unwrap_or(!has_errors),
+            errors: has_errors.then(|| DriveErrors::new(spec, radius_m, step_s)),
         }
     }
 
@@ -62,38 +141,130 @@ impl Drive {
         terrain: f64,
         step_s: f64,
     ) -> Driven {
-        let after = self.possible(or_zero(setpoint.speed_m_s), terrain);
-        let max_turn = self.max_turn_rate_rad_s;
-        let turn_rate_rad_s = or_zero(setpoint.turn_rate_rad_s)
-            .max(-max_turn)
-            .min(max_turn);
+        let Motion {
+            speed_m_s: after,
+            turn_rate_rad_s,
+        } = self.possible(setpoint, terrain);
+        let followed = self.accelerate(speed_m_s, after, step_s);
+        Driven {
+            speed_m_s: followed.value,
+            turn_rate_rad_s,
+            length_m: followed.integral,
+            turn_rad: turn_rate_rad_s * step_s,
+        }
+    }
+
+    /// The same with errors, given the present motion of the body and the two setpoints in force.
+    ///
+    /// The setpoints are limited before they have their effect: a gain above 1 makes a robot faster than its limits.
+    pub(crate) fn step_with_errors(
+        &self,
+        errors: &DriveErrors,
+        now: Motion,
+        setpoints: [Motion; 2],
+        (terrain, step_s): (f64, f64),
+    ) -> Driven {
+        let setpoints = setpoints.map(|setpoint| self.possible(setpoint, terrain));
+        let target = errors.gains.applied(errors.delay.mean(setpoints));
+        let (speed, turn_rate) = if let Some(lag) = &errors.lag {
+            let max_rate = self.max_acceleration_m_s2;
+            (
+                lag.follow(now.speed_m_s, target.speed_m_s, max_rate),
+                lag.follow(now.turn_rate_rad_s, target.turn_rate_rad_s, f64::INFINITY),
+            )
+        } else {
+            let turn_rate = Followed {
+                value: target.turn_rate_rad_s,
+                integral: target.turn_rate_rad_s * step_s,
+            };
+            let speed = self.accelerate(now.speed_m_s, target.speed_m_s, step_s);
+            (speed, turn_rate)
+        };
+        Driven {
+            speed_m_s: speed.value,
+            turn_rate_rad_s: turn_rate.value,
+            length_m: speed.integral,
+            turn_rad: turn_rate.integral,
+        }
+    }
+
+    /// The speed after a step at the maximum acceleration, and the distance.
+    #[inline]
+    fn accelerate(&self, speed_m_s: f64, after: f64, step_s: f64) -> Followed {
         let change = after - speed_m_s;
         let change_s = change.abs() / self.max_acceleration_m_s2;
         if change_s <= step_s {
             // While the speed changes, its mean is half way between both.
-            let length_m = after * step_s - change * change_s / 2.0;
-            return Driven {
-                speed_m_s: after,
-                turn_rate_rad_s,
-                length_m,
+            return Followed {
+                value: after,
+                integral: after * step_s - change * change_s / 2.0,
             };
         }
         let after = speed_m_s + self.max_acceleration_m_s2.copysign(change) * step_s;
-        Driven {
-            speed_m_s: after,
-            turn_rate_rad_s,
-            length_m: f64::midpoint(speed_m_s, after) * step_s,
+        Followed {
+            value: after,
+            integral: f64::midpoint(speed_m_s, after) * step_s,
         }
     }
-}
 
-impl Drive {
-    /// The nearest possible speed where `terrain` scales the maximum speeds.
+    /// The nearest possible setpoint where `terrain` scales the maximum speeds.
     #[inline]
-    pub(crate) fn possible(&self, speed_m_s: f64, terrain: f64) -> f64 {
+    fn possible(&self, setpoint: Motion, terrain: f64) -> Motion {
         let least = -self.max_reverse_speed_m_s * terrain;
         let most = self.max_speed_m_s * terrain;
-        speed_m_s.max(least).min(most)
+        let max_turn = self.max_turn_rate_rad_s;
+        Motion {
+            speed_m_s: or_zero(setpoint.speed_m_s).max(least).min(most),
+            turn_rate_rad_s: or_zero(setpoint.turn_rate_rad_s)
+                .max(-max_turn)
+                .min(max_turn),
+        }
+    }
+
+    /// The nearest motion that a body can have where `terrain` scales the maximum speeds.
+    pub(crate) fn executable(&self, motion: Motion, terrain: f64) -> Motion {
+        if self.errors.is_none() {
+            let speed_m_s = self.possible(motion, terrain).speed_m_s;
+            return Motion {
+                speed_m_s,
+                ..motion
+            };
+        }
+        let limits = [self.max_speed_m_s, self.max_reverse_speed_m_s];
+        let [ahead, back] = limits.map(|speed_m_s| self.highest(speed_m_s * terrain));
+        let turn_rad_s = ahead.turn_rate_rad_s.max(back.turn_rate_rad_s);
+        Motion {
+            speed_m_s: motion.speed_m_s.max(-back.speed_m_s).min(ahead.speed_m_s),
+            turn_rate_rad_s: motion.turn_rate_rad_s.max(-turn_rad_s).min(turn_rad_s),
+        }
+    }
+
+    /// The highest speed that results from setpoints up to this one, where the terrain has no effect.
+    pub(crate) fn executed_m_s(&self, speed_m_s: f64) -> f64 {
+        self.highest(speed_m_s).speed_m_s
+    }
+
+    /// The highest speed of the body, forward or in reverse, where the terrain has no effect.
+    pub(crate) fn fastest_m_s(&self) -> f64 {
+        self.fastest().speed_m_s
+    }
+
+    /// The highest turn rate of the body, in either direction, where the terrain has no effect.
+    pub(crate) fn fastest_turn_rad_s(&self) -> f64 {
+        self.fastest().turn_rate_rad_s
+    }
+
+    fn fastest(&self) -> Motion {
+        self.highest(self.max_speed_m_s.max(self.max_reverse_speed_m_s))
+    }
+
+    /// The highest speed and turn rate that result from speed setpoints up to this one, and any turn rate.
+    fn highest(&self, speed_m_s: f64) -> Motion {
+        let max = Motion {
+            speed_m_s,
+            turn_rate_rad_s: self.max_turn_rate_rad_s,
+        };
+        self.errors.map_or(max, |errors| errors.gains.max(max))
     }
 }
 
@@ -105,6 +276,8 @@ pub(crate) struct Driven {
     pub(crate) turn_rate_rad_s: f64,
     /// Forward; negative is reverse.
     pub(crate) length_m: f64,
+    /// Anticlockwise.
+    pub(crate) turn_rad: f64,
 }
 
 impl Driven {
@@ -112,7 +285,12 @@ impl Driven {
         speed_m_s: 0.0,
         turn_rate_rad_s: 0.0,
         length_m: 0.0,
+        turn_rad: 0.0,
     };
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn or_zero(value: f64) -> f64 {
@@ -120,98 +298,4 @@ fn or_zero(value: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    const ROVER: Drive = Drive {
-        max_speed_m_s: 2.0,
-        max_reverse_speed_m_s: 1.0,
-        max_acceleration_m_s2: 4.0,
-        max_turn_rate_rad_s: 1.5,
-        turns_at_once: false,
-    };
-
-    fn motion(speed_m_s: f64, turn_rate_rad_s: f64) -> Motion {
-        Motion {
-            speed_m_s,
-            turn_rate_rad_s,
-        }
-    }
-
-    /// Distance covered in a number of steps until the body has stopped.
-    fn stopping_m(drive: &Drive, speed_m_s: f64, step_s: f64) -> f64 {
-        let (mut speed, mut way) = (speed_m_s, 0.0);
-        while speed != 0.0 {
-            let driven = drive.step(speed, Motion::default(), 1.0, step_s);
-            (speed, way) = (driven.speed_m_s, way + driven.length_m);
-        }
-        way
-    }
-
-    #[test]
-    fn the_stopping_distance_is_that_of_the_closed_form_for_any_step() {
-        for step_s in [0.001, 0.07, 0.1, 0.3, 2.0] {
-            // v^2 / (2 a), forward and in reverse.
-            assert!(
-                (stopping_m(&ROVER, 2.0, step_s) - 0.5).abs() < 1e-12,
-                "{step_s}"
-            );
-            assert!(
-                (stopping_m(&ROVER, -1.0, step_s) + 0.125).abs() < 1e-12,
-                "{step_s}"
-            );
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn the_way_is_the_integral_of_the_speed(
-            speed in -1.0..2.0, setpoint in -3.0..3.0, terrain in 0.0..3.0, step in 0.01..2.0,
-        ) {
-            let driven = ROVER.step(speed, motion(setpoint, 0.0), terrain, step);
-            let (parts, mut now, mut way) = (20_000, speed, 0.0);
-            let target = setpoint.clamp(-terrain, 2.0 * terrain);
-            let part_s = step / f64::from(parts);
-            for _ in 0..parts {
-                let next = now + (target - now).clamp(-4.0 * part_s, 4.0 * part_s);
-                way += f64::midpoint(now, next) * part_s;
-                now = next;
-            }
-            prop_assert!((driven.speed_m_s - now).abs() < 1e-9);
-            prop_assert!((driven.length_m - way).abs() < 1e-6, "{} {way}", driven.length_m);
-        }
-
-        #[test]
-        fn a_drive_keeps_its_limits_whatever_is_wanted(
-            speed: f64, turn: f64, now in -1.0..2.0, step in 0.001..10.0,
-        ) {
-            let driven = ROVER.step(now, motion(speed, turn), 1.0, step);
-            prop_assert!((-1.0..=2.0).contains(&driven.speed_m_s));
-            prop_assert!((driven.speed_m_s - now).abs() <= 4.0 * step + 1e-12);
-            prop_assert!(driven.turn_rate_rad_s.abs() <= 1.5);
-            prop_assert!((-step..=2.0 * step).contains(&driven.length_m));
-        }
-    }
-
-    #[test]
-    fn without_a_limit_speed_changes_at_once() {
-        let drive = Drive {
-            max_acceleration_m_s2: f64::INFINITY,
-            ..ROVER
-        };
-        let driven = drive.step(-1.0, motion(2.0, 0.5), 1.0, 0.1);
-        assert_eq!(driven.speed_m_s, 2.0);
-        assert_eq!(driven.length_m, 2.0 * 0.1);
-        assert_eq!(driven.turn_rate_rad_s, 0.5);
-    }
-
-    #[test]
-    fn nothing_that_is_not_a_number_is_wanted() {
-        let nan = motion(f64::NAN, f64::NAN);
-        assert_eq!(ROVER.step(0.0, nan, 1.0, 0.1), Driven::REST);
-        let infinite = motion(f64::NEG_INFINITY, f64::INFINITY);
-        let driven = ROVER.step(-1.0, infinite, 1.0, 0.1);
-        assert_eq!((driven.speed_m_s, driven.turn_rate_rad_s), (-1.0, 1.5));
-    }
-}
+mod tests;

@@ -8,6 +8,7 @@ use super::{Layer, RobotSpec};
 use crate::goals::kind::capability;
 use crate::radio::Radio;
 use crate::schedule::Schedule;
+use crate::sensors::position::Drift;
 use crate::sensors::{Measure, Measures, Sensor, SensorSpec};
 use crate::world::items::MARK_TOLERANCE_M;
 use base::geometry::{Point, Rectangle};
@@ -123,7 +124,7 @@ impl Kind {
             .collect();
         let tools = spec.tools.ready(step_s);
         let schedule = Schedule::new(spec.brain.rate_hz, step_s);
-        let drive = Drive::new(&spec.drive, step_s);
+        let drive = Drive::new(&spec.drive, spec.radius_m, step_s);
         let body = Body {
             radius_m: spec.radius_m,
             max_speed_m_s: drive.max_speed_m_s,
@@ -138,8 +139,12 @@ impl Kind {
                 .collect(),
             detectors: detectors(name, spec, context),
             position_noise_m: noise(&sensors, |measure| match measure {
-                Measure::Position { noise_m } => Some(*noise_m),
+                Measure::Position { noise_m, .. } => Some(*noise_m),
                 _ => None,
+            }),
+            position_drift_m: noise(&sensors, |measure| Some(drift(measure)?.deviation_m)),
+            position_drift_s: noise(&sensors, |measure| {
+                Some(drift(measure)?.independent_after_s)
             }),
             heading_noise_rad: noise(&sensors, |measure| match measure {
                 Measure::Heading { noise_rad } => Some(*noise_rad),
@@ -197,7 +202,8 @@ impl Kind {
         let Measure::Robots(detector) = &sensor.measure else {
             return None;
         };
-        let is_plain = self.schedule.is_every_step()
+        let is_plain = self.drive.errors.is_none()
+            && self.schedule.is_every_step()
             && self.radio.is_none()
             && sensor.is_immediate()
             && sensor.dropout_probability == 0.0
@@ -243,12 +249,7 @@ impl Kind {
     /// Maximum distance from its centre at the start of a step at which it can touch something in
     /// that step, where it drives at its maximum speed for `longest_s`.
     pub(crate) fn touch_m(&self, longest_s: f64) -> f64 {
-        let Drive {
-            max_speed_m_s,
-            max_reverse_speed_m_s,
-            ..
-        } = self.drive;
-        self.radius_m + 1.01 * max_speed_m_s.max(max_reverse_speed_m_s) * longest_s + 1e-3
+        self.radius_m + 1.01 * self.drive.fastest_m_s() * longest_s + 1e-3
     }
 
     /// Maximum distance at which it detects robots or communicates with them.
@@ -304,6 +305,13 @@ fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
     noises.fold(0.0, f64::max)
 }
 
+fn drift(measure: &Measure) -> Option<Drift> {
+    match measure {
+        Measure::Position { drift, .. } => *drift,
+        _ => None,
+    }
+}
+
 /// The dangers of items for robots in a layer: in the air, there are none.
 fn hazards_m(layer: Layer, context: &KindContext) -> Vec<Option<f64>> {
     let has_any = context.hazards_m.iter().any(Option::is_some);
@@ -317,7 +325,7 @@ fn hazards_m(layer: Layer, context: &KindContext) -> Vec<Option<f64>> {
 fn others(layer: Layer, context: &KindContext) -> Vec<Other> {
     let other = |(name, spec): (&String, &RobotSpec)| Other {
         radius_m: spec.radius_m,
-        max_acceleration_m_s2: Drive::new(&spec.drive, context.step_s).max_acceleration_m_s2,
+        max_acceleration_m_s2: spec.drive.max_acceleration_m_s2.unwrap_or(f64::INFINITY),
         is_in_the_way: spec.layer == layer,
         detectors: detectors(name, spec, context),
     };

@@ -69,11 +69,7 @@ impl Scenario {
         } else {
             1.0
         };
-        let fastest = kind
-            .drive
-            .max_speed_m_s
-            .max(kind.drive.max_reverse_speed_m_s);
-        fastest * speed * self.longest_s()
+        kind.drive.fastest_m_s() * speed * self.longest_s()
     }
 
     fn energy_of_j(&self, kind: &Kind, hardest: TerrainFactors) -> f64 {

@@ -24,7 +24,8 @@ impl GoalMoment<'_> {
         let centre = self.discs[robot].centre;
         let drive = &self.scenario.kind_of(self.ids[robot]).drive;
         let within_m = self.scenario.goals[usize::from(goal.kind)].within_m;
-        let reach_m = within_m + drive.max_speed_m_s * self.scenario.step_s;
+        let speed_m_s = drive.executed_m_s(drive.max_speed_m_s);
+        let reach_m = within_m + speed_m_s * self.scenario.step_s;
         let there = self.scenario.image(centre, goal.at);
         centre.to(there).length_squared() <= reach_m * reach_m
     }

@@ -2,6 +2,7 @@
 
 use super::acting::Acting;
 use super::participant::{Participant, Place};
+use crate::bodies::drive::delay::SetpointQueue;
 use crate::bodies::kind::Kind;
 use crate::sensors::backlog::Backlog;
 use base::noise::Noise;
@@ -14,6 +15,8 @@ pub(crate) struct Agent {
     pub(crate) brain: Brain,
     /// The motion setpoint until the brain steps again.
     pub(crate) setpoint: Motion,
+    /// The setpoints of the last steps, if its drive has a lag or a delay.
+    pub(crate) queue: Option<Box<SetpointQueue>>,
     /// A bit for each sensor that is switched off.
     pub(crate) sensors_off: u32,
     pub(crate) inputs: Inputs,
@@ -44,6 +47,7 @@ impl Agent {
         Self {
             brain: kind.brain.clone(),
             setpoint: Motion::default(),
+            queue: queue(kind, Motion::default()),
             sensors_off: 0,
             inputs: Inputs {
                 backlog: kind
@@ -52,6 +56,29 @@ impl Agent {
                 participant: kind.radio.map(participant),
                 acting: Acting::new(kind),
             },
+        }
+    }
+
+    /// Queues the setpoint of this step, if the drive has a lag or a delay.
+    #[inline]
+    pub(crate) fn queue_setpoint(&mut self) {
+        if let Some(queue) = &mut self.queue {
+            queue.push(self.setpoint);
+        }
+    }
+
+    /// The setpoints that the drive executes in this step, one after the other.
+    #[inline]
+    pub(crate) fn setpoints_in_force(&self) -> [Motion; 2] {
+        let queue = self.queue.as_ref();
+        queue.map_or([self.setpoint; 2], |queue| queue.in_force())
+    }
+
+    /// Takes over the setpoints that the drive has not executed from the agent before.
+    pub(crate) fn take_over_queue(&mut self, before: &Self, kind: &Kind) {
+        self.queue = queue(kind, before.setpoint);
+        if let Some((now, before)) = self.queue.as_mut().zip(before.queue.as_ref()) {
+            now.take_over(before);
         }
     }
 
@@ -124,6 +151,12 @@ impl Inputs {
             participant.deliver(now, step_s, &mut to.inbox);
         }
     }
+}
+
+/// The setpoints that the drive of a robot keeps, if this was the one in all steps so far.
+fn queue(kind: &Kind, setpoint: Motion) -> Option<Box<SetpointQueue>> {
+    let queue = kind.drive.errors?.queue(setpoint);
+    queue.map(Box::new)
 }
 
 /// Whether a sensor is on, by the bits of those that are off.

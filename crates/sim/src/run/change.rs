@@ -109,6 +109,7 @@ impl State {
             let kind = to.kind_of(id);
             self.discs[robot].centre = before.discs[was].centre;
             self.orientations[robot] = before.orientations[was];
+            self.agents[robot].take_over_queue(&before.agents[was], kind);
             self.body_states[robot] = kept_body_state(&before.body_states[was], kind, to);
             if has_same_agent(old_kind, kind) {
                 self.agents[robot].take_over(&before.agents[was]);
@@ -223,10 +224,11 @@ fn kept_body_state(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodySt
         _ if is_used_up => Status::Empty,
         _ => Status::Active,
     };
+    let drive = &kind.drive;
+    let motion = drive.executable(body_state.motion(), to.max_speed_factor());
     BodyState {
-        speed_m_s: kind
-            .drive
-            .possible(body_state.speed_m_s, to.max_speed_factor()),
+        speed_m_s: motion.speed_m_s,
+        turn_rate_rad_s: motion.turn_rate_rad_s,
         status,
         ..*body_state
     }

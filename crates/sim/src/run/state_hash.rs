@@ -53,6 +53,10 @@ impl State {
         let is_external = u64::from(body_state.is_external());
         let status = is_external << 7 | body_state.status as u64;
         hash.add(u64::from(body_state.collisions) << 8 | status);
+        if let Some(queue) = &self.agents[robot].queue {
+            body_state.turn_rate_rad_s.add_to(hash);
+            queue.add_to(hash);
+        }
         if let Some(acting) = &self.agents[robot].inputs.acting {
             acting.add_to(hash);
         }

@@ -20,7 +20,7 @@ pub(crate) mod sensor_frame;
 use crate::schedule::{Schedule, steps_of};
 use heading::HeadingSpec;
 use items::{ItemDetector, ItemsSpec};
-use position::PositionSpec;
+use position::{Drift, PositionSpec};
 use range::{RangeSpec, Ring};
 use robots::{RobotDetector, RobotsSpec};
 use schemars::JsonSchema;
@@ -85,7 +85,7 @@ pub(crate) enum Measure {
     Range(Ring),
     Items(ItemDetector),
     Robots(RobotDetector),
-    Position { noise_m: f64 },
+    Position { noise_m: f64, drift: Option<Drift> },
     Heading { noise_rad: f64 },
 }
 
@@ -130,6 +130,7 @@ impl Sensor {
             Measures::Robots(spec) => Measure::Robots(RobotDetector::new(spec)),
             Measures::Position(spec) => Measure::Position {
                 noise_m: spec.noise_m,
+                drift: Drift::new(spec),
             },
             Measures::Heading(spec) => Measure::Heading {
                 noise_rad: spec.noise_deg.to_radians(),

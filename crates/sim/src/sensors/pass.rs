@@ -29,7 +29,7 @@ impl Path {
     /// Of a robot at its maximum speed with one of its sensors.
     pub(crate) fn new(robot: &RobotSpec, sensor: &SensorSpec, step_s: f64) -> Self {
         Self {
-            speed_m_s: robot.drive.max_speed_m_s,
+            speed_m_s: robot.drive.gain * robot.drive.max_speed_m_s,
             period_s: Schedule::new(sensor.rate_hz, step_s).period_s(step_s),
             dropout_probability: sensor.dropout_probability,
         }

@@ -36,6 +36,8 @@ pub(crate) enum NoisePurpose {
     Failure = 11,
     /// Whether sensors of a model can detect an item; not a robot's.
     Blindness = 12,
+    /// The slow error of a position, by its time.
+    Drift = 13,
     /// Whether a charge destroys an item; not a sensor's.
     Act = 14,
     /// Whether an item destroys a robot; not a sensor's.
@@ -75,6 +77,11 @@ impl SensorFrame<'_> {
     pub(crate) fn words(&self, used: NoisePurpose, index: u32) -> [u32; 4] {
         self.noise
             .words(used.of_sensor(self.sensor), self.measurement, index)
+    }
+
+    /// The random words for a time that does not depend on measurements.
+    pub(crate) fn words_at(&self, used: NoisePurpose, time: u64) -> [u32; 4] {
+        self.noise.words(used.of_sensor(self.sensor), time, 0)
     }
 
     /// The random words for one thing of a kind.

@@ -205,10 +205,8 @@ impl WorkerScratch {
         percept.random_words =
             view.noises[robot].words(NoisePurpose::RandomWords as u32, brain_step, 0);
         percept.touch = now(body_state.is_pressed);
-        percept.motion = now(Motion {
-            speed_m_s: body_state.speed_m_s,
-            turn_rate_rad_s: body_state.turn_rate_rad_s,
-        });
+        let odometry = kind.drive.has_odometry.then(|| body_state.motion());
+        percept.motion = odometry.and_then(now);
         percept.battery = body_state.charge(kind).and_then(now);
     }
 

@@ -2,6 +2,7 @@
 
 use super::destination::Destination;
 use super::view::View;
+use crate::clock::seconds;
 use crate::sensors::backlog::Backlog;
 use crate::sensors::items::ItemDetector;
 use crate::sensors::range::RingBuffers;
@@ -104,10 +105,15 @@ impl Measurement<'_> {
                 }
                 ring.measure(frame, &mut buffers.rays, values);
             }
-            Measure::Position { noise_m } => {
+            Measure::Position { noise_m, drift } => {
                 let [x, y] = deviations(frame).map(|deviation| deviation * noise_m);
                 values.clear();
                 values.extend([frame.at.x + x, frame.at.y + y]);
+                if let Some(drift) = drift {
+                    let error = drift.at(frame, seconds(self.view.tick, self.view.scenario.step_s));
+                    values[0] += error.x;
+                    values[1] += error.y;
+                }
             }
             Measure::Heading { noise_rad } => {
                 let heading_rad = self.view.orientations[self.robot].heading_rad;

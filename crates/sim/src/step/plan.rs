@@ -69,17 +69,18 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
         };
     }
     let terrain_factors = scenario.terrain_factors(disc.centre, kind.layer);
-    let driven = kind.drive.step(
-        state.speed_m_s,
-        agent.setpoint,
-        terrain_factors.speed,
-        scenario.step_s,
-    );
-    let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
-    let (front, turn_rad) = if kind.drive.turns_at_once {
-        (course.turned(turn_rad).front, 0.0)
+    let (drive, terrain, step_s) = (&kind.drive, terrain_factors.speed, scenario.step_s);
+    let driven = match &drive.errors {
+        None => drive.step(state.speed_m_s, agent.setpoint, terrain, step_s),
+        Some(errors) => {
+            let setpoints = agent.setpoints_in_force();
+            drive.step_with_errors(errors, state.motion(), setpoints, (terrain, step_s))
+        }
+    };
+    let (front, turn_rad) = if drive.turns_at_once {
+        (course.turned(driven.turn_rad).front, 0.0)
     } else {
-        (course.front, turn_rad)
+        (course.front, driven.turn_rad)
     };
     let mut path = Path {
         start: disc.centre,
@@ -129,7 +130,7 @@ impl Plan {
         if self.path.length_m != 0.0 {
             disc.centre = scenario.home(self.path.at(1.0));
         }
-        let turn_rad = self.driven.turn_rate_rad_s * scenario.step_s;
+        let turn_rad = self.driven.turn_rad;
         *course = if kind.drive.turns_at_once && turn_rad != 0.0 {
             course.turned_to(turn_rad, self.path.front)
         } else {

@@ -171,6 +171,7 @@ impl StepScratch {
             for (place, (agent, plan)) in agents.iter_mut().zip(plans).enumerate() {
                 let robot = number * size + place;
                 worker.serve(&inputs, robot, agent);
+                agent.queue_setpoint();
                 *plan = planned(scenario, view.tick, &view.body(robot, agent));
             }
         };

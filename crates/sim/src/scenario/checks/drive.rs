@@ -1,6 +1,7 @@
-//! Checks that a step is short enough for how fast bodies move.
+//! Checks that a step is short enough for how fast bodies move, and that drives have what their errors need.
 
-use crate::bodies::drive::DriveSpec;
+use crate::bodies::RobotSpec;
+use crate::bodies::drive::Drive;
 use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
@@ -15,13 +16,20 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let robots = spec
         .robots
         .iter()
-        .map(|(name, robot)| (&robot.drive, at.key("robots").key(name)));
-    robots
-        .flat_map(|(drive, at)| errors_of(drive, (step_s, across_m), &at.key("drive")))
-        .collect()
+        .map(|(name, robot)| (robot, at.key("robots").key(name).key("drive")));
+    let errors = robots.flat_map(|(robot, at)| {
+        let mut errors = of_limits(robot, (step_s, across_m), &at);
+        errors.extend(missing(robot, &at));
+        if errors.is_empty() {
+            errors.extend(of_gains(robot, (step_s, across_m), &at));
+        }
+        errors
+    });
+    errors.collect()
 }
 
-fn errors_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> Vec<InputError> {
+fn of_limits(robot: &RobotSpec, (step_s, across_m): (f64, f64), at: &Place) -> Vec<InputError> {
+    let drive = &robot.drive;
     let mut errors = Vec::new();
     for (key, speed) in [
         ("max_speed_m_s", drive.max_speed_m_s),
@@ -42,4 +50,49 @@ fn errors_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> V
         )));
     }
     errors
+}
+
+/// What a drive with different gains needs.
+fn missing(robot: &RobotSpec, at: &Place) -> Vec<InputError> {
+    let drive = &robot.drive;
+    if drive.gain_left_right == 1.0 {
+        return Vec::new();
+    }
+    let turn_rate = drive.max_turn_rate_deg_s.is_none().then(|| {
+        let allowed = "a number from 0 to 3600 (degrees per second): gain_left_right requires it";
+        at.key("max_turn_rate_deg_s").error(allowed)
+    });
+    let width = (drive.track_width_m(robot.radius_m) <= 0.0).then(|| {
+        let allowed = "a number from 0.001 to 100 (metres): gain_left_right requires it for a robot with a radius of 0";
+        at.key("track_width_m").error(allowed)
+    });
+    turn_rate.into_iter().chain(width).collect()
+}
+
+/// Gains with which a robot exceeds what its limits keep.
+fn of_gains(robot: &RobotSpec, (step_s, across_m): (f64, f64), at: &Place) -> Option<InputError> {
+    let spec = &robot.drive;
+    let drive = Drive::new(spec, robot.radius_m, step_s);
+    let has_rate = spec.max_turn_rate_deg_s.is_some();
+    let turn_deg = (drive.fastest_turn_rad_s() * step_s).to_degrees();
+    let limit = if drive.fastest_m_s() * step_s > across_m {
+        "crosses the world"
+    } else if has_rate && turn_deg > MAX_TURN_DEG {
+        "makes more than half a turn"
+    } else {
+        return None;
+    };
+    let key = if spec.gain_left_right == 1.0 {
+        "gain"
+    } else {
+        "gain_left_right"
+    };
+    let nearer = if spec.gain_left_right == 1.0 {
+        "lower"
+    } else {
+        "nearer to 1"
+    };
+    Some(at.key(key).error(format!(
+        "{nearer}: with it, the robot {limit} in one step of {step_s} s at its maximum setpoints"
+    )))
 }
