@@ -58,7 +58,12 @@ impl DriveSpec {
     /// Whether it executes setpoints with errors.
     pub(crate) fn has_errors(&self) -> bool {
         let has_time = self.lag_s > 0.0 || self.delay_s > 0.0;
-        has_time || self.gain != 1.0 || self.gain_left_right != 1.0
+        has_time || !is_one(self.gain) || !self.has_equal_tracks()
+    }
+
+    /// Whether both tracks have the same gain.
+    pub(crate) fn has_equal_tracks(&self) -> bool {
+        is_one(self.gain_left_right)
     }
 
     /// The distance between the tracks of a robot of this radius.
@@ -287,6 +292,10 @@ impl Driven {
         length_m: 0.0,
         turn_rad: 0.0,
     };
+}
+
+fn is_one(gain: f64) -> bool {
+    gain.total_cmp(&1.0).is_eq()
 }
 
 fn one() -> f64 {

@@ -15,23 +15,20 @@ pub(crate) struct Delay {
 
 impl Delay {
     pub(crate) fn new(delay_s: f64, step_s: f64) -> Self {
-        let steps = delay_s / step_s;
+        let parts = delay_s / step_s;
         // Delays that are multiples of the step but for rounding.
-        let nearest = steps.round();
-        let steps = if (steps - nearest).abs() < 1e-9 {
-            nearest
-        } else {
-            steps
-        };
+        let nearest = parts.round();
+        let is_multiple = (parts - nearest).abs() < 1e-9;
+        let parts = if is_multiple { nearest } else { parts };
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "from 0 to 1e7"
         )]
-        let whole = steps as usize;
+        let whole = parts as usize;
         Self {
             steps: whole,
-            share: steps.fract(),
+            share: parts.fract(),
         }
     }
 

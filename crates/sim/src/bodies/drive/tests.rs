@@ -93,3 +93,124 @@ fn nothing_that_is_not_a_number_is_wanted() {
     let driven = ROVER.step(-1.0, infinite, 1.0, 0.1);
     assert_eq!((driven.speed_m_s, driven.turn_rate_rad_s), (-1.0, 1.5));
 }
+
+/// A drive with errors, of a robot that accelerates as fast as it likes unless the spec limits it.
+fn drive_of(more: DriveSpec) -> Drive {
+    Drive::new(&more, 0.25, 0.1)
+}
+
+fn exact_spec() -> DriveSpec {
+    DriveSpec {
+        max_speed_m_s: 2.0,
+        max_reverse_speed_m_s: 1.0,
+        max_acceleration_m_s2: None,
+        max_turn_rate_deg_s: Some(90.0),
+        lag_s: 0.0,
+        delay_s: 0.0,
+        gain: 1.0,
+        gain_left_right: 1.0,
+        track_width_m: None,
+        odometry: None,
+    }
+}
+
+#[test]
+fn a_drive_measures_its_motion_unless_it_has_errors_or_a_scenario_decides() {
+    assert!(drive_of(exact_spec()).has_odometry);
+    assert_eq!(drive_of(exact_spec()).errors, None);
+    let with = [
+        DriveSpec {
+            lag_s: 0.1,
+            ..exact_spec()
+        },
+        DriveSpec {
+            delay_s: 0.1,
+            ..exact_spec()
+        },
+        DriveSpec {
+            gain: 0.9,
+            ..exact_spec()
+        },
+        DriveSpec {
+            gain_left_right: 1.1,
+            ..exact_spec()
+        },
+    ];
+    for spec in with {
+        assert!(!drive_of(spec).has_odometry, "{spec:?}");
+        let odometry = Some(true);
+        assert!(drive_of(DriveSpec { odometry, ..spec }).has_odometry);
+    }
+    let odometry = Some(false);
+    assert!(
+        !drive_of(DriveSpec {
+            odometry,
+            ..exact_spec()
+        })
+        .has_odometry
+    );
+}
+
+#[test]
+fn only_a_drive_without_lag_turns_at_once() {
+    let at_once = DriveSpec {
+        max_turn_rate_deg_s: None,
+        ..exact_spec()
+    };
+    assert!(drive_of(at_once).turns_at_once);
+    assert!(
+        drive_of(DriveSpec {
+            gain: 1.1,
+            ..at_once
+        })
+        .turns_at_once
+    );
+    assert!(
+        !drive_of(DriveSpec {
+            lag_s: 0.1,
+            ..at_once
+        })
+        .turns_at_once
+    );
+}
+
+proptest! {
+    #[test]
+    fn a_drive_with_errors_keeps_its_executed_limits(
+        speeds: [f64; 2], turns: [f64; 2], gains in (0.0..2.0, 0.1..10.0), times in (0.0..1.0, 0.0..1.0),
+        acceleration in 0.1..9.0,
+    ) {
+        let drive = drive_of(DriveSpec {
+            gain: gains.0,
+            gain_left_right: gains.1,
+            lag_s: times.0,
+            delay_s: times.1,
+            max_acceleration_m_s2: Some(acceleration),
+            ..exact_spec()
+        });
+        let errors = drive.errors.unwrap();
+        let setpoints = [0, 1].map(|place| motion(speeds[place], turns[place]));
+        let mut now = Motion::default();
+        for _ in 0..20 {
+            let driven = drive.step_with_errors(&errors, now, setpoints, (1.0, 0.1));
+            prop_assert!(driven.speed_m_s.abs() <= drive.fastest_m_s() + 1e-9);
+            prop_assert!(driven.length_m.abs() <= drive.fastest_m_s() * 0.1 + 1e-9);
+            prop_assert!(driven.turn_rate_rad_s.abs() <= drive.fastest_turn_rad_s() + 1e-9);
+            prop_assert!((driven.speed_m_s - now.speed_m_s).abs() <= acceleration * 0.1 + 3e-6);
+            now = motion(driven.speed_m_s, driven.turn_rate_rad_s);
+            prop_assert_eq!(drive.executable(now, 1.0), now);
+        }
+    }
+
+    #[test]
+    fn without_errors_a_drive_with_errors_is_exact(
+        speed: f64, turn: f64, now in -1.0..2.0, terrain in 0.1..3.0,
+    ) {
+        let drive = drive_of(exact_spec());
+        let errors = DriveErrors::new(&exact_spec(), 0.25, 0.1);
+        let setpoint = motion(speed, turn);
+        let state = motion(now, 0.0);
+        let with = drive.step_with_errors(&errors, state, [setpoint; 2], (terrain, 0.1));
+        prop_assert_eq!(with, drive.step(now, setpoint, terrain, 0.1));
+    }
+}

@@ -55,7 +55,7 @@ fn of_limits(robot: &RobotSpec, (step_s, across_m): (f64, f64), at: &Place) -> V
 /// What a drive with different gains needs.
 fn missing(robot: &RobotSpec, at: &Place) -> Vec<InputError> {
     let drive = &robot.drive;
-    if drive.gain_left_right == 1.0 {
+    if drive.has_equal_tracks() {
         return Vec::new();
     }
     let turn_rate = drive.max_turn_rate_deg_s.is_none().then(|| {
@@ -82,15 +82,10 @@ fn of_gains(robot: &RobotSpec, (step_s, across_m): (f64, f64), at: &Place) -> Op
     } else {
         return None;
     };
-    let key = if spec.gain_left_right == 1.0 {
-        "gain"
+    let (key, nearer) = if spec.has_equal_tracks() {
+        ("gain", "lower")
     } else {
-        "gain_left_right"
-    };
-    let nearer = if spec.gain_left_right == 1.0 {
-        "lower"
-    } else {
-        "nearer to 1"
+        ("gain_left_right", "nearer to 1")
     };
     Some(at.key(key).error(format!(
         "{nearer}: with it, the robot {limit} in one step of {step_s} s at its maximum setpoints"

@@ -36,6 +36,9 @@ const TRACKS: f64 = 64.0;
 /// One measured number.
 const VALUE_BYTES: f64 = 8.0;
 
+/// One setpoint in the delay of a drive.
+const SETPOINT_BYTES: f64 = 16.0;
+
 /// Bytes of a list besides its values, and its minimum capacity.
 const LIST_BYTES: f64 = 16.0;
 const MIN_VALUES: f64 = 4.0;
@@ -94,7 +97,8 @@ fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let radio = robot.radio.as_ref();
     let rate_hz = robot.brain.rate_hz;
     let radio = radio.map_or(0.0, |radio| bytes_of_radio(radio, rate_hz, spec));
-    ROBOT_BYTES + sensors + radio + bytes_of_beliefs(robot)
+    let delayed = robot.drive.delay_s / spec.clock.step_s * SETPOINT_BYTES;
+    ROBOT_BYTES + sensors + radio + delayed + bytes_of_beliefs(robot)
 }
 
 fn bytes_of_controller(kind: &ControllerSpec, spec: &ScenarioSpec) -> f64 {

@@ -5,6 +5,7 @@ use base::error::InputErrors;
 mod brains;
 mod clearance;
 mod controllers;
+mod drive;
 mod end;
 mod goals;
 mod identification;

@@ -15,6 +15,7 @@ mod correct;
 mod dead_end;
 mod decision_hashes;
 mod determinism;
+mod drive_errors;
 mod end;
 mod events;
 mod external;
