@@ -7,8 +7,15 @@ from typing import Any
 from agent_economy.live.emulator import Emulator, Settings, Setup
 from agent_economy.scenario import Override, Scenario
 
-EXACT = {"gps_noise_m": 0, "compass_noise_deg": 0}
-"""Settings without noise."""
+EXACT = {
+    "gps_noise_m": 0,
+    "gps_drift_m": 0,
+    "compass_noise_deg": 0,
+    "lag_s": 0,
+    "delay_s": 0,
+    "gain_left_right": 1,
+}
+"""Settings of an ideal robot: its sensors and its drive have no errors."""
 
 FAST = {"compass_hz": 20, "gps_hz": 20, "sonar_hz": 20}
 """Settings with lines in every step."""

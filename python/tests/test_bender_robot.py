@@ -1,13 +1,16 @@
 """The emulated Bender in its world, stepped without sockets and without waiting."""
 
 import asyncio
+import itertools
 import math
 
 import pytest
 from bender_client import placed, step, stepped
 
 import agent_economy as ae
-from agent_economy.live.emulator import Emulator
+from agent_economy._core import InputError
+from agent_economy.live.emulator import Emulator, Settings
+from agent_economy.scenario import Override, Scenario
 
 
 def visits(simulation: ae.Simulation) -> int:
@@ -140,6 +143,71 @@ def test_noise_can_be_set_while_the_robot_keeps_its_place() -> None:
     emulator.set({"gps_noise_m": 0})
     step(emulator, 0.05)
     assert emulator.robots[0].line("gps") == exact
+
+
+def test_by_default_the_robot_follows_its_motor_lines_late_and_unequally() -> None:
+    settings = Settings()
+    errors = {name: getattr(settings, name) for name in ("lag_s", "delay_s", "gain_left_right")}
+    emulator = stepped(errors, scenario=placed([[5, 5]], [0]))
+    emulator.robots[0].obey("motors", b"x,2,175,", 0)
+    step(emulator, 0.05)
+    assert pose(emulator)["speed_m_s"] == 0
+    step(emulator, 3.95)
+    # 0.5 m/s after a delay and a lag, along the circle of tracks with a ratio of 1.03.
+    skew = 0.03 / 2.03
+    length_m = 0.5 * (4 - settings.delay_s - settings.lag_s)
+    turned_rad = -2 * skew / settings.track_width_m * length_m
+    assert pose(emulator)["heading_rad"] == pytest.approx(turned_rad, abs=1e-3)
+    # The limited acceleration of the scenario loses some more.
+    chord_m = math.sin(turned_rad / 2) / (turned_rad / 2) * (length_m - 0.03)
+    expected_m = 5 + chord_m * math.cos(turned_rad / 2)
+    assert pose(emulator)["x_m"] == pytest.approx(expected_m, abs=0.005)
+
+
+def test_errors_of_the_drive_can_be_set_while_the_robot_keeps_its_motion() -> None:
+    emulator = stepped(scenario=placed([[5, 5]], [0]))
+    emulator.robots[0].obey("motors", b"x,2,170,", 0)
+    step(emulator, 1)
+    assert pose(emulator)["speed_m_s"] == pytest.approx(0.4)
+    emulator.set({"gain": 1.25, "lag_s": 0.5})
+    before = pose(emulator)
+    step(emulator, 0.05)
+    assert before["speed_m_s"] < pose(emulator)["speed_m_s"] < 0.42
+    step(emulator, 5)
+    assert pose(emulator)["speed_m_s"] == pytest.approx(0.5, abs=1e-3)
+    emulator.set({"lag_s": 0, "gain_left_right": 2, "track_width_m": 1})
+    step(emulator, 1)
+    turned_rad = -2 / 3 * 0.5
+    assert pose(emulator)["heading_rad"] == pytest.approx(turned_rad, abs=0.01)
+
+
+def test_fixes_drift_slowly_and_far() -> None:
+    settings = {"gps_drift_m": 5, "gps_drift_s": 10, "gps_digits": 8}
+    emulator = stepped(settings, scenario=placed([[20, 5]], [0]))
+    places = []
+    for _ in range(1200):
+        step(emulator, 0.05)
+        at_m = emulator.robots[0].senses.at_m
+        assert at_m is not None
+        places.append(at_m)
+    steps_m = [math.dist(*pair) for pair in itertools.pairwise(places)]
+    off_m = [math.dist(place, (20, 5)) for place in places]
+    assert max(steps_m) < 0.5
+    assert max(off_m) > 5
+    emulator.set({"gps_drift_m": 0})
+    step(emulator, 0.05)
+    assert emulator.robots[0].senses.at_m == pytest.approx((20, 5))
+
+
+def test_a_setting_that_the_scenario_does_not_allow_changes_nothing() -> None:
+    scenario = Scenario.load("bender").changed(
+        (Override.at("robots.bender.drive.max_turn_rate_deg_s", 1800, "test"),)
+    )
+    emulator = stepped(scenario=scenario)
+    before = emulator.settings
+    with pytest.raises(InputError, match="gain_left_right = 1.5: must be nearer to 1"):
+        emulator.set({"gps_drift_m": 1, "gain": 2, "gain_left_right": 1.5})
+    assert emulator.settings == before
 
 
 def test_a_runaway_drives_when_it_is_to_stop_and_otherwise_obeys() -> None:

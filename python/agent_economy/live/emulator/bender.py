@@ -12,6 +12,9 @@ KIND = "bender"
 
 SONARS = tuple(f"sonar_{index}" for index in range(6))
 
+DRIVE = ("lag_s", "delay_s", "gain", "gain_left_right", "track_width_m")
+"""Settings that are values of the drive of the scenario, under the same names."""
+
 Values = dict[str, Any]
 """Values of the scenario, by path."""
 
@@ -78,12 +81,23 @@ class Bender:
             f"{robot}.brain.rate_hz": MAX_RATE_HZ,
             "clock.step_s": 1 / MAX_RATE_HZ,
             **{f"{robot}.sensors.{name}.rate_hz": MAX_RATE_HZ for name in every},
-            **self.noise(settings),
+            **self.errors(settings),
         }
         overrides = (Override.at(path, value, "emulator") for path, value in values.items())
         return self.scenario.changed(tuple(overrides))
 
-    def noise(self, settings: Settings) -> Values:
+    def errors(self, settings: Settings) -> Values:
+        """Return the errors of the drive and of the sensors."""
+        robot = f"robots.{KIND}"
+        drive = {f"{robot}.drive.{name}": getattr(settings, name) for name in DRIVE}
+        receiver = f"{robot}.sensors.{self.position}"
+        drift = {
+            f"{receiver}.drift_m": settings.gps_drift_m,
+            f"{receiver}.drift_s": settings.gps_drift_s,
+        }
+        return drive | drift | self._noise(settings)
+
+    def _noise(self, settings: Settings) -> Values:
         """Return the noise of the receiver and the compass: of the settings, or its own."""
         spec = self.scenario.to_dict()["robots"][KIND]["sensors"]
         keys = (

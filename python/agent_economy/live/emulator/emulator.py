@@ -162,20 +162,18 @@ class Emulator:
         """Change settings, by name.
 
         Raises:
-            InputError: If a name is unknown or a value is not allowed. It lists all errors.
+            InputError: If a name is unknown or a value is not allowed. It lists all errors, and
+                nothing is changed.
         """
-        before, self.settings = self.settings, self.settings.changed(values)
+        settings = self.settings.changed(values)
+        self._world.set_errors(settings)
+        self.settings = settings
         for robot in self.robots:
-            robot.settings = self.settings
-        if self._noise(before) != self._noise(self.settings):
-            self._world.set_noise(self.settings)
+            robot.settings = settings
         self._limit_motor_clients()
         # A line that was due in an hour would still be.
         self._next_s = dict.fromkeys(self._next_s, 0.0)
         self.log.add("set", None, None, values=dict(values))
-
-    def _noise(self, settings: Settings) -> tuple[float | str, ...]:
-        return settings.gps_noise_m, settings.compass_noise_deg
 
     def _limit_motor_clients(self) -> None:
         for ports in self._ports:

@@ -87,7 +87,7 @@ class Robot:
         return True
 
     def motion(self) -> Motion:
-        """Return the motion of the next step, before the limits of the body."""
+        """Return the motion of the next step, before the limits and the errors of the drive."""
         turn_rate = self.coprocessor.turn_rate_rad_s(self.raw_compass_deg(), self.settings)
         if turn_rate != 0:
             return 0.0, turn_rate

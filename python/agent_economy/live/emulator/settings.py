@@ -84,6 +84,16 @@ class Settings:
         number(0, 1000, "metres", "scenario"),
         "Standard deviation of a fix along each axis; by default that of the scenario.",
     )
+    gps_drift_m: float = setting(
+        0.2,
+        number(0, 1000, "metres"),
+        "Standard deviation of the slow error of a fix along each axis.",
+    )
+    gps_drift_s: float = setting(
+        60.0,
+        number(0.1, 1e6, "seconds"),
+        "Time after which the slow error of a fix is independent of what it was.",
+    )
     gps_digits: int = setting(
         4,
         Rule("a whole number from 0 to 8", lambda value: validation.is_whole(value, 0, 8)),
@@ -106,10 +116,21 @@ class Settings:
     reverse_m_s_per_unit: float = setting(
         0.02, number(1e-4, 1, "m/s"), "Speed of a track per unit below 150."
     )
-    left_gain: float = setting(1.0, number(0, 10), "Factor on the speed of the left track.")
-    right_gain: float = setting(1.0, number(0, 10), "Factor on the speed of the right track.")
+    lag_s: float = setting(
+        0.25,
+        number(0, 10, "seconds"),
+        "Time constant with which speed and turn rate follow the motor lines.",
+    )
+    delay_s: float = setting(
+        0.05, number(0, 10, "seconds"), "Time until a motor line begins to have its effect."
+    )
+    gain: float = setting(1.0, number(0, 2), "Factor on speed and turn rate.")
+    gain_left_right: float = setting(
+        1.03,
+        number(0.1, 10),
+        "Ratio of the gain of the left track to that of the right one; their mean is gain.",
+    )
     track_width_m: float = setting(0.5, number(0.05, 5, "metres"), "Distance between the tracks.")
-    slip: float = setting(0.0, number(0, 1), "Share of the speed that is lost by slipping.")
     turn_slip: float = setting(0.0, number(0, 1), "Share of the turn rate lost by slipping.")
     deadman_s: float = setting(
         0.0,
@@ -137,11 +158,20 @@ def rules() -> dict[str, Rule]:
     return {each.name: each.metadata["rule"] for each in fields(Settings)}
 
 
+REPLACED = {
+    "left_gain": "gain and gain_left_right",
+    "right_gain": "gain and gain_left_right",
+    "slip": "gain",
+}
+"""Settings of earlier versions, and what replaces them."""
+
+
 def _errors(name: str, value: Any, where: str) -> list[str]:
     known = rules()
     if name not in known:
         near = get_close_matches(name, known, 1)
         hint = f"; did you mean {near[0]}?" if near else ""
+        hint = f"; {REPLACED[name]} replaced it" if name in REPLACED else hint
         return [f"{where}{name} is not a setting: expected one of {', '.join(known)}{hint}"]
     rule = known[name]
     return validation.errors_unless(rule.check(value), f"{where}{name}", value, rule.allowed)

@@ -36,11 +36,10 @@ class Tracks:
             self.right = command.value
 
     def motion(self, settings: Settings) -> Motion:
-        """Return the motion before the limits of the body."""
-        left = settings.left_gain * speed_m_s(self.left, settings)
-        right = settings.right_gain * speed_m_s(self.right, settings)
+        """Return the motion before the limits and the errors of the drive."""
+        left, right = (speed_m_s(value, settings) for value in (self.left, self.right))
         turn_rate = (right - left) / settings.track_width_m
-        return (left + right) / 2 * (1 - settings.slip), turn_rate * (1 - settings.turn_slip)
+        return (left + right) / 2, turn_rate * (1 - settings.turn_slip)
 
 
 def speed_m_s(value: int, settings: Settings) -> float:

@@ -9,7 +9,7 @@ from agent_economy.live.emulator.settings import MAX_RATE_HZ, Settings
 from agent_economy.live.emulator.tracks import Motion
 from agent_economy.runs.brain import Percept
 from agent_economy.runs.simulation import Simulation
-from agent_economy.scenario import Scenario
+from agent_economy.scenario import Override, Scenario
 
 STEP_S = 1 / MAX_RATE_HZ
 """Length of a step."""
@@ -57,6 +57,7 @@ class World:
                 for that number of robots.
         """
         self._bender = Bender.of(scenario)
+        self._errors = self._bender.errors(settings)
         self._simulation = Simulation(self._bender.emulated(robots, settings), seed)
         self.frame = frame_of(self._bender.world)
         self.max_range_m = self._bender.max_range_m
@@ -86,10 +87,19 @@ class World:
         x_m, y_m, heading_rad = map(float, self._simulation.poses[row])
         return Pose(x_m, y_m, heading_rad, float(self._simulation.speeds[row]))
 
-    def set_noise(self, settings: Settings) -> None:
-        """Take over the noise of the settings."""
-        for path, value in self._bender.noise(settings).items():
+    def set_errors(self, settings: Settings) -> None:
+        """Take over the errors of the drive and of the sensors.
+
+        Raises:
+            InputError: If the scenario does not allow them. Nothing is changed then.
+        """
+        errors = self._bender.errors(settings)
+        changed = {path: value for path, value in errors.items() if value != self._errors[path]}
+        overrides = (Override.at(path, value, "emulator") for path, value in changed.items())
+        self._simulation.scenario.changed(tuple(overrides))
+        for path, value in changed.items():
             self._simulation.change(path, value)
+        self._errors = errors
 
 
 def senses_of(percept: Percept, rings: tuple[int, ...]) -> Senses:
