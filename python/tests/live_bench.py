@@ -25,6 +25,9 @@ PORTS = ("motors", "compass", "gps", "sonar")
 SETTINGS = {"range_unit_m": 1.0, "no_echo": 99.0}
 """Settings of the emulator; fleet files get the same."""
 
+IDEAL = {"lag_s": 0, "delay_s": 0, "gain_left_right": 1, "gps_drift_m": 0}
+"""Settings of an emulated robot without errors: these tests judge the warden and the loop."""
+
 
 BENDER = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
 
@@ -105,11 +108,11 @@ class Bench:
 def emulated(
     folder: Path, robots: int = 1, *, arguments: tuple[str, ...] = (), **settings: Any
 ) -> Iterator[Bench]:
-    """Run the emulator, on free ports."""
+    """Run the emulator, on free ports; its robots are ideal but for the settings."""
     log = folder / "emulator.log"
     command = [sys.executable, "-m", "agent_economy", "bender-emulator", "--ports", "0,0,0,0"]
     command += ["--robots", str(robots), "--log", str(log), *arguments]
-    for name, value in {**SETTINGS, **settings}.items():
+    for name, value in {**SETTINGS, **IDEAL, **settings}.items():
         command += ["--set", f"{name}={value}"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
