@@ -365,6 +365,20 @@ def test_loading_the_answer_of_a_finished_study_writes_nothing(
         study.load_answer(tmp_path)
 
 
+def test_errors_of_a_drive_are_factors_of_a_study(tmp_path: Path) -> None:
+    search = Scenario.load("search").replace("clock.time_limit_s", 5)
+    vary = {"robots.rover.drive.gain": "0.5,1", "robots.rover.drive.lag_s": "0,0.5"}
+    study.run(search, vary=vary, only_vary=True, runs=2, out=tmp_path)
+    runs = study.open(tmp_path).runs()
+    means = dict(runs.aggregate("configuration, avg(distance_m)").fetchall())
+    assert len(means) == 4
+    plan = study.load_plan(tmp_path)
+    drives = [plan.alone(each).to_dict()["robots"]["rover"]["drive"] for each in sorted(means)]
+    by_errors = {(drive["gain"], drive["lag_s"]): means[each] for each, drive in enumerate(drives)}
+    assert by_errors[0.5, 0] < by_errors[1, 0]
+    assert by_errors[1, 0.5] < by_errors[1, 0]
+
+
 def test_a_single_configuration_has_the_same_runs_as_in_the_study(tmp_path: Path) -> None:
     search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2", "items.mine.count": "3"}

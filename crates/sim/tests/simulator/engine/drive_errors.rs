@@ -110,7 +110,7 @@ fn has_motion(errors: &str) -> bool {
 }
 
 #[test]
-fn a_robot_with_errors_measures_its_motion_only_if_the_scenario_says_so() {
+fn a_robot_with_errors_measures_its_motion_only_with_odometry() {
     assert!(has_motion("odometry = true"));
     assert!(!has_motion("odometry = false"));
     assert!(!has_motion("delay_s = 0.1"));
