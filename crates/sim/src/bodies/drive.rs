@@ -162,6 +162,7 @@ impl Drive {
     /// The same with errors, given the present motion of the body and the two setpoints in force.
     ///
     /// The setpoints are limited before they have their effect: a gain above 1 makes a robot faster than its limits.
+    #[inline(never)]
     pub(crate) fn step_with_errors(
         &self,
         errors: &DriveErrors,
@@ -286,12 +287,14 @@ pub(crate) struct Driven {
 }
 
 impl Driven {
-    pub(crate) const REST: Self = Self {
-        speed_m_s: 0.0,
-        turn_rate_rad_s: 0.0,
-        length_m: 0.0,
-        turn_rad: 0.0,
-    };
+    /// Speed and turn rate at the end of the step.
+    #[inline]
+    pub(crate) fn motion(&self) -> Motion {
+        Motion {
+            speed_m_s: self.speed_m_s,
+            turn_rate_rad_s: self.turn_rate_rad_s,
+        }
+    }
 }
 
 fn is_one(gain: f64) -> bool {

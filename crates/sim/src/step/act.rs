@@ -127,9 +127,9 @@ impl BodyState {
         self.speed_m_s = if is_stopped {
             0.0
         } else {
-            plan.driven.speed_m_s
+            plan.motion.speed_m_s
         };
-        self.turn_rate_rad_s = plan.driven.turn_rate_rad_s;
+        self.turn_rate_rad_s = plan.motion.turn_rate_rad_s;
         self.distance_m += gone_m;
         let is_collision = is_stopped && !self.is_touching;
         // Only free motion ends a contact: a robot that turns on the spot is still there.
@@ -163,7 +163,7 @@ impl BodyState {
         let Some(battery) = kind.battery.filter(|_| is_drained) else {
             return;
         };
-        let is_moving = gone_m > 0.0 || plan.driven.turn_rate_rad_s != 0.0;
+        let is_moving = gone_m > 0.0 || plan.motion.turn_rate_rad_s != 0.0;
         let move_w = if is_moving { battery.move_w } else { 0.0 };
         let moving_j = move_w * step_s + battery.move_j_per_m * gone_m;
         let standing_w = battery.idle_w + plan.sensing_w;

@@ -3,19 +3,20 @@
 use super::view::View;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::contact::meets_still;
-use crate::bodies::drive::Driven;
 use crate::bodies::kind::Kind;
 use crate::bodies::path::{Orientation, Path};
 use crate::run::agent::Agent;
 use crate::scenario::Scenario;
 use crate::world::terrain::TerrainFactors;
 use base::geometry::Disc;
+use brain::Motion;
 
 /// What one robot is about to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Plan {
     pub(crate) path: Path,
-    pub(crate) driven: Driven,
+    /// Speed and turn rate at the end of the step.
+    pub(crate) motion: Motion,
     /// Factor on the energy of motion.
     pub(crate) effort: f64,
     /// Power of the radio and of the sensors that are on.
@@ -102,7 +103,7 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
     path.until = meeting.unwrap_or(1.0);
     Plan {
         path,
-        driven,
+        motion: driven.motion(),
         effort: terrain_factors.energy,
         sensing_w,
         stop: meeting.map_or(Stop::Nothing, |_| Stop::Still),
@@ -112,7 +113,10 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
 impl Plan {
     pub(crate) const REST: Self = Self {
         path: Path::rest(base::geometry::Point { x: 0.0, y: 0.0 }),
-        driven: Driven::REST,
+        motion: Motion {
+            speed_m_s: 0.0,
+            turn_rate_rad_s: 0.0,
+        },
         effort: TerrainFactors::NO_EFFECT.energy,
         sensing_w: 0.0,
         stop: Stop::Nothing,
@@ -130,11 +134,11 @@ impl Plan {
         if self.path.length_m != 0.0 {
             disc.centre = scenario.home(self.path.at(1.0));
         }
-        let turn_rad = self.driven.turn_rad;
+        let turn_rad = self.motion.turn_rate_rad_s * scenario.step_s;
         *course = if kind.drive.turns_at_once && turn_rad != 0.0 {
             course.turned_to(turn_rad, self.path.front)
         } else {
-            course.turned(turn_rad)
+            course.turned(self.path.turn_rad)
         };
     }
 }

@@ -88,7 +88,9 @@ fn without_a_limit_speed_changes_at_once() {
 #[test]
 fn nothing_that_is_not_a_number_is_wanted() {
     let nan = motion(f64::NAN, f64::NAN);
-    assert_eq!(ROVER.step(0.0, nan, 1.0, 0.1), Driven::REST);
+    let driven = ROVER.step(0.0, nan, 1.0, 0.1);
+    assert_eq!((driven.length_m, driven.turn_rad), (0.0, 0.0));
+    assert_eq!(driven.motion(), Motion::default());
     let infinite = motion(f64::NEG_INFINITY, f64::INFINITY);
     let driven = ROVER.step(-1.0, infinite, 1.0, 0.1);
     assert_eq!((driven.speed_m_s, driven.turn_rate_rad_s), (-1.0, 1.5));
