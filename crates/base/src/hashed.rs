@@ -168,6 +168,13 @@ impl<T: Hashed> Hashed for Vec<T> {
     }
 }
 
+impl<T: Hashed + ?Sized> Hashed for Box<T> {
+    #[inline]
+    fn add_to(&self, hash: &mut Hash) {
+        (**self).add_to(hash);
+    }
+}
+
 impl<T: Hashed + ?Sized> Hashed for Arc<T> {
     #[inline]
     fn add_to(&self, hash: &mut Hash) {

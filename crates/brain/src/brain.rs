@@ -16,7 +16,7 @@ use crate::io::command::{Command, Motion};
 use crate::io::percept::Percept;
 use crate::messaging::peers::Peers;
 use crate::navigation::speed_governor::SpeedGovernor;
-use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::{Beliefs, Localisation};
 use crate::perception::dead_reckoning::{DeadReckoning, Odometry};
 use crate::service::assignee::Assignee;
 use crate::service::served::ServedGoal;
@@ -33,13 +33,15 @@ use core::cell::Cell;
 ///
 /// A clone starts with the same memory, and is independent from then on; all clones share what is
 /// the same for their kind of robot. For a team, create one brain and clone it: each robot then
-/// takes about 160 bytes, plus its beliefs if it has any.
+/// takes about 170 bytes, plus its beliefs if it has any.
 #[derive(Debug, Clone)]
 pub struct Brain {
     kind: Arc<Kind>,
     odometry: DeadReckoning,
     layers: Box<[Layer<Memory>]>,
     beliefs: Option<Box<BeliefBrain>>,
+    /// Its estimate of the pose, if it has no beliefs and needs one: see [`Kind::needs_estimate`].
+    localisation: Option<Box<Localisation>>,
     /// With motor schemas only.
     noise: Option<Box<Noise>>,
 }
@@ -55,6 +57,9 @@ struct Kind {
     order_taker: Option<usize>,
     /// The same for the behaviour that serves the goals of controllers.
     server: Option<usize>,
+    drives_to_places: bool,
+    /// Whether one reading of the position is not enough to know that the robot is at a place.
+    needs_filter: bool,
     arbiter: Arbiter,
 }
 
@@ -69,11 +74,14 @@ impl Brain {
             odometry: DeadReckoning::default(),
             layers: layers(&behaviours),
             beliefs: belief_brain(&spec, &body),
+            localisation: None,
             noise: matches!(arbiter, Arbiter::Schemas(_)).then(Box::default),
             kind: Arc::new(Kind {
                 governor: SpeedGovernor::new(&body),
                 order_taker: highest(&spec, BehaviourSpec::takes_orders),
                 server: highest(&spec, BehaviourSpec::serves_controllers),
+                drives_to_places: spec.behaviours.iter().any(BehaviourSpec::needs_pose),
+                needs_filter: spec.needs_filter(body.position_error_m()),
                 spec,
                 body,
                 behaviours,
@@ -281,10 +289,16 @@ impl Brain {
         let mut moved = kind.reckon(&mut self.odometry, percept, elapsed_s);
         if let Some(brain) = self.beliefs.as_deref_mut() {
             kind.believe(brain, &self.odometry, percept, &mut moved);
+        } else if self.localisation.is_some() || kind.needs_estimate(&moved) {
+            let localisation = self.localisation.get_or_insert_default();
+            kind.localise(localisation, &self.odometry, percept, &mut moved);
         }
         let (known, mut selection) = BeliefBrain::parts(self.beliefs.as_deref_mut());
         let last_goal = Cell::new(selection.as_ref().map_or(0, |each| each.last_goal));
-        let situation = kind.situation(percept, known, &moved, &last_goal);
+        let mut situation = kind.situation(percept, known, &moved, &last_goal);
+        if known.is_none() {
+            situation.localisation = self.localisation.as_deref();
+        }
         kind.serve_orders(&mut self.layers, &situation);
         if let Some((behaviour, layer)) = kind.server(&mut self.layers) {
             behaviour.communicate(layer.memory(), &situation);
@@ -316,7 +330,26 @@ impl Kind {
             elapsed_s,
             speed_m_s: odometry.current_speed_m_s(percept, &self.body),
             turned_rad,
+            is_commanded: !DeadReckoning::is_measured(percept, &self.body),
         }
+    }
+
+    /// Whether a brain without beliefs begins to estimate its pose: if a behaviour drives to places, and
+    /// one reading of the position is not enough for that, or the robot does not measure its own motion.
+    fn needs_estimate(&self, moved: &Odometry) -> bool {
+        self.drives_to_places && (moved.is_commanded || self.needs_filter)
+    }
+
+    /// Updates the pose of a brain without beliefs.
+    fn localise(
+        &self,
+        localisation: &mut Localisation,
+        odometry: &DeadReckoning,
+        percept: &Percept,
+        moved: &mut Odometry,
+    ) {
+        let likely = odometry.likely(percept, &self.body, moved);
+        moved.turned_rad = localisation.step(percept, &self.body, &likely).turned_rad;
     }
 
     /// Updates the beliefs with a percept and its messages. A noisy compass corrects the believed
@@ -328,18 +361,14 @@ impl Kind {
         percept: &Percept,
         moved: &mut Odometry,
     ) {
-        let (body, elapsed_s) = (&*self.body, moved.elapsed_s);
-        let turned = (moved.turned_rad, elapsed_s);
-        moved.turned_rad = odometry.turned_without_compass_rad(turned, percept, body);
-        let likely = Odometry {
-            speed_m_s: odometry.likely_speed_m_s(percept, body),
-            ..*moved
-        };
+        let body = &*self.body;
+        let likely = odometry.likely(percept, body, moved);
         let BeliefBrain {
             beliefs, messaging, ..
         } = brain;
-        beliefs.update(percept, body, &self.governor.rings, &likely);
-        messaging.receive(percept, body, elapsed_s, beliefs);
+        let executed = beliefs.update(percept, body, &self.governor.rings, &likely);
+        moved.turned_rad = executed.turned_rad;
+        messaging.receive(percept, body, moved.elapsed_s, beliefs);
     }
 
     #[inline]
@@ -356,6 +385,7 @@ impl Kind {
             percept,
             body,
             beliefs,
+            localisation: beliefs.map(|beliefs| &beliefs.localisation),
             peers,
             rings: &governor.rings,
             last_goal,
@@ -430,9 +460,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_brain_of_three_behaviours_takes_at_most_160_bytes() {
+    fn a_brain_of_three_behaviours_takes_at_most_168_bytes() {
         let layer = size_of::<Layer<Memory>>();
         let all = size_of::<Brain>() + 3 * layer;
-        assert!(all <= 160, "{all} bytes, {layer} a layer");
+        assert!(all <= 168, "{all} bytes, {layer} a layer");
     }
 }

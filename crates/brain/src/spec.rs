@@ -2,6 +2,7 @@
 
 use crate::arbitration::Arbitration;
 use crate::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
+use crate::goals::proposal::max_deviation_m;
 use crate::perception::beliefs::BeliefsSpec;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -32,6 +33,24 @@ pub struct BrainSpec {
     /// The behaviours, the lowest first.
     #[schemars(length(max = 32))]
     pub behaviours: Vec<BehaviourSpec>,
+}
+
+impl BrainSpec {
+    /// The smallest distance within which one of its behaviours has reached a waypoint; `None` without
+    /// waypoints.
+    #[must_use]
+    pub fn within_m(&self) -> Option<f64> {
+        let distances = self.behaviours.iter().filter_map(BehaviourSpec::within_m);
+        distances.reduce(f64::min)
+    }
+
+    /// Whether one position with this standard deviation is not enough to know that a waypoint is
+    /// reached.
+    #[must_use]
+    pub fn needs_filter(&self, position_error_m: f64) -> bool {
+        let is_uncertain = |within_m| position_error_m > max_deviation_m(within_m);
+        self.within_m().is_some_and(is_uncertain)
+    }
 }
 
 impl Default for BrainSpec {

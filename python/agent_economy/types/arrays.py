@@ -469,7 +469,7 @@ class RefusalColumns(TypedDict):
         goal: The goal.
         number: The number of the bid or of the lease; of a refused call, that of the call.
         reason: Why. 0 unreachable, 1 capability, 2 deadline, 3 battery, 4 full, 5 lease, 6
-            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller.
+            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller, 10 position.
     """
 
     goal: GoalIdColumns
@@ -1386,7 +1386,7 @@ class RefusalArrays(TypedDict):
         goal: The goal.
         number: The number of the bid or of the lease; of a refused call, that of the call.
         reason: Why. 0 unreachable, 1 capability, 2 deadline, 3 battery, 4 full, 5 lease, 6
-            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller.
+            out_of_service, 7 no_robot, 8 orphaned, 9 no_controller, 10 position.
     """
 
     goal: GoalIdArrays

@@ -183,6 +183,7 @@ Reason: TypeAlias = Literal[
     "no_robot",
     "orphaned",
     "no_controller",
+    "position",
 ]
 """Why a goal is not served."""
 
@@ -490,11 +491,13 @@ class AssignedGoal(TypedDict):
         id: Its id.
         at: Its position in the world.
         verdict: Its state.
+        reason: Why it is impossible; `None` if it is not.
     """
 
     id: GoalId
     at: Point
     verdict: OrderVerdict
+    reason: Reason | None
 
 
 class Pose(TypedDict):
@@ -565,6 +568,7 @@ class GoalState(TypedDict):
         time_s: Time for the straight way.
         within_m: It is reached within this distance.
         verdict: Its fitness verdict.
+        reason: Why it is impossible; `None` if it is not.
         remaining_m: Remaining path length in the last step, and the minimum so far.
         min_remaining_m: See `remaining_m`.
         stuck_s: Time without coming nearer.
@@ -580,6 +584,7 @@ class GoalState(TypedDict):
     time_s: float
     within_m: float
     verdict: Verdict
+    reason: Reason | None
     remaining_m: float
     min_remaining_m: float
     stuck_s: float

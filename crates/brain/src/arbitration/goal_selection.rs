@@ -193,6 +193,7 @@ impl GoalSelection {
             elapsed_s: situation.elapsed_s,
             speed_m_s: situation.current_speed_m_s,
             turned_rad: situation.turned_rad,
+            is_commanded: situation.drive().is_some(),
         };
         traffic.update(&beliefs.others.movers, situation.body, &odometry);
         traffic.limit(motion, situation.body, situation.current_speed_m_s)
@@ -224,6 +225,7 @@ impl GoalSelection {
         let is_lengthened = self.navigator.take_is_lengthened();
         let step = Step {
             at: pose.at,
+            deviation_m: pose.deviation_m,
             elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
             unreachable: self.navigator.unreachable_goal(),

@@ -188,7 +188,7 @@ impl Ready {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn look(&self, memory: &mut Memory, clear_s: f64, situation: &Situation) -> Option<Motion> {
-        if situation.touches(clear_s) {
+        if situation.touches(clear_s) || situation.is_blocked(clear_s) {
             if self.backing_s <= 0.0 {
                 return Some(self.turn_from_touch(memory, situation));
             }

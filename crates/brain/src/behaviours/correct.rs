@@ -4,11 +4,12 @@ use super::turn::Turn;
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::fitness::Step;
 use crate::goals::orders::{AssignedGoal, Orders, order_of};
-use crate::goals::proposal::{Destination, Proposal};
+use crate::goals::proposal::{Destination, Proposal, max_deviation_m};
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::goal_id::GoalId;
-use crate::io::percept::{Percept, Reading};
+use crate::io::percept::Reading;
+use crate::perception::beliefs::Localisation;
 use crate::situation::Situation;
 use crate::situation::timer::{Countdown, Stopwatch};
 use alloc::boxed::Box;
@@ -19,8 +20,7 @@ use core::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Minimum arrival radius, in standard deviations of the position sensor: a robot at a waypoint
-/// would miss it within a smaller one.
+/// It turns only if the heading is off by at least this many standard deviations.
 const MIN_DEVIATIONS: f64 = 2.0;
 
 /// Maximum age of a position, in seconds.
@@ -40,8 +40,9 @@ pub struct Correct {
     /// The waypoints, in metres.
     #[schemars(length(max = 10_000))]
     pub waypoints_m: Vec<Point>,
-    /// A waypoint within this distance is reached, in metres. At least twice the standard deviation
-    /// of the position sensor applies.
+    /// A waypoint within this distance is reached, in metres, if the standard deviation of the position
+    /// is at most half of it. Where that of the position sensor is not, and where the robot does not
+    /// measure its own motion, the position is estimated from all readings.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
     /// It turns when the heading is off by more than this, in degrees.
@@ -110,7 +111,8 @@ impl Ready {
             destination: Destination {
                 id: GoalId::default(),
                 at: Point::default(),
-                tolerance_m: spec.within_m.max(MIN_DEVIATIONS * body.position_noise_m),
+                tolerance_m: spec.within_m,
+                max_deviation_m: max_deviation_m(spec.within_m),
                 max_speed_m_s: body.max_speed_m_s,
                 value: 1.0,
             },
@@ -118,12 +120,13 @@ impl Ready {
     }
 
     /// The next waypoint or assigned goal.
-    fn next(&self, progress: &mut Progress, at: Point) -> Option<Point> {
+    fn next(&self, progress: &mut Progress, known: &Known) -> Option<Point> {
         if let Some(orders) = &progress.orders {
             return orders.next().map(|goal| goal.at);
         }
         while let Some(place) = self.spec.waypoints_m.get(progress.visited) {
-            if at.to(*place).length() > self.destination.tolerance_m {
+            let there = self.destination.moved_to(*place);
+            if !there.is_reached(known.at, known.deviation_m) {
                 return Some(*place);
             }
             progress.visited += 1;
@@ -145,17 +148,18 @@ impl Ready {
     }
 
     fn judge(&self, orders: &mut Orders, situation: &Situation) {
-        let Some(at) = position(situation.percept) else {
+        let Some(known) = position(situation) else {
             return;
         };
         let step = Step {
-            at,
+            at: known.at,
+            deviation_m: known.deviation_m,
             elapsed_s: situation.elapsed_s,
             period_s: situation.body.period_s,
             unreachable: None,
             battery_s: f64::INFINITY,
             pursued: None,
-            noise_m: situation.body.position_noise_m,
+            noise_m: known.noise_m,
         };
         orders.judge(&self.destination, &step);
     }
@@ -169,15 +173,21 @@ impl Ready {
         if progress.wait.is_running(situation) {
             return None;
         }
-        let at = position(situation.percept)?;
-        let Some(to) = self.next(progress, at) else {
+        let known = position(situation)?;
+        let Some(to) = self.next(progress, &known) else {
             return self.rest();
         };
-        let heading_rad = heading_rad(situation.percept, straight_s)?;
-        let way = at.to(to);
+        let there = self.destination.moved_to(to);
+        if there.is_uncertain(known.at, known.deviation_m) {
+            // It waits for more readings.
+            return Some(Motion::default());
+        }
+        let way = known.at.to(to);
+        let heading = heading(situation, straight_s)?;
         let course_rad = libm::atan2(way.y, way.x);
-        let off_rad = wrapped(course_rad - heading_rad);
-        (off_rad.abs() > self.tolerance_rad).then(|| {
+        let off_rad = wrapped(course_rad - heading.rad);
+        let deviation_rad = libm::hypot(heading.deviation_rad, known.deviation_m / way.length());
+        (off_rad.abs() > self.tolerance_rad.max(MIN_DEVIATIONS * deviation_rad)).then(|| {
             let (turn, motion) = Turn::by(off_rad, situation.body);
             progress.turn = Some(TurnTo {
                 turn,
@@ -189,22 +199,61 @@ impl Ready {
     }
 }
 
-fn position(percept: &Percept) -> Option<Point> {
+/// What is known of the position.
+struct Known {
+    at: Point,
+    /// Standard deviation along each axis; 0 for one reading, which is exact enough.
+    deviation_m: f64,
+    /// Standard deviation of its differences from one step to the next at rest.
+    noise_m: f64,
+}
+
+/// The estimated position if the robot has an estimate, otherwise the last reading.
+fn position(situation: &Situation) -> Option<Known> {
+    if let Some(own) = situation.localisation {
+        let pose = own.pose().filter(|pose| pose.age_s <= OLDEST_S)?;
+        return Some(Known {
+            at: pose.at,
+            deviation_m: pose.deviation_m,
+            noise_m: 0.0,
+        });
+    }
     let is_sensible = |Reading { value, age_s }: &Reading<Point>| {
         let is_near = value.x.abs() <= FARTHEST_M && value.y.abs() <= FARTHEST_M;
         is_near && (0.0..=OLDEST_S).contains(age_s)
     };
-    let reading = percept.position.filter(is_sensible)?;
-    Some(reading.value)
+    let reading = situation.percept.position.filter(is_sensible)?;
+    Some(Known {
+        at: reading.value,
+        deviation_m: 0.0,
+        noise_m: situation.body.position_noise_m,
+    })
 }
 
-/// The heading of a robot that has driven straight for a time.
-fn heading_rad(percept: &Percept, straight_s: f64) -> Option<f64> {
+/// What is known of the heading.
+struct KnownHeading {
+    rad: f64,
+    /// Standard deviation; 0 for one reading.
+    deviation_rad: f64,
+}
+
+/// The estimated heading if the robot has an estimate, otherwise the last reading, if the robot has driven
+/// straight since then.
+fn heading(situation: &Situation, straight_s: f64) -> Option<KnownHeading> {
+    if let Some(own) = situation.localisation {
+        return own.pose().map(|pose| KnownHeading {
+            rad: pose.heading_rad,
+            deviation_rad: pose.deviation_rad,
+        });
+    }
     let is_sensible = |Reading { value, age_s }: &Reading<f64>| {
         (0.0..=straight_s).contains(age_s) && value.abs() <= MAX_RAD
     };
-    let reading = percept.heading_rad.filter(is_sensible)?;
-    Some(reading.value)
+    let reading = situation.percept.heading_rad.filter(is_sensible)?;
+    Some(KnownHeading {
+        rad: reading.value,
+        deviation_rad: 0.0,
+    })
 }
 
 impl Behaviour for Ready {
@@ -225,7 +274,9 @@ impl Behaviour for Ready {
             .filter_map(order_of)
             .peekable();
         let has_orders = memory.as_ref().is_some_and(|known| known.orders.is_some());
-        if new.peek().is_none() && !has_orders {
+        // A robot that may never know that it is at a waypoint gives it up as it does an order.
+        let may_fail = situation.localisation.is_some() && !self.spec.waypoints_m.is_empty();
+        if new.peek().is_none() && !has_orders && !may_fail {
             return;
         }
         let progress = memory.get_or_insert_default();
@@ -247,7 +298,10 @@ impl Behaviour for Ready {
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         let progress = &mut **memory.get_or_insert_default();
         let is_done = self.is_done(progress);
-        if let Some(TurnTo { turn, .. }) = &mut progress.turn {
+        if let Some(TurnTo { turn, heading_rad }) = &mut progress.turn {
+            if let Some(pose) = situation.localisation.and_then(Localisation::pose) {
+                turn.aim(wrapped(*heading_rad - pose.heading_rad), situation);
+            }
             // It may have been withdrawn.
             let motion = turn.next_motion(situation).filter(|_| !is_done);
             if motion.is_some() {
@@ -280,6 +334,7 @@ impl Behaviour for Ready {
 mod tests {
     use super::*;
     use crate::behaviours::{BehaviourSpec, Cruise};
+    use crate::io::percept::Percept;
     use crate::world_of_walls::{now, rover};
     use crate::{Brain, BrainSpec};
     use std::sync::Arc;

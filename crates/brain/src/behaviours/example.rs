@@ -49,6 +49,7 @@ mod tests {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
+                localisation: None,
                 peers: None,
                 rings: &sight.rings,
                 last_goal: &Cell::new(0),

@@ -59,6 +59,7 @@ impl Ready {
                 id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: 0.1,
+                max_deviation_m: f64::INFINITY,
                 max_speed_m_s: body.max_speed_m_s,
                 value: spec.value,
             },

@@ -286,6 +286,18 @@ behaviours! {
     Flock in flock;
 }
 
+impl BehaviourSpec {
+    /// The distance within which it has reached a waypoint; `None` if it has no waypoints.
+    #[must_use]
+    pub fn within_m(&self) -> Option<f64> {
+        match self {
+            Self::Correct(correct) => Some(correct.within_m),
+            Self::Navigate(navigate) => Some(navigate.within_m),
+            _ => None,
+        }
+    }
+}
+
 #[cfg(test)]
 mod example;
 #[cfg(test)]

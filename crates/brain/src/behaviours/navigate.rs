@@ -3,7 +3,7 @@
 use super::errands::{Errands, Waypoints};
 use super::goal_behaviour::GoalBehaviour;
 use crate::goals::Verdict;
-use crate::goals::proposal::{Destination, Proposal};
+use crate::goals::proposal::{Destination, Proposal, max_deviation_m};
 use crate::io::body::Body;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::situation::Situation;
@@ -24,7 +24,8 @@ pub struct Navigate {
     pub waypoints_m: Vec<Point>,
     /// Which robot visits which waypoints.
     pub assignment: Assignment,
-    /// A waypoint within this distance is reached, in metres.
+    /// A waypoint within this distance is reached, in metres, if the standard deviation of the believed
+    /// position is at most half of it.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
     /// Speed, in m/s. Without it, the maximum speed of the body.
@@ -87,6 +88,7 @@ impl Ready {
                 id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: spec.within_m,
+                max_deviation_m: max_deviation_m(spec.within_m),
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
                 value: spec.value,
             },
@@ -126,12 +128,13 @@ impl GoalBehaviour for Ready {
     }
 
     fn goal(&self, errands: &mut Option<Box<Errands>>, situation: &Situation) -> Option<Proposal> {
-        let at = situation.beliefs?.pose()?.at;
+        let pose = situation.beliefs?.pose()?;
         let errands = errands.get_or_insert_with(|| Box::new(self.errands(situation)));
-        let mut to = self.next(errands, at, situation)?;
-        if at.to(to.at).length() <= self.destination.tolerance_m {
+        let mut to = self.next(errands, pose.at, situation)?;
+        let there = self.destination.moved_to(to.at);
+        if there.is_reached(pose.at, pose.deviation_m) {
             errands.pop();
-            to = self.next(errands, at, situation)?;
+            to = self.next(errands, pose.at, situation)?;
         }
         Some(self.drive_to(to))
     }

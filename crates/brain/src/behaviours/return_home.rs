@@ -66,6 +66,7 @@ impl Ready {
                 id: GoalId::default(),
                 at: Point::default(),
                 tolerance_m: spec.within_m,
+                max_deviation_m: f64::INFINITY,
                 max_speed_m_s: body.max_speed_m_s,
                 value: spec.value,
             },

@@ -106,7 +106,9 @@ impl Ready {
         let max_rad_s = situation.body.max_turn_rate_rad_s;
         Motion {
             speed_m_s: 0.0,
-            turn_rate_rad_s: (off_rad / TURN_S).clamp(-max_rad_s, max_rad_s),
+            turn_rate_rad_s: situation
+                .turn_rate_rad_s(off_rad, TURN_S)
+                .clamp(-max_rad_s, max_rad_s),
         }
     }
 }
@@ -135,12 +137,14 @@ impl Behaviour for Ready {
         let Some(beliefs) = situation.beliefs else {
             return;
         };
+        let pose = beliefs.pose();
         let moment = Moment {
             percept: situation.percept,
             body: situation.body,
             beliefs: Some(beliefs),
             map: beliefs.map.as_ref(),
-            at: beliefs.pose().map(|pose| pose.at),
+            at: pose.map(|pose| pose.at),
+            deviation_m: pose.map_or(f64::INFINITY, |pose| pose.deviation_m),
             elapsed_s: situation.elapsed_s,
             battery_s: beliefs.battery_s(),
             charge: beliefs.battery_charge(),
@@ -165,7 +169,7 @@ impl Behaviour for Ready {
     fn triggered(&self, assignee: &mut Box<Assignee>, situation: &Situation) -> Option<Proposal> {
         let pose = situation.beliefs.and_then(Beliefs::pose)?;
         let ability = self.ability(assignee);
-        let (job, is_there) = assignee.current(&ability, pose.at)?;
+        let (job, is_there) = assignee.current(&ability, &pose)?;
         if is_there {
             return Some(self.standing(&job, &pose, situation).into());
         }
@@ -174,6 +178,7 @@ impl Behaviour for Ready {
             id: job.task.id,
             at,
             tolerance_m: near_m * job.approach(),
+            max_deviation_m: job.max_deviation_m(),
             max_speed_m_s: ability.speed_m_s,
             value: self.value * f64::from(job.task.value),
         }))

@@ -2,6 +2,7 @@
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
+use crate::perception::beliefs::Localisation;
 use crate::situation::Situation;
 
 /// Tolerance at which a turn is complete, in radians.
@@ -33,16 +34,35 @@ impl Turn {
         (turn, on_the_spot(angle_rad, body))
     }
 
+    /// Changes the angle that is left to the difference from a heading.
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
+    pub(super) fn aim(&mut self, left_rad: f64, situation: &Situation) {
+        // The next motion takes it off again.
+        self.left_rad = (left_rad + situation.turned_rad) as f32;
+    }
+
     /// The next motion; `None` if the turn is complete or has timed out.
+    ///
+    /// A body whose drive follows with a lag turns on for a while: a turn is complete when it ends where
+    /// it should, as far as the robot knows its heading.
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     pub(super) fn next_motion(&mut self, situation: &Situation) -> Option<Motion> {
         self.left_rad -= situation.turned_rad as f32;
         if !situation.is_held() {
             self.patience_s -= situation.step_s();
         }
-        let is_done = self.left_rad.abs() <= DONE_RAD || self.patience_s <= 0.0;
-        (!is_done).then(|| on_the_spot(f64::from(self.left_rad), situation.body))
+        let off_rad = self.left_rad - situation.coasting_rad() as f32;
+        let is_done = off_rad.abs() <= done_rad(situation) || self.patience_s <= 0.0;
+        (!is_done).then(|| on_the_spot(f64::from(off_rad), situation.body))
     }
+}
+
+/// The tolerance of a turn: at least the standard deviation of the heading.
+#[expect(clippy::cast_possible_truncation, reason = "kept short")]
+fn done_rad(situation: &Situation) -> f32 {
+    let drive = situation.localisation.filter(|own| own.drive().is_some());
+    let pose = drive.and_then(Localisation::pose);
+    pose.map_or(DONE_RAD, |pose| DONE_RAD.max(pose.deviation_rad as f32))
 }
 
 /// The maximum turn rate that does not overshoot before the next step.

@@ -1,6 +1,7 @@
 //! The progress towards a goal.
 
 use crate::goals::proposal::Destination;
+use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalPlace;
 pub use crate::io::verdict::Verdict;
 use base::geometry::Point;
@@ -18,6 +19,8 @@ const IMPOSSIBLE_S: f64 = 30.0;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) at: Point,
+    /// Standard deviation of `at`, along each axis.
+    pub(crate) deviation_m: f64,
     /// Time since the previous step, and the time that a step is expected to take.
     pub(crate) elapsed_s: f64,
     pub(crate) period_s: f64,
@@ -60,13 +63,17 @@ pub(crate) struct Fitness {
     pub(crate) stuck_s: f64,
     /// Whether the goal was pursued in the last step.
     is_pursued: bool,
+    /// Whether the robot has seemed to be there since its last progress, but did not know its position
+    /// well enough.
+    pub(crate) is_uncertain: bool,
 }
 
 base::hashed!(Fitness {
     last_m,
     behind_m,
     stuck_s,
-    is_pursued
+    is_pursued,
+    is_uncertain
 });
 
 impl Fitness {
@@ -79,7 +86,7 @@ impl Fitness {
     /// Takes a step into account, and returns the verdict:
     ///
     /// ```text
-    /// complete      distance <= tolerance
+    /// complete      distance <= tolerance, and the position is known well enough for that
     /// impossible    no known path, or battery time < path length / speed, or no progress for 30 s
     /// receding      no progress for 4 s
     /// approaching   otherwise
@@ -87,7 +94,9 @@ impl Fitness {
     pub(crate) fn update(&mut self, destination: &Destination, step: &Step) -> Verdict {
         self.track(destination, step);
         let is_unreachable = step.unreachable == Some(destination.goal());
-        if step.at.to(destination.at).length() <= destination.tolerance_m {
+        let is_reached = destination.is_reached(step.at, step.deviation_m);
+        self.is_uncertain |= destination.is_uncertain(step.at, step.deviation_m);
+        if is_reached {
             Verdict::Complete
         } else if is_unreachable || self.is_stuck() || self.is_beyond_battery(destination, step) {
             Verdict::Impossible
@@ -107,6 +116,24 @@ impl Fitness {
     /// Whether the robot has made no progress for too long.
     pub(crate) fn is_stuck(&self) -> bool {
         self.stuck_s > IMPOSSIBLE_S
+    }
+
+    /// Why the goal is impossible.
+    pub(crate) fn reason(&self, destination: &Destination, step: &Step) -> Reason {
+        if self.is_beyond_battery(destination, step) {
+            Reason::Battery
+        } else {
+            self.reason_of_time()
+        }
+    }
+
+    /// Why the robot has made no progress for too long.
+    pub(crate) fn reason_of_time(&self) -> Reason {
+        if self.is_uncertain {
+            Reason::Position
+        } else {
+            Reason::Unreachable
+        }
     }
 
     /// Whether the battery does not last for the path.
@@ -133,6 +160,7 @@ impl Fitness {
         }
         if pursued.is_lengthened || self.behind_m < -step.min_progress_m() {
             (self.behind_m, self.stuck_s) = (0.0, 0.0);
+            self.is_uncertain = false;
         } else if was_pursued {
             self.count(step.elapsed_s, step.period_s);
         }
@@ -152,6 +180,7 @@ mod tests {
         },
         at: Point { x: 9.0, y: 0.0 },
         tolerance_m: 0.5,
+        max_deviation_m: 0.25,
         max_speed_m_s: 1.0,
         value: 1.0,
     };
@@ -163,6 +192,7 @@ mod tests {
                 x: GOAL.at.x - distance_m,
                 y: 0.0,
             },
+            deviation_m: 0.0,
             elapsed_s: 1.0,
             period_s: 1.0,
             unreachable: None,
@@ -184,6 +214,21 @@ mod tests {
             assert_eq!(verdict, Verdict::Approaching);
         }
         assert_eq!(fitness.update(&GOAL, &step(0.4, 0.4)), Verdict::Complete);
+    }
+
+    #[test]
+    fn a_goal_is_complete_once_the_position_is_known_well_enough() {
+        let mut fitness = Fitness::default();
+        let there = |deviation_m| Step {
+            deviation_m,
+            ..step(0.1, 0.1)
+        };
+        assert_eq!(fitness.update(&GOAL, &there(0.26)), Verdict::Approaching);
+        assert!(fitness.is_uncertain);
+        assert_eq!(fitness.update(&GOAL, &there(0.25)), Verdict::Complete);
+        let verdicts = (0..40).map(|_| fitness.update(&GOAL, &there(0.26)));
+        assert_eq!(verdicts.last(), Some(Verdict::Impossible));
+        assert!(fitness.is_uncertain);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The goals that a robot has given up, and when it tries them again.
 
+use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalPlace;
 use alloc::vec::Vec;
 
@@ -26,12 +27,15 @@ struct Rest {
     left_s: f64,
     /// Duration after the last failure.
     total_s: f64,
+    /// Why it failed.
+    reason: Reason,
 }
 
 base::hashed!(Rest {
     goal,
     left_s,
-    total_s
+    total_s,
+    reason
 });
 
 impl GivenUp {
@@ -48,10 +52,16 @@ impl GivenUp {
         known.map_or(0.0, |rest| rest.left_s)
     }
 
-    /// Lets a goal rest after a failure: for the minimum time after the first one and after
-    /// failures that do not make the next one likely, otherwise for twice as long as last time.
-    pub(crate) fn add(&mut self, goal: GoalPlace, is_longer_each_time: bool) {
-        let factor = if is_longer_each_time { 2.0 } else { 1.0 };
+    /// Why a goal failed last.
+    pub(crate) fn reason(&self, goal: GoalPlace) -> Option<Reason> {
+        let mut goals = self.goals.iter();
+        goals.find(|rest| rest.goal == goal).map(|rest| rest.reason)
+    }
+
+    /// Lets a goal rest after a failure: for the minimum time after the first one and while the battery
+    /// does not last, as it may be charged meanwhile; otherwise for twice as long as last time.
+    pub(crate) fn add(&mut self, goal: GoalPlace, reason: Reason) {
+        let factor = if reason == Reason::Battery { 1.0 } else { 2.0 };
         let total_s = self
             .forget(goal)
             .map_or(MIN_REST_S, |rest| (factor * rest.total_s).min(MAX_REST_S));
@@ -62,6 +72,7 @@ impl GivenUp {
             goal,
             left_s: total_s,
             total_s,
+            reason,
         });
     }
 
@@ -96,21 +107,22 @@ mod tests {
     fn each_failure_doubles_the_rest_up_to_a_maximum_until_the_goal_is_reached() {
         let mut given_up = GivenUp::default();
         for rest_s in [10.0, 20.0, 40.0, 80.0, 160.0, 160.0] {
-            given_up.add(goal(1), true);
+            given_up.add(goal(1), Reason::Unreachable);
             assert_eq!(given_up.rest_s(goal(1)).to_bits(), f64::to_bits(rest_s));
             given_up.advance(rest_s);
             assert!(given_up.rest_s(goal(1)) <= 0.0);
         }
         given_up.remove(goal(1));
-        given_up.add(goal(1), true);
+        given_up.add(goal(1), Reason::Unreachable);
         assert_eq!(given_up.rest_s(goal(1)).to_bits(), f64::to_bits(10.0));
     }
 
     #[test]
     fn the_number_of_goals_is_bounded_and_the_oldest_failure_is_forgotten() {
         let mut given_up = GivenUp::default();
-        (0..100).for_each(|number| given_up.add(goal(number), true));
+        (0..100).for_each(|number| given_up.add(goal(number), Reason::Position));
         assert_eq!(given_up.goals.len(), MAX_GOALS);
         assert!(given_up.rest_s(goal(0)) <= 0.0 && given_up.rest_s(goal(99)) > 0.0);
+        assert_eq!(given_up.reason(goal(99)), Some(Reason::Position));
     }
 }

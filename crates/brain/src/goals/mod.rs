@@ -19,6 +19,7 @@ pub(crate) mod proposal;
 pub(crate) mod tour;
 
 use crate::goals::proposal::Destination;
+use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -39,6 +40,8 @@ pub(crate) struct Goal {
     pub(crate) precedence: f64,
     pub(crate) verdict: Verdict,
     pub(crate) fitness: Fitness,
+    /// Why it is impossible, if it is.
+    pub(crate) reason: Option<Reason>,
     /// Remaining time for which it is not tried again.
     pub(crate) rest_s: f64,
     /// Whether the behaviour was notified before that the goal is impossible.
@@ -51,6 +54,7 @@ base::hashed!(Goal {
     precedence,
     verdict,
     fitness,
+    reason,
     rest_s,
     is_reported
 });
@@ -146,7 +150,9 @@ impl Goals {
         let is_given_up = goal.fitness.is_stuck() && goal.verdict != Verdict::Impossible;
         if is_given_up {
             goal.verdict = Verdict::Impossible;
-            self.given_up.add(goal.destination.goal(), true);
+            let reason = goal.fitness.reason_of_time();
+            goal.reason = Some(reason);
+            self.given_up.add(goal.destination.goal(), reason);
         }
         is_given_up
     }
@@ -176,20 +182,20 @@ impl Goals {
             }
             _ if is_resting => Verdict::Impossible,
             Verdict::Impossible => {
-                // The battery may be charged meanwhile.
-                let is_beyond_battery = fitness.is_beyond_battery(&destination, step);
-                self.given_up.add(place, !is_beyond_battery);
+                self.given_up.add(place, fitness.reason(&destination, step));
                 Verdict::Impossible
             }
             verdict => verdict,
         };
         let time_s = time_s(step.at.to(destination.at).length(), &destination);
+        let reason = self.given_up.reason(place);
         Goal {
             behaviour,
             destination,
             precedence: precedence(&destination, time_s, step.battery_s),
             verdict,
             fitness,
+            reason: reason.filter(|_| verdict == Verdict::Impossible),
             rest_s: self.given_up.rest_s(place),
             is_reported: was_impossible && is_resting,
         }
@@ -252,6 +258,7 @@ mod tests {
             id: id((100.0 * x) as i32 as u32 ^ ((100.0 * y) as i32 as u32) << 16),
             at: Point { x, y },
             tolerance_m: 0.5,
+            max_deviation_m: 0.25,
             max_speed_m_s: 1.0,
             value,
         }
@@ -260,6 +267,7 @@ mod tests {
     fn step(at: Point) -> Step {
         Step {
             at,
+            deviation_m: 0.0,
             elapsed_s: 0.1,
             period_s: 0.1,
             unreachable: None,

@@ -6,6 +6,7 @@
 use super::fitness::{Fitness, Pursuit, Step, Verdict};
 use super::proposal::Destination;
 use crate::io::body::RobotId;
+use crate::io::dispatch::Reason;
 use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
 use crate::io::message::{About, OrderAction};
 use crate::io::percept::ReceivedMessage;
@@ -29,9 +30,16 @@ pub struct AssignedGoal {
     pub at: Point,
     /// Its state.
     pub verdict: OrderVerdict,
+    /// Why it is impossible; `None` if it is not.
+    pub reason: Option<Reason>,
 }
 
-base::hashed!(AssignedGoal { id, at, verdict });
+base::hashed!(AssignedGoal {
+    id,
+    at,
+    verdict,
+    reason
+});
 
 /// The state of a goal that a person has assigned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -64,9 +72,10 @@ struct Order {
     goal: GoalPlace,
     verdict: OrderVerdict,
     fitness: Fitness,
-    /// Number of times that it was impossible, and the distance when it last was.
+    /// Number of times that it was impossible, and the distance and the reason when it last was.
     failures: u32,
     failed_m: f64,
+    reason: Reason,
 }
 
 /// The order in a message, if it is valid and comes from the operator.
@@ -148,14 +157,19 @@ impl Orders {
         let next = self.next().map(|goal| goal.id);
         let pursued = self.pursued.filter(|pursued| next == Some(*pursued));
         let goals = self.goals.iter();
-        let assigned = goals.map(|order| AssignedGoal {
-            id: order.goal.id,
-            at: order.goal.at,
-            verdict: if pursued == Some(order.goal.id) {
+        let assigned = goals.map(|order| {
+            let verdict = if pursued == Some(order.goal.id) {
                 order.verdict
             } else {
                 order.verdict_while_waiting()
-            },
+            };
+            let is_impossible = verdict == OrderVerdict::Impossible;
+            AssignedGoal {
+                id: order.goal.id,
+                at: order.goal.at,
+                verdict,
+                reason: is_impossible.then_some(order.reason),
+            }
         });
         assigned.collect()
     }
@@ -169,6 +183,7 @@ impl Order {
             fitness: Fitness::default(),
             failures: 0,
             failed_m: f64::INFINITY,
+            reason: Reason::Unreachable,
         }
     }
 
@@ -193,6 +208,7 @@ impl Order {
             Verdict::Complete => OrderVerdict::Complete,
             Verdict::Impossible => {
                 (self.failures, self.failed_m) = (self.failures.saturating_add(1), distance_m);
+                self.reason = self.fitness.reason(&destination, &step);
                 self.fitness = Fitness::default();
                 OrderVerdict::Impossible
             }

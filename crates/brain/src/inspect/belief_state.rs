@@ -4,6 +4,7 @@ use super::heading_options::HeadingOptions;
 use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
 use crate::goals::precedence::{reachable_probability, time_s};
 use crate::goals::{Goal, Verdict};
+use crate::io::dispatch::Reason;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::believed::{BelievedItem, BelievedRobot};
@@ -46,6 +47,8 @@ pub struct GoalState {
     pub within_m: f64,
     /// Its fitness verdict.
     pub verdict: Verdict,
+    /// Why it is impossible; `None` if it is not.
+    pub reason: Option<Reason>,
     /// Remaining path length in the last step, and the minimum so far.
     pub remaining_m: f64,
     /// See `remaining_m`.
@@ -99,6 +102,7 @@ impl GoalState {
             time_s,
             within_m: destination.tolerance_m,
             verdict: goal.verdict,
+            reason: goal.reason,
             remaining_m: fitness.last_m,
             min_remaining_m: fitness.min_m(),
             stuck_s: fitness.stuck_s,

@@ -88,11 +88,11 @@ pub struct Body {
     #[schemars(range(min = 0.0))]
     pub position_noise_m: f64,
     /// Standard deviation of the slow error of its position sensor, along each axis.
-    #[serde(default, skip_serializing_if = "is_none")]
+    #[serde(default, skip_serializing_if = "is_exactly_zero")]
     #[schemars(range(min = 0.0))]
     pub position_drift_m: f64,
     /// Time after which that slow error is independent of what it was; 0 without one.
-    #[serde(default, skip_serializing_if = "is_none")]
+    #[serde(default, skip_serializing_if = "is_exactly_zero")]
     #[schemars(range(min = 0.0))]
     pub position_drift_s: f64,
     /// Standard deviation of its compass.
@@ -125,6 +125,12 @@ pub struct Body {
 }
 
 impl Body {
+    /// Standard deviation of one position, along each axis, with both parts of its error.
+    #[must_use]
+    pub fn position_error_m(&self) -> f64 {
+        libm::hypot(self.position_noise_m, self.position_drift_m)
+    }
+
     /// Its tool for a kind of acts.
     #[must_use]
     pub fn tool(&self, act: ActKind) -> Option<&Tool> {
@@ -223,7 +229,7 @@ fn is_zero(number: &u32) -> bool {
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_none(error: &f64) -> bool {
+fn is_exactly_zero(error: &f64) -> bool {
     *error == 0.0
 }
 

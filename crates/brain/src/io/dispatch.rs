@@ -372,6 +372,8 @@ pub enum Reason {
     Orphaned,
     /// No controller that could own it works.
     NoController,
+    /// The robot does not know its position well enough.
+    Position,
 }
 
 base::hashed!(enum Reason);

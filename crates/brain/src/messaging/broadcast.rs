@@ -9,7 +9,6 @@ use crate::io::goal_id::GoalPlace;
 use crate::io::message::{About, CommitmentStatus, Message};
 use crate::perception::beliefs::pose::Pose;
 use alloc::vec::Vec;
-use base::geometry::Point;
 use base::trig::wrapped;
 
 /// Time between two broadcasts of the robot's own position. Each robot has its own phase within the
@@ -80,7 +79,7 @@ impl BroadcastState {
     pub(super) fn broadcast_goal(
         &mut self,
         commitment: &Commitment,
-        at: Point,
+        pose: &Pose,
         is_due: bool,
         outbox: &mut Vec<Message>,
     ) {
@@ -100,7 +99,7 @@ impl BroadcastState {
             })
         };
         if let Some(ended) = previous.filter(|_| is_new) {
-            if commitment.is_done(&ended, at) {
+            if commitment.is_done(&ended, pose) {
                 self.visits.add(ended.goal());
                 outbox.push(message(ended, CommitmentStatus::Done));
             } else if goal.is_none() {

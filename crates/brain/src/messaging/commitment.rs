@@ -1,8 +1,8 @@
 //! The destination that a robot is committed to, and whether it is done.
 
 use crate::goals::proposal::Destination;
+use crate::perception::beliefs::pose::Pose;
 use crate::service::assignee::Assignee;
-use base::geometry::Point;
 
 /// The current destination, and the goals of controllers that the robot serves.
 #[derive(Clone, Copy)]
@@ -23,8 +23,8 @@ impl Commitment<'_> {
     }
 
     /// Whether a destination that the robot leaves is done: the service of a goal takes time.
-    pub(super) fn is_done(&self, left: &Destination, at: Point) -> bool {
+    pub(super) fn is_done(&self, left: &Destination, pose: &Pose) -> bool {
         let has_served = self.service.and_then(|service| service.has_served(left.id));
-        has_served.unwrap_or_else(|| at.to(left.at).length() <= left.tolerance_m)
+        has_served.unwrap_or_else(|| left.is_reached(pose.at, pose.deviation_m))
     }
 }

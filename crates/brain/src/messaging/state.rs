@@ -75,7 +75,7 @@ impl Messaging {
             self.broadcast.repeat_visit(outbox);
         }
         self.broadcast
-            .broadcast_goal(commitment, pose.at, is_repeat_due, outbox);
+            .broadcast_goal(commitment, &pose, is_repeat_due, outbox);
         self.broadcast
             .broadcast_pose(&pose, beliefs.observations, is_due, outbox);
         if is_repeat_due {

@@ -121,6 +121,7 @@ fn still(body: &Body) -> Odometry {
         elapsed_s: body.period_s,
         speed_m_s: 0.0,
         turned_rad: 0.0,
+        is_commanded: false,
     }
 }
 
@@ -295,6 +296,7 @@ fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
             },
             at,
             tolerance_m: 0.5,
+            max_deviation_m: f64::INFINITY,
             max_speed_m_s: 1.0,
             value: 1.0,
         });
@@ -327,6 +329,7 @@ fn a_goal_that_moves_is_broadcast_at_its_new_place_and_is_neither_done_nor_relea
             id: GoalId::default(),
             at: Point { x, y: 10.0 },
             tolerance_m: 0.5,
+            max_deviation_m: f64::INFINITY,
             max_speed_m_s: 1.0,
             value: 1.0,
         };

@@ -168,15 +168,30 @@ impl Navigator {
             movers: &beliefs.others.movers,
         };
         let target = self.shunting.redirect(&step, situation.random_words());
-        let stop_within_m = step.remaining_m - self.end_tolerance_m(destination) / 2.0;
-        let max_m_s = if self.shunting.is_yielding() {
+        let is_uncertain = destination.is_uncertain(pose.at, pose.deviation_m);
+        if is_uncertain && !self.shunting.is_yielding() {
+            // It waits for more readings.
+            return Motion::default();
+        }
+        let max_m_s = self.max_speed_m_s(destination, step.remaining_m, situation);
+        self.steer(target, max_m_s, situation, (beliefs, &pose))
+    }
+
+    /// The maximum speed with which the robot stops at its destination, unless it gives way.
+    fn max_speed_m_s(
+        &self,
+        destination: &Destination,
+        remaining_m: f64,
+        situation: &Situation,
+    ) -> f64 {
+        let stop_within_m = remaining_m - self.end_tolerance_m(destination) / 2.0;
+        if self.shunting.is_yielding() {
             destination.max_speed_m_s
         } else {
             destination
                 .max_speed_m_s
                 .min(stopping_speed_m_s(stop_within_m, situation))
-        };
-        self.steer(target, max_m_s, situation, (beliefs, &pose))
+        }
     }
 
     /// Distance to the end of the path within which the goal is reached.
@@ -347,7 +362,7 @@ impl Navigator {
         let free_m = choice.free_m.min(self.reachable.ahead_m());
         Motion {
             speed_m_s: max_m_s.min(approach_speed_m_s(free_m)) * aligned,
-            turn_rate_rad_s: turn_rad / body.period_s,
+            turn_rate_rad_s: situation.turn_rate_rad_s(turn_rad, body.period_s),
         }
     }
 }

@@ -381,6 +381,7 @@ mod tests {
                 let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
                 let situation = super::Situation {
                     beliefs: None,
+                    localisation: None,
                     peers: None,
                     percept: &percept,
                     body: &body,

@@ -28,6 +28,8 @@ pub(crate) struct Odometry {
     pub(crate) speed_m_s: f64,
     /// Angle by which the body has turned since the previous step.
     pub(crate) turned_rad: f64,
+    /// Whether the motion is that of the commands: the robot has not measured it.
+    pub(crate) is_commanded: bool,
 }
 
 /// Longer times between two percepts count as this time, in seconds: a day.
@@ -119,7 +121,7 @@ impl DeadReckoning {
 
     /// Upper bound of the current speed, in m/s; negative in reverse. It is the larger of the
     /// commanded and the measured speed, because braking too early is safe. For localisation, see
-    /// [`DeadReckoning::likely_speed_m_s`].
+    /// [`DeadReckoning::likely`].
     #[inline]
     pub(crate) fn current_speed_m_s(&self, percept: &Percept, body: &Body) -> f64 {
         let commanded = f64::from(self.speed_m_s);
@@ -130,11 +132,44 @@ impl DeadReckoning {
         }
     }
 
-    /// Most likely current speed, in m/s; negative in reverse. It is the measured speed if there is
-    /// one, since terrain can slow the body down, and otherwise the commanded speed.
+    /// The motion of the next time if the command in force is executed.
+    pub(crate) fn ahead(&self, elapsed_s: f64, body: &Body) -> Odometry {
+        let mut then = self.clone();
+        then.advance(body, elapsed_s);
+        Odometry {
+            elapsed_s,
+            speed_m_s: f64::from(then.speed_m_s),
+            turned_rad: single(self.commanded_rad_s()) * elapsed_s,
+            is_commanded: true,
+        }
+    }
+
+    /// Whether the robot has measured its own motion.
     #[inline]
-    pub(crate) fn likely_speed_m_s(&self, percept: &Percept, body: &Body) -> f64 {
-        wheels_m_s(percept, body).unwrap_or(f64::from(self.speed_m_s))
+    pub(crate) fn is_measured(percept: &Percept, body: &Body) -> bool {
+        wheels_m_s(percept, body).is_some()
+    }
+
+    /// The motion since the previous step for localisation, in which the body has turned by an angle
+    /// according to [`DeadReckoning::update`]: the measured speed if there is one, since terrain can
+    /// slow the body down, and otherwise the commanded speed.
+    ///
+    /// The turn is that of wheels or command if the compass is noisy, and that of the command if wheels
+    /// measure nothing: a filter that corrects the heading with the compass must not predict it with
+    /// the same readings.
+    #[inline]
+    pub(crate) fn likely(&self, percept: &Percept, body: &Body, moved: &Odometry) -> Odometry {
+        let turned_rad = if moved.is_commanded || body.heading_noise_rad > 0.0 {
+            self.turn_rate_rad_s(percept, body) * moved.elapsed_s
+        } else {
+            moved.turned_rad
+        };
+        Odometry {
+            elapsed_s: moved.elapsed_s,
+            speed_m_s: wheels_m_s(percept, body).unwrap_or(f64::from(self.speed_m_s)),
+            turned_rad,
+            is_commanded: moved.is_commanded,
+        }
     }
 
     /// Headings of the body within the last `age_s`, by its commands.
@@ -214,22 +249,6 @@ impl DeadReckoning {
         self.speed_m_s += change.max(-max_change).min(max_change);
         if self.straight_s > 0.0 {
             self.straight_s += elapsed_s as f32;
-        }
-    }
-
-    /// The angle that [`DeadReckoning::update`] returned, or that of wheels or command if the
-    /// compass is noisy: a filter that corrects the heading with the compass must not predict it
-    /// with the same readings.
-    pub(crate) fn turned_without_compass_rad(
-        &self,
-        (turned_rad, elapsed_s): (f64, f64),
-        percept: &Percept,
-        body: &Body,
-    ) -> f64 {
-        if body.heading_noise_rad > 0.0 {
-            self.turn_rate_rad_s(percept, body) * elapsed_s
-        } else {
-            turned_rad
         }
     }
 

@@ -4,6 +4,7 @@ pub(crate) mod beliefs;
 pub(crate) mod believed;
 mod chords;
 pub(crate) mod dead_reckoning;
+pub(crate) mod pose_tracker;
 pub(crate) mod rays;
 pub(crate) mod sector;
 pub(crate) mod turns;

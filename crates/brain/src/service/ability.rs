@@ -126,8 +126,9 @@ pub(crate) struct Moment<'s> {
     pub(crate) beliefs: Option<&'s Beliefs>,
     /// Its map, if it has one.
     pub(crate) map: Option<&'s Map>,
-    /// Its position, if known.
+    /// Its position, if known, and the standard deviation of that along each axis.
     pub(crate) at: Option<Point>,
+    pub(crate) deviation_m: f64,
     pub(crate) elapsed_s: f64,
     /// Remaining time of the battery, and its charge if known.
     pub(crate) battery_s: f64,

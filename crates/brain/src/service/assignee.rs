@@ -11,6 +11,7 @@ use super::lane_reports::{LANE_REPORT_PERIOD_S, LaneReports};
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
+use crate::goals::proposal::within_m;
 use crate::io::act::Act;
 use crate::io::body::RobotId;
 use crate::io::command::Command;
@@ -21,6 +22,7 @@ use crate::io::percept::ReceivedMessage;
 use crate::io::verdict::Verdict;
 use crate::messaging::phase::phase;
 use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::pose::Pose;
 use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle};
 
@@ -123,14 +125,16 @@ impl Assignee {
     }
 
     /// The goal to serve now, and whether the robot is there.
-    pub(crate) fn current(&mut self, ability: &Ability, at: Point) -> Option<(Job, bool)> {
+    pub(crate) fn current(&mut self, ability: &Ability, pose: &Pose) -> Option<(Job, bool)> {
         let goal = self.jobs.current(self.now_s)?.task.id;
         self.proposed = Some(goal);
         let job = self.jobs.get_mut(goal)?;
         // Until it is judged otherwise in this step.
         job.verdict = Verdict::Approaching;
-        let job = *job;
-        Some((job, is_there(&job, ability, at) && job.is_swept(ability)))
+        let seems_there = is_near(job, ability, pose.at, 0.0);
+        job.is_uncertain |= seems_there && !is_certain(job, pose.deviation_m);
+        let is_there = is_there(job, ability, pose.at, pose.deviation_m);
+        Some((*job, is_there && job.is_swept(ability)))
     }
 
     /// Whether it serves a goal.
@@ -155,8 +159,13 @@ impl Assignee {
         job.verdict = verdict;
         if verdict == Verdict::Impossible {
             let goal = job.task.id;
-            job.rests_until_s = self.failures.add(goal, self.now_s);
-            self.report_failure(goal, Reason::Unreachable);
+            let reason = if job.is_uncertain {
+                Reason::Position
+            } else {
+                Reason::Unreachable
+            };
+            job.rests_until_s = self.failures.add(goal, reason, self.now_s);
+            self.report_failure(goal, reason);
         }
     }
 
@@ -396,7 +405,7 @@ impl Assignee {
             return;
         };
         let goal = job.task.id;
-        if !is_there(&job, ability, at) {
+        if !is_there(&job, ability, at, moment.deviation_m) {
             // A service that was interrupted begins again.
             if let Some(job) = self.jobs.get_mut(goal) {
                 job.served_s = 0.0;
@@ -452,13 +461,25 @@ fn is_award(received: &ReceivedMessage) -> bool {
     matches!(received.message.about, About::Dispatch(Dispatch::Award(_)))
 }
 
-fn is_there(job: &Job, ability: &Ability, at: Point) -> bool {
+/// Whether a robot at a position with a standard deviation is at a goal.
+fn is_there(job: &Job, ability: &Ability, at: Point, deviation_m: f64) -> bool {
+    is_near(job, ability, at, deviation_m) && is_certain(job, deviation_m)
+}
+
+/// Whether the position is known well enough for a service that has not begun.
+fn is_certain(job: &Job, deviation_m: f64) -> bool {
+    job.has_begun() || deviation_m <= job.max_deviation_m()
+}
+
+fn is_near(job: &Job, ability: &Ability, at: Point, deviation_m: f64) -> bool {
     if ability.is_stationary() {
         return ability.covers(&job.task, at);
     }
     let (target, near_m) = job.target(ability);
     let near_m = if job.has_begun() {
         near_m
+    } else if job.max_deviation_m().is_finite() {
+        within_m(near_m, deviation_m)
     } else {
         near_m * job.approach()
     };

@@ -67,9 +67,10 @@ impl<'b> Bidder<'b> {
         if let Some(reason) = ability.lacks(task, self.moment.percept.charges) {
             return Err(reason);
         }
-        let detour = self.detour(task);
-        let detour = detour.filter(|_| !self.failures.is_resting(task.id, self.now_s));
-        let detour = detour.ok_or(Reason::Unreachable)?;
+        if let Some(reason) = self.failures.reason_of_rest(task.id, self.now_s) {
+            return Err(reason);
+        }
+        let detour = self.detour(task).ok_or(Reason::Unreachable)?;
         let work_s = ability.work_s(task);
         let time_s = ability.travel_s(detour * self.tour.increment_m(task.at())) + work_s;
         let all_s = self.busy_s + time_s;
@@ -186,6 +187,7 @@ mod tests {
             beliefs: None,
             map,
             at: Some(at),
+            deviation_m: 0.0,
             elapsed_s: 0.1,
             battery_s: f64::INFINITY,
             charge: None,

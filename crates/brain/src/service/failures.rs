@@ -1,5 +1,6 @@
 //! The goals that a robot could not serve: it bids for them later, and with less confidence.
 
+use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
 
@@ -23,17 +24,20 @@ struct Failure {
     goal: GoalId,
     count: u8,
     rests_until_s: f64,
+    /// Why the last attempt failed.
+    reason: Reason,
 }
 
 base::hashed!(Failure {
     goal,
     count,
-    rests_until_s
+    rests_until_s,
+    reason
 });
 
 impl Failures {
     /// Notes a failure; returns until when the goal rests.
-    pub(crate) fn add(&mut self, goal: GoalId, now_s: f64) -> f64 {
+    pub(crate) fn add(&mut self, goal: GoalId, reason: Reason, now_s: f64) -> f64 {
         let index = self.list.iter().position(|failure| failure.goal == goal);
         let count = index.map_or(0, |index| self.list.remove(index).count);
         if self.list.len() == MAX_GOALS {
@@ -45,14 +49,15 @@ impl Failures {
             goal,
             count: count.saturating_add(1),
             rests_until_s,
+            reason,
         });
         rests_until_s
     }
 
-    /// Whether the robot does not try a goal at this time.
-    pub(crate) fn is_resting(&self, goal: GoalId, now_s: f64) -> bool {
-        let failure = self.of(goal);
-        failure.is_some_and(|failure| now_s < failure.rests_until_s)
+    /// Why the robot does not try a goal at this time, if it does not.
+    pub(crate) fn reason_of_rest(&self, goal: GoalId, now_s: f64) -> Option<Reason> {
+        let failure = self.of(goal)?;
+        (now_s < failure.rests_until_s).then_some(failure.reason)
     }
 
     /// Probability that the next attempt succeeds: half after each failure.
@@ -73,11 +78,17 @@ mod tests {
     #[test]
     fn each_failure_halves_the_confidence_and_doubles_the_rest() {
         let (mut failures, goal) = (Failures::default(), GoalId::default());
-        failures.add(goal, 0.0);
+        failures.add(goal, Reason::Unreachable, 0.0);
         assert!((failures.confidence(goal) - 0.5).abs() < 1e-12);
-        assert!(failures.is_resting(goal, 19.0) && !failures.is_resting(goal, 20.0));
-        failures.add(goal, 20.0);
+        assert!(
+            failures.reason_of_rest(goal, 19.0).is_some()
+                && failures.reason_of_rest(goal, 20.0).is_none()
+        );
+        failures.add(goal, Reason::Unreachable, 20.0);
         assert!((failures.confidence(goal) - 0.25).abs() < 1e-12);
-        assert!(failures.is_resting(goal, 59.0) && !failures.is_resting(goal, 60.0));
+        assert!(
+            failures.reason_of_rest(goal, 59.0).is_some()
+                && failures.reason_of_rest(goal, 60.0).is_none()
+        );
     }
 }

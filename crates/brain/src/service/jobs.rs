@@ -2,6 +2,7 @@
 
 use super::ability::Ability;
 use super::charge_state::{Aim, Charges};
+use crate::goals::proposal::max_deviation_m;
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
 use crate::io::dispatch::{Task, Work};
@@ -29,6 +30,8 @@ pub(crate) struct Job {
     pub(crate) corners: u32,
     pub(crate) visited: u32,
     pub(crate) verdict: Verdict,
+    /// Whether the robot has seemed to be there, but did not know its position well enough.
+    pub(crate) is_uncertain: bool,
     /// Until when others are served first, because it was impossible.
     pub(crate) rests_until_s: f64,
     /// What it is to neutralise, once it has detected it.
@@ -44,6 +47,7 @@ base::hashed!(Job {
     corners,
     visited,
     verdict,
+    is_uncertain,
     rests_until_s,
     charges
 } without { aim });
@@ -58,6 +62,7 @@ impl Job {
             corners: 0,
             visited: 0,
             verdict: Verdict::Approaching,
+            is_uncertain: false,
             rests_until_s: f64::NEG_INFINITY,
             aim: None,
             charges: Charges::default(),
@@ -90,6 +95,15 @@ impl Job {
         match self.task.work {
             Work::Visit | Work::Search => 1.0,
             Work::Interrogate | Work::Neutralise => APPROACH,
+        }
+    }
+
+    /// The largest standard deviation of its position with which the robot knows that it is there.
+    /// Any is enough for a search, and for looks and acts, whose distances allow for the error.
+    pub(crate) fn max_deviation_m(&self) -> f64 {
+        match self.task.work {
+            Work::Visit => max_deviation_m(self.task.radius_m.into()),
+            Work::Search | Work::Interrogate | Work::Neutralise => f64::INFINITY,
         }
     }
 

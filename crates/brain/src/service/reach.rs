@@ -99,6 +99,7 @@ mod tests {
             beliefs: None,
             map: Some(&map),
             at: None,
+            deviation_m: 0.0,
             elapsed_s: 0.1,
             battery_s: f64::INFINITY,
             charge: None,

@@ -7,7 +7,7 @@ use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::io::percept::Percept;
 use crate::io::random_words::RandomWords;
 use crate::messaging::peers::Peers;
-use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::{Beliefs, DriveEstimate, Localisation};
 use crate::perception::rays::Ring;
 use base::geometry::Point;
 use core::cell::Cell;
@@ -15,6 +15,9 @@ use core::cell::Cell;
 /// Time for which touch is ignored after a turn, in seconds: the body needs it to leave what it
 /// touched.
 const CLEARING_S: f64 = 0.5;
+
+/// A body may be blocked after this time without an evasion, in seconds.
+const BLOCKED_AFTER_S: f64 = 3.0;
 
 /// Free distance in some direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +36,8 @@ pub(crate) struct Situation<'s> {
     pub(crate) body: &'s Body,
     /// Beliefs from all percepts so far; `None` in a brain without beliefs.
     pub(crate) beliefs: Option<&'s Beliefs>,
+    /// Its estimate of its pose; `None` in a brain that has none.
+    pub(crate) localisation: Option<&'s Localisation>,
     /// Its team mates; `None` in a brain without beliefs.
     pub(crate) peers: Option<&'s Peers>,
     pub(crate) rings: &'s [Ring],
@@ -93,6 +98,35 @@ impl Situation<'_> {
     )]
     pub(crate) fn half_step_s(&self) -> f32 {
         self.elapsed_s.min(self.body.period_s) as f32 / 2.0
+    }
+
+    /// How its drive executes commands; `None` while the robot measures its own motion.
+    #[inline]
+    pub(crate) fn drive(&self) -> Option<&DriveEstimate> {
+        self.localisation.and_then(Localisation::drive)
+    }
+
+    /// The angle by which the body still turns after the command to stop turning; 0 while the robot
+    /// measures its own motion.
+    #[inline]
+    pub(crate) fn coasting_rad(&self) -> f64 {
+        self.drive().map_or(0.0, DriveEstimate::coasting_rad)
+    }
+
+    /// The turn rate with which the body will have turned by an angle after some time and the lag of its
+    /// drive.
+    #[inline]
+    pub(crate) fn turn_rate_rad_s(&self, turn_rad: f64, within_s: f64) -> f64 {
+        let lag_s = self.drive().map_or(0.0, |drive| drive.lag_s);
+        (turn_rad - self.coasting_rad()) / (within_s + lag_s)
+    }
+
+    /// Whether a body without a touch sensor does not move although it has been commanded to for a time:
+    /// something that its sensors do not see may be in its way.
+    #[inline]
+    pub(crate) fn is_blocked(&self, driving_s: f64) -> bool {
+        let is_blind = self.percept.touch.is_none() && driving_s >= BLOCKED_AFTER_S;
+        is_blind && self.localisation.is_some_and(Localisation::is_blocked)
     }
 
     /// Whether the body still touches something: it may be stopped by a collision and unable to

@@ -119,7 +119,13 @@ impl Controller {
         };
         let since_s = owned.without_bid_s.max(assigned.stuck_s);
         if now_s >= since_s + HOPELESS_S {
-            owned.decline(assigned.robot, now_s + HOPELESS_S, Reason::Unreachable);
+            let is_stuck = assigned.stuck_s.is_finite();
+            let reason = if is_stuck {
+                owned.reason
+            } else {
+                Reason::Unreachable
+            };
+            owned.decline(assigned.robot, now_s + HOPELESS_S, reason);
             self.withdraw(goal);
         }
     }

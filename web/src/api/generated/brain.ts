@@ -182,6 +182,8 @@ export interface GoalState {
   within_m: number;
   /** Its fitness verdict. */
   verdict: Verdict;
+  /** Why it is impossible; `None` if it is not. */
+  reason: Reason | null;
   /** Remaining path length in the last step, and the minimum so far. */
   remaining_m: number;
   /** See `remaining_m`. */
@@ -366,7 +368,7 @@ export interface Provenance {
 }
 
 /** Why a goal is not served. */
-export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "orphaned" | "no_controller";
+export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "orphaned" | "no_controller" | "position";
 
 /** A received message. */
 export interface ReceivedMessage {

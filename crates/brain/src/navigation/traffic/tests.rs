@@ -17,6 +17,7 @@ fn odometry(body: &Body, speed_m_s: f64, turned_rad: f64) -> Odometry {
         elapsed_s: body.period_s,
         speed_m_s,
         turned_rad,
+        is_commanded: false,
     }
 }
 

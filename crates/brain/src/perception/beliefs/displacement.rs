@@ -9,6 +9,14 @@ use base::geometry::Point;
 /// Relative odometry error, of the distance and of the turn.
 const ODOMETRY_ERROR: f64 = 0.02;
 
+/// The same for commanded motion, besides the errors that are [learnt](super::drive_estimate).
+const COMMANDED_PATH_ERROR: f64 = 0.003;
+const COMMANDED_TURN_ERROR: f64 = 0.05;
+
+/// Tracks and wheels do not turn a body exactly around its centre: error of the position, in metres
+/// per radian of a commanded turn.
+const PIVOT_ERROR_M: f64 = 0.01;
+
 /// Minimum process noise, also at rest: about a millimetre and some hundredths of a degree per
 /// second. It keeps the gain above zero, so that a robot that has been at rest for long still
 /// follows its sensors.
@@ -22,9 +30,13 @@ pub(crate) struct Displacement {
     /// The chord of the path, in the frame of the body at its beginning.
     pub(crate) chord: Point,
     pub(crate) turned_rad: f64,
+    /// Length of the path; negative in reverse.
+    pub(crate) path_m: f64,
+    /// Whether it was commanded, and not measured by the robot.
+    pub(crate) is_commanded: bool,
     /// Speed at its beginning and at its end; negative in reverse.
     from_m_s: f64,
-    to_m_s: f64,
+    pub(crate) to_m_s: f64,
     /// Process noise: variance of the chord along each axis, and of the turn. It is the sum of those
     /// of the parts.
     pub(crate) variance_m2: f64,
@@ -35,6 +47,8 @@ base::hashed!(Displacement {
     elapsed_s,
     chord,
     turned_rad,
+    path_m,
+    is_commanded,
     from_m_s,
     to_m_s,
     variance_m2,
@@ -67,15 +81,33 @@ impl Displacement {
     /// The displacement along an arc, at constant speed.
     pub(crate) fn along(path_m: f64, to: &Odometry) -> Self {
         let speed_m_s = path_m / to.elapsed_s.max(f64::MIN_POSITIVE);
-        let (off_m, off_rad) = (ODOMETRY_ERROR * path_m, ODOMETRY_ERROR * to.turned_rad);
+        let [path_error, turn_error, pivot_m] = if to.is_commanded {
+            [COMMANDED_PATH_ERROR, COMMANDED_TURN_ERROR, PIVOT_ERROR_M]
+        } else {
+            [ODOMETRY_ERROR, ODOMETRY_ERROR, 0.0]
+        };
+        let (off_m, off_rad) = (path_error * path_m, turn_error * to.turned_rad);
+        let aside_m = pivot_m * to.turned_rad;
         Self {
             elapsed_s: to.elapsed_s,
             chord: arc(path_m, to.turned_rad),
             turned_rad: to.turned_rad,
+            path_m,
+            is_commanded: to.is_commanded,
             from_m_s: speed_m_s,
             to_m_s: speed_m_s,
-            variance_m2: off_m * off_m + PROCESS_NOISE_M2_S * to.elapsed_s,
+            variance_m2: off_m * off_m + aside_m * aside_m + PROCESS_NOISE_M2_S * to.elapsed_s,
             variance_rad2: off_rad * off_rad + PROCESS_NOISE_RAD2_S * to.elapsed_s,
+        }
+    }
+
+    /// The same time, with another path and turn of its body.
+    pub(crate) fn executed(&self, path_m: f64, turned_rad: f64) -> Self {
+        Self {
+            chord: arc(path_m, turned_rad),
+            path_m,
+            turned_rad,
+            ..*self
         }
     }
 
@@ -93,6 +125,7 @@ impl Displacement {
             elapsed_s: after_s,
             speed_m_s: self.from_m_s + change_m_s.max(-max_change_m_s).min(max_change_m_s),
             turned_rad: share * self.turned_rad,
+            is_commanded: self.is_commanded,
         };
         let until = Self {
             variance_m2: share * self.variance_m2,
@@ -103,6 +136,8 @@ impl Displacement {
             elapsed_s: self.elapsed_s - after_s,
             chord: turned(until.chord.to(self.chord), direction(-until.turned_rad)),
             turned_rad: self.turned_rad - until.turned_rad,
+            path_m: self.path_m - until.path_m,
+            is_commanded: self.is_commanded,
             from_m_s: until.to_m_s,
             to_m_s: self.to_m_s,
             variance_m2: self.variance_m2 - until.variance_m2,
@@ -119,6 +154,8 @@ impl Displacement {
                 .chord
                 .plus(turned(next.chord, direction(self.turned_rad))),
             turned_rad: self.turned_rad + next.turned_rad,
+            path_m: self.path_m + next.path_m,
+            is_commanded: self.is_commanded || next.is_commanded,
             from_m_s: self.from_m_s,
             to_m_s: next.to_m_s,
             variance_m2: self.variance_m2 + next.variance_m2,
@@ -172,6 +209,7 @@ mod tests {
             elapsed_s,
             speed_m_s: 1.0,
             turned_rad,
+            is_commanded: false,
         }
     }
 

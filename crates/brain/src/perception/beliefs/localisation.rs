@@ -2,11 +2,13 @@
 //! position sensor and compass, which may be late.
 
 use super::displacement::Displacement;
+use super::drive_estimate::DriveEstimate;
 use super::pose::Pose;
 use super::pose_history::{Measured, PoseHistory};
 use super::readings::MAX_AGE_S;
 use crate::io::body::Body;
 use crate::io::percept::{Percept, Reading};
+use crate::perception::dead_reckoning::Odometry;
 
 /// Readings farther from the origin than this are ignored.
 const MAX_COORDINATE_M: f64 = 1e7;
@@ -22,6 +24,8 @@ const MAX_HEADING_RAD: f64 = 1e4;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Localisation {
     history: PoseHistory,
+    /// Speed in the last step; negative in reverse.
+    speed_m_s: f64,
     depth_s: f64,
     /// Ages of the most recently measured readings.
     position_s: Option<f64>,
@@ -30,6 +34,7 @@ pub(crate) struct Localisation {
 
 base::hashed!(Localisation {
     history,
+    speed_m_s,
     depth_s,
     position_s,
     heading_s
@@ -56,8 +61,46 @@ impl Localisation {
         is_kept.then(|| self.history.pose_before(age_s, body))?
     }
 
+    /// How the drive executes commanded motion; `None` while the robot has measured all of its motion.
+    pub(crate) fn drive(&self) -> Option<&DriveEstimate> {
+        self.history.filter().drive()
+    }
+
+    /// Whether the body does not move although it is commanded to, as far as positions show.
+    pub(crate) fn is_blocked(&self) -> bool {
+        self.history.filter().is_blocked()
+    }
+
+    /// Estimated speed in the last step; negative in reverse.
+    pub(crate) fn speed_m_s(&self) -> f64 {
+        self.drive()
+            .map_or(self.speed_m_s, DriveEstimate::speed_m_s)
+    }
+
+    /// The pose after a further motion, without readings.
+    pub(crate) fn pose_after(&self, motion: &Odometry, body: &Body) -> Option<Pose> {
+        let mut filter = self.history.filter().clone();
+        filter.predict(&Displacement::new(self.speed_m_s, motion, body), body);
+        filter.pose()
+    }
+
+    /// Updates the pose after a step with a motion. Returns the displacement of the body: where the
+    /// motion was commanded, it is by what is known of the drive.
+    pub(crate) fn step(
+        &mut self,
+        percept: &Percept,
+        body: &Body,
+        motion: &Odometry,
+    ) -> Displacement {
+        let moved = Displacement::new(self.speed_m_s, motion, body);
+        self.speed_m_s = motion.speed_m_s;
+        let executed = self.history.filter().executed(&moved);
+        self.update(percept, body, &moved);
+        executed
+    }
+
     /// Updates the pose after a step with a displacement.
-    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
+    fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
         let is_known = self.pose().is_some();
         let depth_s = if is_known { self.depth_s } else { MAX_AGE_S };
         self.history.add(moved, depth_s);
@@ -104,7 +147,6 @@ fn unused<T: Copy>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perception::dead_reckoning::Odometry;
     use crate::perception::sector::direction;
     use crate::world_of_walls::{now, rover};
     use base::geometry::Point;
@@ -119,6 +161,7 @@ mod tests {
             elapsed_s: 0.1,
             speed_m_s,
             turned_rad: 0.1 * rate_rad_s,
+            is_commanded: false,
         };
         Displacement::along(0.1 * speed_m_s, &odometry)
     }

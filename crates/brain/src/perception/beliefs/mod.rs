@@ -2,14 +2,16 @@
 //! architecture, which has an identifier, a [goal selector](crate::goals) and an
 //! [adapter](crate::navigation::navigator).
 //!
-//! Memory is bounded: with its goals and paths, a brain needs at most 51 kB, plus 20 bytes for each
-//! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray, plus 14 kB if
+//! Memory is bounded: with its goals and paths, a brain needs at most 53 kB, plus 20 bytes for each
+//! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray, plus 50 kB if
 //! readings are late, plus 48 bytes per track if items may destroy the robot. A test measures this,
 //! without such items.
 
 mod battery;
+mod covariance;
 pub(crate) mod coverage_map;
 pub(crate) mod displacement;
+mod drive_estimate;
 pub(crate) mod field;
 pub(crate) mod items;
 mod localisation;
@@ -28,6 +30,8 @@ mod validation_gate;
 pub(crate) mod view;
 mod world_model;
 
+pub(crate) use drive_estimate::DriveEstimate;
+pub(crate) use localisation::Localisation;
 pub(crate) use map::Map;
 pub(crate) use scans::static_hits;
 pub use spec::{BeliefsSpec, TrustSpec};

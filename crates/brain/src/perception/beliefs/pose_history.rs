@@ -11,6 +11,7 @@ use super::pose_filter::PoseFilter;
 use crate::io::body::Body;
 use alloc::collections::VecDeque;
 use base::geometry::Point;
+use core::mem;
 
 /// Maximum number of parts: five seconds at 10 Hz. Above it, the shortest parts are joined.
 const MAX_PARTS: usize = 64;
@@ -52,42 +53,58 @@ pub(super) struct PoseHistory {
     parts: VecDeque<Part>,
     /// Number of parts whose poses are up to date, from the oldest one.
     valid: usize,
+    /// Scratch memory, to avoid allocations.
+    scratch: PoseFilter,
 }
 
 base::hashed!(PoseHistory {
     before,
     parts,
     valid
-});
+} without { scratch });
 
 impl PoseHistory {
     /// The pose now.
     pub(super) fn pose(&self) -> Option<Pose> {
-        self.after(self.parts.len()).pose()
+        self.filter().pose()
+    }
+
+    /// The filter of the pose now.
+    pub(super) fn filter(&self) -> &PoseFilter {
+        self.after(self.parts.len())
     }
 
     /// Adds a displacement; parts that ended more than `depth_s` ago are dropped.
     ///
     /// The pose is up to date after [`PoseHistory::update`].
     pub(super) fn add(&mut self, moved: &Displacement, depth_s: f64) {
-        let mut end_s: f64 = self.parts.iter().map(|part| part.moved.elapsed_s).sum();
-        end_s += moved.elapsed_s;
-        while let Some(oldest) = self.parts.front() {
-            end_s -= oldest.moved.elapsed_s;
-            if end_s <= depth_s + SAME_TIME_S {
-                break;
-            }
-            self.before = oldest.after;
-            self.parts.pop_front();
+        let stale = self.stale(moved.elapsed_s, depth_s);
+        if let Some(last) = stale.checked_sub(1) {
+            mem::swap(&mut self.before, &mut self.parts[last].after);
+            self.parts.drain(..last);
+            // Its memory is used again.
+            self.parts.rotate_left(1);
+        } else {
+            self.parts.push_back(Part::default());
         }
-        while self.parts.len() + MAX_NEW_PARTS > MAX_PARTS {
+        if let Some(part) = self.parts.back_mut() {
+            (part.moved, part.position, part.heading_rad) = (*moved, None, None);
+        }
+        while self.parts.len() + MAX_NEW_PARTS > MAX_PARTS + 1 {
             self.join_shortest();
         }
-        self.valid = self.parts.len();
-        self.parts.push_back(Part {
-            moved: *moved,
-            ..Part::default()
-        });
+        self.valid = self.parts.len() - 1;
+    }
+
+    /// The number of parts that will have ended more than `depth_s` ago after a further time.
+    fn stale(&self, elapsed_s: f64, depth_s: f64) -> usize {
+        let mut end_s: f64 = self.parts.iter().map(|part| part.moved.elapsed_s).sum();
+        end_s += elapsed_s;
+        let is_stale = |part: &&Part| {
+            end_s -= part.moved.elapsed_s;
+            end_s > depth_s + SAME_TIME_S
+        };
+        self.parts.iter().take_while(is_stale).count()
     }
 
     /// Records a reading at the time of its measurement, unless there is one of its sensor already.
@@ -110,16 +127,21 @@ impl PoseHistory {
 
     /// Brings the poses up to date with the recorded displacements and readings.
     pub(super) fn update(&mut self, body: &Body) {
-        let mut filter = *self.after(self.valid);
+        let last = self
+            .valid
+            .checked_sub(1)
+            .map(|last| &self.parts[last].after);
+        self.scratch.clone_from(last.unwrap_or(&self.before));
+        let filter = &mut self.scratch;
         for part in self.parts.range_mut(self.valid..) {
-            filter.predict(&part.moved);
+            filter.predict(&part.moved, body);
             if let Some(heading_rad) = part.heading_rad {
                 filter.correct_heading(heading_rad, body.heading_noise_rad);
             }
             if let Some(at) = part.position {
                 filter.correct_position(at, body.position_noise_m);
             }
-            part.after = filter;
+            part.after.clone_from(filter);
         }
         self.valid = self.parts.len();
     }
@@ -132,8 +154,8 @@ impl PoseHistory {
             return self.after(place + 1).pose();
         };
         let [until, _] = self.parts.get(place)?.moved.split(after_s, body);
-        let mut filter = *self.after(place);
-        filter.predict(&until);
+        let mut filter = self.after(place).clone();
+        filter.predict(&until, body);
         filter.pose()
     }
 
@@ -219,6 +241,7 @@ mod tests {
             elapsed_s: 0.01,
             speed_m_s: 1.0,
             turned_rad: 0.0,
+            is_commanded: false,
         };
         for step in 1..=1000 {
             history.add(&Displacement::along(0.01, &ahead), DEPTH_S);
@@ -262,6 +285,7 @@ mod tests {
                         elapsed_s: 0.1,
                         speed_m_s: 0.0,
                         turned_rad: 0.0,
+                        is_commanded: false,
                     },
                 ),
                 1.0,

@@ -37,7 +37,7 @@ pub(crate) struct Innovation {
 
 impl Innovation {
     /// Whether the reading is outside the gate; that of an exact sensor never is.
-    fn is_outside(&self) -> bool {
+    pub(super) fn is_outside(&self) -> bool {
         let [own, sensor] = self.variances;
         sensor > 0.0 && self.distance * self.distance > GATE * GATE * (own + sensor)
     }

@@ -35,13 +35,12 @@ pub(crate) struct Beliefs {
     /// Prior density of items of each kind; all robots of a kind share it.
     pub(crate) per_m2: Arc<[f64]>,
     pub(crate) id: RobotId,
-    pub(super) localisation: Localisation,
+    pub(crate) localisation: Localisation,
     pub(crate) others: Others,
     pub(crate) items: Items,
     battery: Battery,
     /// `None` if the mission area is unknown.
     pub(crate) map: Option<Map>,
-    speed_m_s: f64,
     /// Number of item observations so far, and time since the brain was started.
     pub(crate) observations: u32,
     uptime_s: f64,
@@ -55,7 +54,6 @@ base::hashed!(Beliefs {
     items,
     battery,
     map,
-    speed_m_s,
     observations,
     uptime_s
 });
@@ -76,7 +74,6 @@ impl Beliefs {
             battery: Battery::default(),
             per_m2,
             map: area.map(|area| Map::new(spec, &area)),
-            speed_m_s: 0.0,
             observations: 0,
             uptime_s: 0.0,
         }
@@ -124,30 +121,33 @@ impl Beliefs {
         Some(pose.in_world(tracked.at))
     }
 
-    /// Updates the beliefs after a step.
+    /// Updates the beliefs after a step. Returns the displacement of the body.
     pub(crate) fn update(
         &mut self,
         percept: &Percept,
         body: &Body,
         rings: &[Ring],
         odometry: &Odometry,
-    ) {
+    ) -> Displacement {
         let elapsed_s = odometry.elapsed_s;
         self.id = percept.id;
         self.uptime_s += elapsed_s;
-        let moved = Displacement::new(self.speed_m_s, odometry, body);
-        self.speed_m_s = odometry.speed_m_s;
-        self.localisation.update(percept, body, &moved);
+        let moved = self.localisation.step(percept, body, odometry);
         self.others.update(percept, body, &moved);
         for (ring, ranges_m) in new_scans(percept, rings, elapsed_s) {
             self.others.scan(ring, ranges_m);
         }
         self.battery.update(percept, elapsed_s);
         self.note_lane(percept, body);
-        let Some(pose) = self.localisation.pose() else {
-            return;
-        };
-        self.update_map(percept, &pose, rings, elapsed_s);
+        if let Some(pose) = self.localisation.pose() {
+            self.update_map(percept, &pose, rings, elapsed_s);
+            self.observe(percept, body);
+        }
+        moved
+    }
+
+    /// Takes the observations of items.
+    fn observe(&mut self, percept: &Percept, body: &Body) {
         for observation in &percept.observations {
             if let Some(then) = self.localisation.pose_before(observation.age_s, body) {
                 self.update_items(observation, percept, body, then);

@@ -2,6 +2,7 @@
 
 mod acts;
 mod battery;
+mod believed_poses;
 mod change;
 mod change_pending;
 mod changes_of_economy;

@@ -24,6 +24,7 @@ const STILL: Odometry = Odometry {
     elapsed_s: 0.1,
     speed_m_s: 0.0,
     turned_rad: 0.0,
+    is_commanded: false,
 };
 
 fn percept(neighbours: Vec<Neighbour>) -> Percept {
@@ -51,6 +52,7 @@ fn tracked([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Poin
     let turned_rad = rate * 0.1;
     let turning = Odometry {
         turned_rad,
+        is_commanded: false,
         ..STILL
     };
     let moved = Displacement::along(speed * 0.1, &turning);
