@@ -110,6 +110,9 @@ impl State {
             self.discs[robot].centre = before.discs[was].centre;
             self.orientations[robot] = before.orientations[was];
             self.agents[robot].take_over_queue(&before.agents[was], kind);
+            self.agents[robot]
+                .external
+                .clone_from(&before.agents[was].external);
             self.body_states[robot] = kept_body_state(&before.body_states[was], kind, to);
             if has_same_agent(old_kind, kind) {
                 self.agents[robot].take_over(&before.agents[was]);

@@ -6,6 +6,7 @@ mod carry_over;
 mod change;
 pub(crate) mod controller;
 mod economy;
+mod external;
 mod failing;
 mod fixed;
 mod goals;

@@ -12,7 +12,6 @@ pub use inspect::Inspected;
 pub use links::Link;
 
 use crate::bodies::body_state::Status;
-use crate::bodies::path::Orientation;
 use crate::bodies::source::BodySource;
 use crate::clock::seconds;
 use crate::judge::Outcome;
@@ -27,7 +26,6 @@ use crate::step::neighbours::Neighbours;
 use crate::step::pending_decisions::PendingDecision;
 use crate::step::tick::StepScratch;
 use crate::step::view::View;
-use base::geometry::Point;
 use brain::{Command, Percept, RobotId};
 use probe::Probe;
 use std::collections::BTreeMap;
@@ -47,6 +45,8 @@ pub struct Simulation {
     pub(super) state: State,
     scratch: StepScratch,
     probe: Probe,
+    /// Whether any body is external.
+    has_external: bool,
 }
 
 /// There is no such robot or controller in the run.
@@ -67,6 +67,7 @@ impl Simulation {
             state,
             scratch,
             probe: Probe::default(),
+            has_external: false,
         })
     }
 
@@ -78,7 +79,7 @@ impl Simulation {
     pub fn with_external(mut self, robots: &[RobotId]) -> Result<Self, NoRobot> {
         for id in robots {
             let robot = self.number(*id)?;
-            self.state.body_states[robot].source = BodySource::External;
+            self.make_external(robot);
         }
         Ok(self)
     }
@@ -86,6 +87,7 @@ impl Simulation {
     /// Takes one step, also after the run is over.
     pub fn step(&mut self) {
         self.record_decision();
+        self.place_external(&BTreeMap::new());
         self.scratch.step(&self.scenario, &mut self.state);
     }
 
@@ -132,7 +134,14 @@ impl Simulation {
         let repeated: Vec<_> = self.repeated_commands(&external).collect();
         self.scratch.decisions = external.decisions;
         let ids = &self.state.ids;
-        let decided = self.scratch.external_commands();
+        let decided = self
+            .scratch
+            .external_commands()
+            .inspect(|(robot, command)| {
+                if let Some(external) = &mut self.state.agents[*robot].external {
+                    external.command(command.motion);
+                }
+            });
         let commands = repeated.into_iter().chain(decided);
         commands
             .map(|(robot, command)| (ids[robot], command))
@@ -209,6 +218,11 @@ impl Simulation {
     /// Returns to a state that was copied from this run.
     pub fn restore(&mut self, state: State) {
         self.state = state;
+        self.has_external = self
+            .state
+            .agents
+            .iter()
+            .any(|agent| agent.external.is_some());
         self.scratch.invalidate();
         self.scratch
             .events
@@ -266,16 +280,37 @@ impl Simulation {
             ..ExternalInputs::default()
         };
         for robot in external.percepts.keys() {
-            self.state.body_states[*robot].source = BodySource::External;
+            self.make_external(*robot);
         }
         let agents = &self.state.agents;
         external.keep_later(|robot, percept| agents[robot].brain.is_later(percept));
-        let mut farthest_m: f64 = 0.0;
-        for (robot, percept) in &external.percepts {
-            farthest_m = farthest_m.max(self.place_external(*robot, percept));
-        }
-        self.scratch.note_placed(farthest_m);
+        self.place_external(&external.percepts);
         Ok(external)
+    }
+
+    fn make_external(&mut self, robot: usize) {
+        self.has_external = true;
+        self.state.body_states[robot].source = BodySource::External;
+        self.state.agents[robot].external.get_or_insert_default();
+    }
+
+    /// Moves external bodies to where they are now, by their percepts of this step and, without one, by
+    /// their commands.
+    fn place_external(&mut self, percepts: &BTreeMap<usize, Percept>) {
+        if !self.has_external {
+            return;
+        }
+        let mut external = mem::take(&mut self.scratch.external);
+        external.clear();
+        let agents = self.state.agents.iter().enumerate();
+        let is_external = |(robot, agent): (usize, &Agent)| agent.external.as_ref().map(|_| robot);
+        external.extend(agents.filter_map(is_external));
+        let mut farthest_m: f64 = 0.0;
+        for robot in external.iter().copied() {
+            let percept = percepts.get(&robot);
+            farthest_m = farthest_m.max(self.state.place_external(&self.scenario, robot, percept));
+        }
+        self.scratch.note_placed(external, farthest_m);
     }
 
     /// The commands for the bodies whose percepts were ignored: the last motion.
@@ -286,22 +321,6 @@ impl Simulation {
         let is_active = |robot: &&usize| self.state.body_states[**robot].status == Status::Active;
         let active = external.repeated.iter().filter(is_active);
         active.map(|robot| (*robot, self.state.agents[*robot].brain.last_command()))
-    }
-
-    /// Moves an external body to the pose of its percept; returns how far.
-    fn place_external(&mut self, robot: usize, percept: &Percept) -> f64 {
-        let centre = &mut self.state.discs[robot].centre;
-        let before = *centre;
-        let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
-        if let Some(at) = percept.position.map(|read| read.value).filter(is_finite) {
-            *centre = self.scenario.home(at);
-        }
-        let moved_m = before.to(self.scenario.image(before, *centre)).length();
-        let heading_rad = percept.heading_rad.map(|read| read.value);
-        if let Some(heading_rad) = heading_rad.filter(|heading_rad| heading_rad.abs() < 1e6) {
-            self.state.orientations[robot] = Orientation::new(heading_rad);
-        }
-        moved_m
     }
 
     /// The number of a robot or controller among all participants.

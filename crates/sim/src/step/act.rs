@@ -147,7 +147,7 @@ impl BodyState {
         }
     }
 
-    fn collide(&mut self, kind: &Kind, tick: u64) {
+    pub(super) fn collide(&mut self, kind: &Kind, tick: u64) {
         self.collisions += 1;
         self.held_until = tick + 1 + kind.collision.stop_steps;
         let is_too_often = self.collisions >= kind.collision.max_collisions;

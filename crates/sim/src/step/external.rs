@@ -42,6 +42,7 @@ impl ExternalInputs {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact by construction")]
 mod tests {
     use super::*;
     use crate::scenario::ScenarioSpec;
@@ -207,5 +208,60 @@ radio = { range_m = 5 }
             let sent = 4 * step;
             assert!((sent.min(MAX_PENDING)..=2 * MAX_PENDING).contains(&waiting(&simulation)));
         }
+    }
+
+    /// A percept of an external body that faces along x.
+    fn facing(x: f64, time_s: f64) -> Percept {
+        Percept {
+            time_s: Some(time_s),
+            heading_rad: Some(brain::Reading {
+                value: 0.0,
+                age_s: 0.0,
+            }),
+            ..at(x)
+        }
+    }
+
+    fn x_m(simulation: &Simulation) -> f64 {
+        simulation.state().discs[1].centre.x
+    }
+
+    #[test]
+    fn between_percepts_a_body_moves_as_commanded_and_when_they_end_it_stands() {
+        let mut simulation = of(&TWO.replace("clock = {", "clock = { step_s = 0.1,"));
+        simulation
+            .step_with([(OUT, facing(14.0, 0.0))].into(), [].into())
+            .unwrap();
+        // It cruises at 1 m/s, with the lag that is assumed, until two periods have passed.
+        let places: Vec<f64> = (0..30)
+            .map(|_| {
+                simulation.step();
+                x_m(&simulation)
+            })
+            .collect();
+        assert!(
+            places[0] > 14.01 && places[1] > places[0] + 0.01,
+            "{places:?}"
+        );
+        assert!((places[1] - places[29]).abs() < 1e-12, "{places:?}");
+        assert_eq!(simulation.state().body_states[1].speed_m_s, 0.0);
+    }
+
+    #[test]
+    fn a_body_that_comes_to_be_in_another_one_or_in_the_border_has_a_collision() {
+        let mut simulation = start();
+        let mut collisions = |x: f64, time_s: f64| {
+            let percepts = [(OUT, facing(x, time_s))].into();
+            simulation
+                .step_with(percepts, [(HERE, Command::default())].into())
+                .unwrap();
+            simulation.state().body_states[1].collisions
+        };
+        let mut time_s = 0.0;
+        let counts = [20.0, 10.1, 10.2, 20.0, 10.1, 20.0, 39.9].map(|x| {
+            time_s += 1.0;
+            collisions(x, time_s)
+        });
+        assert_eq!(counts, [0, 1, 1, 1, 2, 2, 3]);
     }
 }

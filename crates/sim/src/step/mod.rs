@@ -11,6 +11,7 @@ mod destination;
 pub(crate) mod direct;
 mod encounters;
 pub(crate) mod external;
+mod external_contacts;
 mod flock_step;
 mod flock_sums;
 mod flocks;

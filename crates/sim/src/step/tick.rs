@@ -36,6 +36,8 @@ pub(crate) struct StepScratch {
     /// The decisions of the last step that were made outside its brains.
     pub(crate) decisions: PendingDecisions,
     moves: Moves,
+    /// The robots with external bodies.
+    pub(crate) external: Vec<usize>,
     /// Readers of what happens in the run.
     pub(crate) events: EventLog,
     /// Whether threads may share the work of one step.
@@ -55,6 +57,7 @@ impl StepScratch {
             controllers: ControllerScratch::default(),
             decisions: PendingDecisions::default(),
             moves: Moves::default(),
+            external: Vec::new(),
             events: EventLog::default(),
             may_share,
             has_beliefs: scenario.kinds.iter().any(|kind| kind.brain.has_beliefs()),
@@ -71,8 +74,9 @@ impl StepScratch {
         self.neighbours.forget();
     }
 
-    /// Notes that external bodies were placed, none of them farther than this from where it was.
-    pub(crate) fn note_placed(&mut self, farthest_m: f64) {
+    /// Notes that these external bodies were placed, none of them farther than this from where it was.
+    pub(crate) fn note_placed(&mut self, external: Vec<usize>, farthest_m: f64) {
+        self.external = external;
         self.neighbours.note(farthest_m);
     }
 
@@ -98,7 +102,7 @@ impl StepScratch {
             add_decisions(state, hashes);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let is_counted = self.judge_goals(scenario, state);
-            let collisions = self.act(scenario, state);
+            let collisions = self.act(scenario, state) + self.touch_external(scenario, state);
             let is_counted = hazards::detonate(scenario, state, &self.events) | is_counted;
             let is_counted = acts::carry_out(scenario, state, &self.events) | is_counted;
             self.judge((scenario, state), external, collisions) | is_counted | is_stated

@@ -9,6 +9,7 @@ mod economy;
 mod goals;
 mod lane_radios;
 mod narrow_radios;
+mod position_errors;
 mod room;
 
 use crate::scenario::{Checked, ScenarioSpec};
@@ -21,13 +22,14 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 6] = [
+const EXAMINATIONS: [Examination; 7] = [
     cropped_maps::warnings,
     room::warnings,
     goals::warnings,
     economy::warnings,
     narrow_radios::warnings,
     lane_radios::warnings,
+    position_errors::warnings,
 ];
 
 /// Warnings about `configurations` of a document, each with values by path. Invalid configurations have

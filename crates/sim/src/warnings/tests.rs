@@ -228,3 +228,30 @@ fn goals_that_no_robot_serves_without_controllers_have_a_warning() {
         );
     }
 }
+
+/// A robot that is to reach a waypoint within 0.5 m, and its position sensor.
+fn with_sensor(sensor: &str) -> String {
+    let brain = "brain = { behaviours = [{ kind = \"cruise\" }, { kind = \"correct\", waypoints_m = [[5, 5]] }] }";
+    let sensors = format!(
+        "sensors = {{ gps = {{ kind = \"position\", {sensor} }}, compass = {{ kind = \"heading\" }} }}"
+    );
+    without_map(JOB).replace("count = 4", &format!("count = 4\n{brain}\n{sensors}"))
+}
+
+#[test]
+fn a_place_within_less_than_twice_the_error_of_the_position_has_a_warning() {
+    let none: [&str; 0] = [];
+    assert_eq!(
+        warnings_of(&with_sensor("noise_m = 0.25"), "[0, 0, 0]"),
+        none
+    );
+    let found = warnings_of(&with_sensor("noise_m = 0.3"), "[0, 0, 0]");
+    let expected = "robots.rover.brain.behaviours[1].within_m: 0.5 m is less than twice the error of the position \
+                    sensor, 0.300 m";
+    assert!(found[0].contains(expected), "{found:?}");
+    let found = warnings_of(&with_sensor("drift_m = 0.3"), "[0, 0, 0]");
+    assert!(
+        found[0].contains("each such place is impossible"),
+        "{found:?}"
+    );
+}

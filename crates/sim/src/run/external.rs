@@ -1,0 +1,49 @@
+//! Places the bodies that something outside of the simulation moves.
+
+use super::state::State;
+use crate::bodies::path::Orientation;
+use crate::scenario::Scenario;
+use base::geometry::Point;
+use brain::Percept;
+
+/// Headings beyond this absolute value are ignored.
+const MAX_HEADING_RAD: f64 = 1e6;
+
+impl State {
+    /// Moves an external body to where it is now, by its percept of this step, if there is one; returns
+    /// how far it has moved. Where its pose is not known, its readings are taken as they are.
+    pub(crate) fn place_external(
+        &mut self,
+        scenario: &Scenario,
+        robot: usize,
+        percept: Option<&Percept>,
+    ) -> f64 {
+        let body = scenario.kind_of(self.ids[robot]).brain.body();
+        let Some(external) = &mut self.agents[robot].external else {
+            return 0.0;
+        };
+        match percept {
+            Some(percept) => external.observe(percept, body),
+            None => external.wait(scenario.step_s),
+        }
+        let (at, heading_rad) = match (external.pose(body), percept) {
+            (Some(pose), _) => (Some(pose.at), Some(pose.heading_rad)),
+            (None, Some(percept)) => (
+                percept.position.map(|reading| reading.value),
+                percept.heading_rad.map(|reading| reading.value),
+            ),
+            (None, None) => (None, None),
+        };
+        self.body_states[robot].speed_m_s = external.speed_m_s(body);
+        if let Some(heading_rad) = heading_rad.filter(|rad| rad.abs() < MAX_HEADING_RAD) {
+            self.orientations[robot] = Orientation::new(heading_rad);
+        }
+        let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
+        let centre = &mut self.discs[robot].centre;
+        let before = *centre;
+        if let Some(at) = at.filter(is_finite) {
+            *centre = scenario.home(at);
+        }
+        before.to(scenario.image(before, *centre)).length()
+    }
+}
