@@ -8,6 +8,7 @@ import math
 from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -76,17 +77,21 @@ class SensorErrors:
         noise_deg: Standard deviation of white noise of the compass.
         drift_m: Standard deviation of a slow drift of the fixes, a Gauss-Markov process.
         drift_s: Its correlation time.
+        is_drift_stated: Whether the scenario of the brain states the drift; otherwise its noise has
+            the standard deviation of both.
     """
 
     noise_m: float = 0.2
     noise_deg: float = 0.5
     drift_m: float = 0.0
     drift_s: float = 60.0
+    is_drift_stated: bool = True
 
-    @property
-    def stated_m(self) -> float:
-        """The standard deviation that the scenario of the brain states."""
-        return math.hypot(self.noise_m, self.drift_m)
+    def stated(self) -> dict[str, float]:
+        """Return what the scenario of the brain states of the position sensor, by key."""
+        if not self.is_drift_stated:
+            return {"noise_m": math.hypot(self.noise_m, self.drift_m)}
+        return {"noise_m": self.noise_m, "drift_m": self.drift_m, "drift_s": self.drift_s}
 
 
 class Drive:
@@ -180,6 +185,17 @@ def overrides(values: Mapping[str, TomlValue]) -> tuple[Override, ...]:
     return tuple(Override.at(path, value, "measurement") for path, value in values.items())
 
 
+IDEAL: dict[str, Any] = {
+    "gps_noise_m": 0.0,
+    "gps_drift_m": 0.0,
+    "compass_noise_deg": 0.0,
+    "lag_s": 0.0,
+    "delay_s": 0.0,
+    "gain_left_right": 1.0,
+}
+"""Settings of the emulator without errors: those of a case are added here."""
+
+
 class EmulatedRobot:
     """The robot in its world; its lines have the errors of a case."""
 
@@ -187,7 +203,7 @@ class EmulatedRobot:
         self, scenario: Scenario, drive: DriveErrors, sensors: SensorErrors, seed: int
     ) -> None:
         """Create it at rest, in the world of the scenario that the brain has."""
-        settings = Settings(gps_noise_m=0.0, compass_noise_deg=0.0)
+        settings = Settings(**IDEAL)
         # The drive errors may exceed the limits that the brain knows.
         free = dict.fromkeys(SPEED_LIMITS, MAX_SPEED_M_S)
         free |= {TURN_RATE_LIMIT: MAX_TURN_RATE_DEG_S, TIME_LIMIT: MAX_TIME_S}
@@ -213,7 +229,7 @@ class EmulatedRobot:
     @property
     def contacts(self) -> int:
         """The number of contacts with walls until now."""
-        return int(self._world._simulation.outcome().collisions or 0)
+        return self._world.collisions
 
     def tracks(self) -> tuple[int, int]:
         """Return the values of both tracks, relative to their neutral value."""

@@ -25,9 +25,16 @@ PORTS = ("motors", "compass", "gps", "sonar")
 SETTINGS = {"range_unit_m": 1.0, "no_echo": 99.0}
 """Settings of the emulator; fleet files get the same."""
 
-IDEAL = {"lag_s": 0, "delay_s": 0, "gain_left_right": 1, "gps_drift_m": 0}
+IDEAL: dict[str, Any] = {"lag_s": 0, "delay_s": 0, "gain_left_right": 1, "gps_drift_m": 0}
 """Settings of an emulated robot without errors: these tests judge the warden and the loop."""
 
+INEXACT: dict[str, Any] = {
+    "lag_s": 0.25,
+    "delay_s": 0.05,
+    "gain_left_right": 1.03,
+    "gps_drift_m": 0.2,
+}
+"""The errors that an emulated robot has by default: these tests judge the brain, too."""
 
 BENDER = Path(__file__).resolve().parents[2] / "scenarios" / "bender.toml"
 

@@ -77,6 +77,9 @@ def options() -> argparse.Namespace:
     parser.add_argument("--compass", type=float, default=0.5, help="its noise, in degrees")
     parser.add_argument("--drift", type=float, default=0.0, help="of fixes, in m")
     parser.add_argument("--drift-time", type=float, default=60.0, help="its time constant, in s")
+    parser.add_argument(
+        "--unstated", action="store_true", help="the scenario states the drift as noise"
+    )
     parser.add_argument("--limit", type=float, default=240.0, help="time limit of a run, in s")
     parser.add_argument("--json", type=Path, help="write all runs to a file")
     return parser.parse_args()
@@ -120,7 +123,9 @@ def runs_of(
     """Return the runs of a robot, one per seed."""
     seeds = range(given.first_seed, given.first_seed + given.seeds)
     errors = DriveErrors(delay_s=given.delay, **drive)
-    sensors = SensorErrors(noise_m, given.compass, given.drift, given.drift_time)
+    sensors = SensorErrors(
+        noise_m, given.compass, given.drift, given.drift_time, not given.unstated
+    )
     return [Case(scenario, errors, sensors, seed, given.limit) for seed in seeds]
 
 

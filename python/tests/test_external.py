@@ -87,7 +87,8 @@ def test_a_percept_that_is_not_later_repeats_the_motion() -> None:
     first = simulation.step(percepts={"rover/0": percept_at(5, 8, 0.1, time_s=1.0, scans=far)})
     late = percept_at(9, 9, 0.1, time_s=1.0, scans=near)
     assert simulation.step(percepts={"rover/0": late}) == first
-    np.testing.assert_allclose(simulation.poses[0], [5, 8, 0.1])
+    # Not at the place of that percept: the command of the first one moves it a little.
+    np.testing.assert_allclose(simulation.poses[0], [5, 8, 0.1], atol=0.02)
     assert simulation.step(percepts={"rover/0": {**late, "time_s": 1.1}}) != first
 
 

@@ -193,7 +193,7 @@ def test_a_goal_is_named_in_words_with_the_reason() -> None:
     served = event | {"served_by": "bender/1", "unserved": None}
     assert sentence(served) == "bender/0: goal spot/1: complete by bender/1"
     failed = event | {"verdict": "impossible", "served_by": None, "unserved": "no_robot"}
-    assert sentence(failed) == "bender/0: goal spot/1: impossible (no robot)"
+    assert sentence(failed) == "bender/0: goal spot/1: impossible: no robot"
     waypoint = event | {"goal": "2", "served_by": "bender/0"}
     assert sentence(waypoint) == "bender/0: waypoint 2: complete"
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bare_timer import repeated_if_late
-from live_bench import Drive, changed_scenario, driving, emulated, fleet_text
+from live_bench import INEXACT, Drive, changed_scenario, driving, emulated, fleet_text
 from mcap.records import Channel, McapRecord, Message
 from test_recording_damaged import records_of, written
 
@@ -49,7 +49,7 @@ def drive_course(folder: Path) -> Driven:
     scenario = changed_scenario(folder / "course.toml", COURSE)
     fleet = folder / "fleet.toml"
     arguments = ("--scenario", str(scenario))
-    with emulated(folder, arguments=arguments, gps_hz=5, sonar_hz=10, **FAST) as bench:
+    with emulated(folder, arguments=arguments, gps_hz=5, sonar_hz=10, **FAST, **INEXACT) as bench:
         keys = {"bender/0": f"waypoints_m = {WAYPOINTS_M}"}
         text = fleet_text(bench, scenario=str(scenario), keys=keys, **FAST)
         fleet.write_text(text, encoding="utf-8")

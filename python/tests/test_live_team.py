@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from bare_timer import repeated_if_late
-from live_bench import changed_scenario, driving, emulated, fleet_text
+from live_bench import INEXACT, changed_scenario, driving, emulated, fleet_text
 
 import agent_economy as ae
 from agent_economy import Simulation
@@ -151,7 +151,9 @@ def test_a_team_serves_each_waypoint_once_and_takes_over_that_of_a_silent_robot(
     scenario = changed_scenario(tmp_path / "team.toml", CHANGES, TEAM)
     path = tmp_path / "fleet.toml"
     arguments = ("--scenario", str(scenario))
-    with emulated(tmp_path, 5, arguments=arguments, gps_hz=5, sonar_hz=10, **FAST) as bench:
+    with emulated(
+        tmp_path, 5, arguments=arguments, gps_hz=5, sonar_hz=10, **FAST, **INEXACT
+    ) as bench:
         path.write_text(fleet_text(bench, scenario=str(scenario), **FAST), encoding="utf-8")
         with driving(path) as drive:
             claim = drive.wait_for(lambda each: each.get("served_by") == "bender/2")

@@ -72,6 +72,7 @@ def test_a_person_sends_a_running_robot_from_place_to_place() -> None:
         "id": {"issuer": OPERATOR, "number": 4},
         "at": [8.0, 2.0],
         "verdict": "approaching",
+        "reason": None,
     }
     for _ in range(300):
         body.step()

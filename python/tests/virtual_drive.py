@@ -228,7 +228,7 @@ def fleet_of(case: Case) -> fleet.Fleet:
     text = text.replace('scenario = "bender"', f'scenario = "{case.scenario}"')
     values = {
         "robots.bender.count": 1,
-        "robots.bender.sensors.gps.noise_m": case.sensors.stated_m,
+        **{f"robots.bender.sensors.gps.{key}": each for key, each in case.sensors.stated().items()},
         "robots.bender.sensors.compass.noise_deg": case.sensors.noise_deg,
     }
     return fleet.loads(text, "bender.toml", overrides(values))

@@ -258,6 +258,7 @@ function robotOf(): WardenRobot {
         longitude_deg: -121.874668,
         verdict: "approaching",
         served_by: "bender/0",
+        reason: null,
       },
       {
         goal: "operator/2",
@@ -267,6 +268,7 @@ function robotOf(): WardenRobot {
         longitude_deg: -121.874668,
         verdict: "pending",
         served_by: null,
+        reason: null,
       },
     ],
     navigates: true,

@@ -16,6 +16,7 @@ REASONS = {
     "no_robot": "no robot is in range",
     "orphaned": "its owner has lost it, because the heir did not renew the lease",
     "no_controller": "no controller works that could own it",
+    "position": "no robot knows its position well enough",
 }
 """Reasons of controllers, in words."""
 

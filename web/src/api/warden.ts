@@ -85,6 +85,8 @@ export interface Waypoint {
   longitude_deg: number;
   verdict: string;
   served_by: string | null;
+  /** Why it is not served, in words; null if it is, or may still be. */
+  reason: string | null;
 }
 
 export interface Reason {

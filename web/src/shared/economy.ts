@@ -34,6 +34,7 @@ const reasons: Record<string, string> = {
   no_robot: "no robot is in range",
   orphaned: "its owner has lost it: the heir did not renew the lease",
   no_controller: "no controller works",
+  position: "no robot knows its position well enough",
 };
 
 /** Why no robot can serve a goal. */

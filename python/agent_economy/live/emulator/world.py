@@ -68,6 +68,11 @@ class World:
         """Simulated time."""
         return self._simulation.time_s
 
+    @property
+    def collisions(self) -> int:
+        """Number of collisions so far."""
+        return int(self._simulation.outcome().collisions or 0)
+
     def step(self, motions: Mapping[str, Motion]) -> None:
         """Advance by one step; each body executes its motion as far as it can."""
         commands = {

@@ -63,6 +63,7 @@ class Team:
         self._now_s = start_s
         self._verdicts: dict[tuple[str, str], tuple[str | None, ...]] = {}
         self._silent: set[str] = set()
+        self._reasons: dict[tuple[float, ...], str] = {}
 
     def add(self, message: Mapping[str, Any]) -> None:
         """Take a line, an event or an order of the warden."""
@@ -103,6 +104,7 @@ class Team:
             for waypoints in self._shared:
                 if name in waypoints.robots:
                     waypoints.add(name, command["outbox"], self._now_s)
+                    self._note_reasons(name)
         for name, robot in self._robots.items():
             if not robot.is_driving:
                 self._motions[name] = STOP
@@ -140,8 +142,12 @@ class Team:
     def _own_goals(self, name: str) -> Iterator[dict[str, Any]]:
         """Yield the goals that the brain knows, and those that it will know when it steps."""
         for goal in self._simulation.assigned_goals(name) or self._waypoints[name]:
-            served_by = name if goal["verdict"] == "complete" else None
-            yield {"at_m": goal["at"], "verdict": goal["verdict"], "served_by": served_by}
+            yield {
+                "at_m": goal["at"],
+                "verdict": goal["verdict"],
+                "served_by": name if goal["verdict"] == "complete" else None,
+                "unserved": goal.get("reason"),
+            }
         for sent in self._orders[name]:
             about = sent["message"]["about"]["order"]
             if about["action"] == "assign":
@@ -149,8 +155,19 @@ class Team:
 
     def _shared_goals(self, name: str) -> Iterator[dict[str, Any]]:
         for waypoints in self._shared:
-            if name in waypoints.robots:
-                yield from waypoints.verdicts(self._now_s)
+            if name not in waypoints.robots:
+                continue
+            for goal in waypoints.verdicts(self._now_s):
+                is_impossible = goal["verdict"] == "impossible"
+                reason = self._reasons.get(tuple(goal["at_m"])) if is_impossible else None
+                yield {**goal, "unserved": reason}
+
+    def _note_reasons(self, name: str) -> None:
+        """Note why a robot cannot reach a place: it proposes another one in its next step."""
+        beliefs = self._simulation.belief_state(name)
+        for goal in beliefs["goals"] if beliefs else ():
+            if goal["reason"] is not None:
+                self._reasons[tuple(goal["to"])] = goal["reason"]
 
 
 def waypoints_of(scenario: Mapping[str, Any], robot: str) -> list[dict[str, Any]]:

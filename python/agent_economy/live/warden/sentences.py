@@ -26,8 +26,15 @@ def sentence(event: Mapping[str, Any]) -> str:
 def goal_sentence(event: Mapping[str, Any]) -> str:
     """Return the verdict on a waypoint, which has a number, or on a goal, which has a name."""
     what = "waypoint" if event["goal"].isdecimal() else "goal"
-    reason = f" ({event['unserved'].replace('_', ' ')})" if event.get("unserved") else ""
+    reason = f": {reason_of(event['unserved'])}" if event.get("unserved") else ""
     return f"{event['robot']}: {what} {event['goal']}: {event['verdict']}{reason}{server(event)}"
+
+
+def reason_of(unserved: str) -> str:
+    """Return why a waypoint or goal is not served, in words."""
+    if unserved == "position":
+        return "the position is not known well enough"
+    return unserved.replace("_", " ")
 
 
 def radio_sentence(event: Mapping[str, Any]) -> str:

@@ -12,6 +12,7 @@ from agent_economy.live.rules.faults import MANUAL_LIFETIME_S, MAX_UNACKNOWLEDGE
 from agent_economy.live.warden.geometry import geographic_of, world_heading_deg
 from agent_economy.live.warden.port_link import PortLink
 from agent_economy.live.warden.robot import Robot
+from agent_economy.live.warden.sentences import reason_of
 
 Values = dict[str, Any]
 
@@ -171,6 +172,7 @@ def _waypoint(goal: Mapping[str, Any], origin: Origin) -> Values:
         "longitude_deg": longitude_deg,
         "verdict": goal["verdict"],
         "served_by": goal["served_by"],
+        "reason": reason_of(goal["unserved"]) if goal.get("unserved") else None,
     }
 
 
