@@ -101,13 +101,29 @@ impl Displacement {
         }
     }
 
-    /// The same time, with another path and turn of its body.
+    /// The same, with another length of its path and another turn.
     pub(crate) fn executed(&self, path_m: f64, turned_rad: f64) -> Self {
+        // A body that changes its speed drives most of its path at one end of a turn.
+        let chord = if self.path_m == 0.0 {
+            arc(path_m, turned_rad)
+        } else {
+            let more = direction((turned_rad - self.turned_rad) / 2.0);
+            turned(self.chord.times(path_m / self.path_m), more)
+        };
         Self {
-            chord: arc(path_m, turned_rad),
+            chord,
             path_m,
             turned_rad,
             ..*self
+        }
+    }
+
+    /// By how much the chord changes with the length of the path.
+    pub(crate) fn front(&self) -> Point {
+        if self.path_m == 0.0 {
+            direction(self.turned_rad / 2.0)
+        } else {
+            self.chord.times(1.0 / self.path_m)
         }
     }
 

@@ -32,6 +32,10 @@ const STATES: usize = 7;
 /// 1,000 positions without a change, exp(-13.8 / 2).
 const MAX_UNCHANGED: f64 = 13.8;
 
+/// Variance of the heading, in rad², above which the filter is not linear any more: a reading may be off
+/// by a whole turn, and the direction of the motion is unknown.
+const MAX_HEADING_RAD2: f64 = 0.5;
+
 /// A drift is not faster than this.
 const MIN_DRIFT_S: f64 = 0.1;
 
@@ -53,6 +57,8 @@ struct PoseState {
     covariance: Covariance<POSE_STATES>,
     knows_position: bool,
     knows_heading: bool,
+    /// Whether the heading was so uncertain since the last position that only the next one counts.
+    is_lost: bool,
     position_gate: ValidationGate<Point>,
     heading_gate: ValidationGate<f64>,
     /// The variance of the slow part of the errors of the position sensor: positions do not reveal it,
@@ -68,6 +74,7 @@ base::hashed!(PoseState {
     covariance,
     knows_position,
     knows_heading,
+    is_lost,
     position_gate,
     heading_gate,
     age_s
@@ -95,6 +102,7 @@ impl Default for PoseState {
             covariance: Covariance::EXACT,
             knows_position: false,
             knows_heading: false,
+            is_lost: false,
             position_gate: ValidationGate::default(),
             heading_gate: ValidationGate::default(),
             drift_m2: 0.0,
@@ -213,6 +221,7 @@ impl PoseFilter {
         self.add_variance(X, variance_m2);
         self.add_variance(Y, variance_m2);
         self.add_variance(HEADING, moved.variance_rad2);
+        self.pose.is_lost |= self.covariance(HEADING, HEADING) > MAX_HEADING_RAD2;
         self.forget_overflow();
     }
 
@@ -240,7 +249,7 @@ impl PoseFilter {
             .get_or_insert_with(|| Box::new(DriveFilter::new(pose)));
         let lagged = drive.estimate.lagged(moved);
         let executed = drive.estimate.executed(moved, &lagged);
-        let front = direction(self.pose.heading_rad + executed.turned_rad / 2.0);
+        let front = turned(executed.front(), direction(self.pose.heading_rad));
         self.move_by(&executed);
         if let Some(drive) = &mut self.drive {
             drive.depend_on_drive(&lagged, front);
@@ -294,8 +303,9 @@ impl PoseFilter {
             variances: [self.covariance(HEADING, HEADING), sensor],
         };
         let distance_rad = |last: &f64| wrapped(measured_rad - last).abs();
+        let is_linear = innovation.variances[0] <= MAX_HEADING_RAD2;
         let gate = &mut self.pose.heading_gate;
-        let verdict = if self.pose.knows_heading {
+        let verdict = if self.pose.knows_heading && is_linear {
             gate.check(measured_rad, &innovation, distance_rad)
         } else {
             Verdict::Reset
@@ -315,14 +325,16 @@ impl PoseFilter {
     pub(super) fn correct_position(&mut self, measured: Point, noise_m: f64) {
         let sensor = noise_m * noise_m;
         let difference = self.pose.at.to(measured);
-        self.notice_changed_speed(difference, sensor);
+        if !self.pose.is_lost {
+            self.notice_changed_speed(difference, sensor);
+        }
         let innovation = Innovation {
             distance: difference.length(),
             variances: [self.variance_along(difference), sensor],
         };
         let distance_m = |last: &Point| last.to(measured).length();
         let gate = &mut self.pose.position_gate;
-        let verdict = if self.pose.knows_position {
+        let verdict = if self.pose.knows_position && !self.pose.is_lost {
             gate.check(measured, &innovation, distance_m)
         } else {
             Verdict::Reset
@@ -336,7 +348,7 @@ impl PoseFilter {
             }
             Verdict::Reset => {
                 self.pose.at = measured;
-                self.pose.knows_position = true;
+                (self.pose.knows_position, self.pose.is_lost) = (true, false);
                 self.set_independent(X, sensor);
                 self.set_independent(Y, sensor);
             }
