@@ -112,8 +112,8 @@ impl Displacement {
         };
         Self {
             chord,
-            path_m,
             turned_rad,
+            path_m,
             ..*self
         }
     }
