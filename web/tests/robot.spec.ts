@@ -36,12 +36,12 @@ test("percept, command, goals and beliefs of the selected robot are displayed", 
   const panel = page.getByRole("tabpanel");
   await expect(panel.getByRole("row", { name: /bayesian_search active/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /avoid held for 1.5 s/ })).toBeVisible();
-  await expect(panel.getByText("0.94 m/s").first()).toBeVisible();
+  await expect(panel.getByText("0.96 m/s").first()).toBeVisible();
   await expect(panel.getByText("1 about the sender")).toBeVisible();
   await expect(panel.getByRole("img", { name: /^Percept around the robot/ })).toBeVisible();
-  await expect(panel.getByRole("row", { name: /Item: mine 2\.8 m, 28° left 0\.20$/ })).toBeVisible();
+  await expect(panel.getByRole("row", { name: /Item: mine 1\.8 m, 3° right 0\.20$/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /Touch no reading/ })).toBeVisible();
-  await expect(panel.getByText(/Pursued: 0\.4 m left/)).toBeVisible();
+  await expect(panel.getByText(/Pursued: 0\.8 m left/)).toBeVisible();
   await expect(panel.getByText(/no progress for 6 s/)).toBeVisible();
 });
 
