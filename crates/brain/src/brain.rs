@@ -286,7 +286,7 @@ impl Brain {
     #[inline]
     fn motion(&mut self, percept: &Percept, elapsed_s: f64) -> Decided {
         let kind = &*self.kind;
-        let mut moved = kind.reckon(&mut self.odometry, percept, elapsed_s);
+        let mut moved = self.odometry.reckon(percept, &kind.body, elapsed_s);
         if let Some(brain) = self.beliefs.as_deref_mut() {
             kind.believe(brain, &self.odometry, percept, &mut moved);
         } else if self.localisation.is_some() || kind.needs_estimate(&moved) {
@@ -322,18 +322,6 @@ impl Brain {
 }
 
 impl Kind {
-    /// The motion since the previous step, by commands, wheels and compass.
-    #[inline]
-    fn reckon(&self, odometry: &mut DeadReckoning, percept: &Percept, elapsed_s: f64) -> Odometry {
-        let turned_rad = odometry.update(percept, &self.body, elapsed_s);
-        Odometry {
-            elapsed_s,
-            speed_m_s: odometry.current_speed_m_s(percept, &self.body),
-            turned_rad,
-            is_commanded: !DeadReckoning::is_measured(percept, &self.body),
-        }
-    }
-
     /// Whether a brain without beliefs begins to estimate its pose: if a behaviour drives to places, and
     /// one reading of the position is not enough for that, or the robot does not measure its own motion.
     fn needs_estimate(&self, moved: &Odometry) -> bool {

@@ -213,8 +213,7 @@ mod tests {
         };
         for _ in 0..600 {
             let percept = walk.percept();
-            let turned_rad = odometry.update(&percept, &body, body.period_s);
-            let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
+            let moved = odometry.reckon(&percept, &body, body.period_s);
             let situation = Situation {
                 percept: &percept,
                 body: &body,
@@ -223,10 +222,10 @@ mod tests {
                 peers: None,
                 rings: &governor.rings,
                 last_goal: &Cell::new(0),
-                ahead: governor.ahead(&percept, &body, current_speed_m_s),
+                ahead: governor.ahead(&percept, &body, moved.speed_m_s),
                 elapsed_s: body.period_s,
-                turned_rad,
-                current_speed_m_s,
+                turned_rad: moved.turned_rad,
+                current_speed_m_s: moved.speed_m_s,
             };
             let proposal = motion(arbitrate(&behaviours, &mut layers, &situation));
             let motion = governor.limit(proposal, &situation, &odometry);

@@ -38,13 +38,12 @@ mod tests {
         let body = rover();
         let behaviours = [zigzag(), BehaviourSpec::Avoid(Avoid::default())];
         let behaviours = behaviours.map(|each| each.ready(&body));
-        let (mut layers, mut moved) = (layers(&behaviours), DeadReckoning::default());
+        let (mut layers, mut odometry) = (layers(&behaviours), DeadReckoning::default());
         let sight = SpeedGovernor::new(&body);
         let mut walk = Walk::new(body.clone(), room(size_m, size_m), [2.0, 2.0], 0.0);
         let step = |_| {
             let percept = walk.percept();
-            let turned_rad = moved.update(&percept, &body, body.period_s);
-            let current_speed_m_s = moved.current_speed_m_s(&percept, &body);
+            let moved = odometry.reckon(&percept, &body, body.period_s);
             let situation = Situation {
                 percept: &percept,
                 body: &body,
@@ -53,10 +52,10 @@ mod tests {
                 peers: None,
                 rings: &sight.rings,
                 last_goal: &Cell::new(0),
-                ahead: sight.ahead(&percept, &body, current_speed_m_s),
+                ahead: sight.ahead(&percept, &body, moved.speed_m_s),
                 elapsed_s: body.period_s,
-                turned_rad,
-                current_speed_m_s,
+                turned_rad: moved.turned_rad,
+                current_speed_m_s: moved.speed_m_s,
             };
             let mut motion = match arbitrate(&behaviours, &mut layers, &situation) {
                 Some((_, Proposal::Motion(motion))) => motion,
@@ -64,7 +63,7 @@ mod tests {
             };
             let most = body.max_turn_rate_rad_s;
             motion.turn_rate_rad_s = motion.turn_rate_rad_s.clamp(-most, most);
-            moved.record_command(motion);
+            odometry.record_command(motion);
             walk.step(motion);
             (walk.at, walk.heading_rad)
         };

@@ -377,8 +377,7 @@ mod tests {
             let rates = rates.iter().flat_map(|(rate, steps)| std::iter::repeat_n(*rate, *steps));
             for rate in rates.cycle().take(300) {
                 let percept = walk.percept();
-                odometry.update(&percept, &body, body.period_s);
-                let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
+                let current_speed_m_s = odometry.reckon(&percept, &body, body.period_s).speed_m_s;
                 let situation = super::Situation {
                     beliefs: None,
                     localisation: None,

@@ -123,7 +123,7 @@ impl DeadReckoning {
     /// commanded and the measured speed, because braking too early is safe. For localisation, see
     /// [`DeadReckoning::likely`].
     #[inline]
-    pub(crate) fn current_speed_m_s(&self, percept: &Percept, body: &Body) -> f64 {
+    fn current_speed_m_s(&self, percept: &Percept, body: &Body) -> f64 {
         let commanded = f64::from(self.speed_m_s);
         let max = body.max_speed_m_s;
         match wheels_m_s(percept, body) {
@@ -142,12 +142,6 @@ impl DeadReckoning {
             turned_rad: single(self.commanded_rad_s()) * elapsed_s,
             is_commanded: true,
         }
-    }
-
-    /// Whether the robot has measured its own motion.
-    #[inline]
-    pub(crate) fn is_measured(percept: &Percept, body: &Body) -> bool {
-        wheels_m_s(percept, body).is_some()
     }
 
     /// The motion since the previous step for localisation, in which the body has turned by an angle
@@ -188,6 +182,19 @@ impl DeadReckoning {
         }
     }
 
+    /// Updates the estimate with a percept. Returns the motion since the previous step, by commands,
+    /// wheels and compass.
+    #[inline]
+    pub(crate) fn reckon(&mut self, percept: &Percept, body: &Body, elapsed_s: f64) -> Odometry {
+        let turned_rad = self.update(percept, body, elapsed_s);
+        Odometry {
+            elapsed_s,
+            speed_m_s: self.current_speed_m_s(percept, body),
+            turned_rad,
+            is_commanded: wheels_m_s(percept, body).is_none(),
+        }
+    }
+
     /// Updates the estimate with a percept, `elapsed_s` after the previous one. Returns the angle by
     /// which the body has turned since then: from the compass if there is one, else from the wheels,
     /// else from the command.
@@ -196,7 +203,7 @@ impl DeadReckoning {
         clippy::cast_possible_truncation,
         reason = "single precision is enough"
     )]
-    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, elapsed_s: f64) -> f64 {
+    fn update(&mut self, percept: &Percept, body: &Body, elapsed_s: f64) -> f64 {
         self.remember_turn(percept, body, elapsed_s);
         self.advance(body, elapsed_s);
         if percept.touch.is_some_and(|touch| touch.value) {

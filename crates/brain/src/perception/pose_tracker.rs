@@ -2,7 +2,7 @@
 
 use super::beliefs::Localisation;
 use super::beliefs::pose::Pose;
-use super::dead_reckoning::{DeadReckoning, Odometry};
+use super::dead_reckoning::DeadReckoning;
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::percept::Percept;
@@ -38,12 +38,7 @@ impl PoseTracker {
         let Some(elapsed_s) = self.odometry.elapsed_s(percept.time_s, body.period_s) else {
             return;
         };
-        let moved = Odometry {
-            elapsed_s,
-            turned_rad: self.odometry.update(percept, body, elapsed_s),
-            speed_m_s: self.odometry.current_speed_m_s(percept, body),
-            is_commanded: !DeadReckoning::is_measured(percept, body),
-        };
+        let moved = self.odometry.reckon(percept, body, elapsed_s);
         let likely = self.odometry.likely(percept, body, &moved);
         self.localisation.step(percept, body, &likely);
     }
