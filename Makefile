@@ -36,7 +36,7 @@ rust-lint:
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 
-python-lint: .venv/installed
+python-lint: .venv/installed target/page.schema.json
 	$(BIN)/ruff format --check $(PYTHON_CODE)
 	$(BIN)/ruff check $(PYTHON_CODE)
 	$(BIN)/mypy
@@ -46,6 +46,11 @@ python-lint: .venv/installed
 	$(BIN)/python scripts/check_cycles.py
 	$(BIN)/python scripts/check_prose.py
 	$(BIN)/python scripts/generate_types.py --check
+
+# Only the generator of types reads this schema.
+target/page.schema.json: $(RUST) crates/protocol/examples/page_schema.rs
+	cargo run --locked --quiet -p agent-economy-protocol --example page_schema > $@.new
+	mv $@.new $@
 
 # A toolchain without rustup may lack the target: the check is then skipped with a message.
 wasm: ## Check that the metric simulator and the brain compile for browsers
@@ -144,6 +149,7 @@ schemas: ## Generate the JSON Schemas, the reference of scenarios, and the types
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test simulator schemas -- --test-threads=1
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-classic --test schema
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-protocol --test schemas
+	$(MAKE) target/page.schema.json
 	$(BIN)/python scripts/generate_types.py
 	$(BIN)/python scripts/fleet_schema.py
 

@@ -66,7 +66,7 @@ EVERYTHING = [
     make("python-test", ".venv/installed", is_interactive=True),
     make("rust-test", "rust-build"),
     make("wasm", "rust-build"),
-    make("python-lint", ".venv/installed"),
+    make("python-lint", ".venv/installed", "rust-build"),
 ]
 
 
