@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import schema_parts as types
 
-SHARED = {"time_s", "id", "team_size", "scans"}
-"""Keys of percepts that are not in columns: the same for robots of a kind, or of equal length."""
+APART = {"time_s", "id", "team_size", "scans", "inbox", "outbox"}
+"""Keys that are not in columns: the same for robots of a kind, of equal length, or messages."""
 
 HEAD = '''
 Floats: TypeAlias = NDArray[np.float64]
@@ -22,14 +22,27 @@ class ScanColumns(TypedDict):
 
     age_s: Floats
     ranges_m: Floats
+
+
+class RowReceived(ReceivedMessage):
+    """A received message, and the row of the robot that received it."""
+
+    row: int
+
+
+class RowMessage(Message):
+    """A message to send, and the row of the robot that sends it."""
+
+    row: int
 '''
 
-IMPORTS = """from typing import NotRequired, TypeAlias, TypedDict
+IMPORTS = """from collections.abc import Sequence
+from typing import NotRequired, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from agent_economy.types.brain import Body
+from agent_economy.types.brain import Body, Message, ReceivedMessage
 """
 
 PERCEPTS = {
@@ -44,8 +57,12 @@ PERCEPTS = {
         "Indices of the robots that step, ascending and below `count`, shape (n,).",
     ),
     "scans": ("list[ScanColumns]", "Scans, one entry per range ring of the body."),
+    "inbox": ("Sequence[RowReceived]", "Received messages, which become dicts when they are read."),
 }
 """Entries of percepts besides the columns."""
+
+COMMANDS = {"outbox": ("NotRequired[list[RowMessage]]", "Messages to send.")}
+"""Entries of commands besides the columns."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +99,7 @@ class Columns:
 
     def whole(self, name: str, new_name: str, extra: dict[str, tuple[str, str]]) -> None:
         """Add the columns of a type under a name of its own, with extra keys."""
-        keys = [key for key in types.fields(self.schemas[name]) if key.name not in SHARED]
+        keys = [key for key in types.fields(self.schemas[name]) if key.name not in APART]
         columns = {key.name: self.column(key.schema) for key in keys}
         described = [types.Field(each, {"description": text}) for each, (_, text) in extra.items()]
         text = types.plain(self.schemas[name]["description"])
@@ -126,11 +143,8 @@ class Columns:
         name = self.family.name(target)
         if name not in self.done:
             self.done[name] = ""  # in work
-            if types.alternatives(schema):
-                text = self.union(name, schema)
-            else:
-                keys = types.fields(schema)
-                text = self.table(name, schema.get("description", ""), keys)
+            keys = types.fields(schema)
+            text = self.table(name, schema.get("description", ""), keys)
             del self.done[name]
             self.done[name] = text
         return name
@@ -163,47 +177,6 @@ class Columns:
             )
         return name
 
-    def union(self, name: str, schema: types.Schema) -> str:
-        """Return the type of the columns of a union."""
-        keys = [(key, part) for part in types.alternatives(schema) if (key := types.only_key(part))]
-        columns = {key.name: self.alternative(name, key, part) for key, part in keys}
-        described = [
-            types.Field(key.name, {"description": part.get("description", "")})
-            for key, part in keys
-        ]
-        if self.family.is_given:
-            columns = {key: f"NotRequired[{kind}]" for key, kind in columns.items()}
-        return self.record(name, types.plain(schema["description"]), described, columns)
-
-    def alternative(self, union: str, key: types.Field, part: types.Schema) -> str:
-        """Return the type of the columns of an alternative."""
-        target = types.reference(key.schema)
-        if target and types.alternatives(self.schemas[target]):
-            return self.referred(target)
-        name = f"{union}{types.class_name(key.name)}"
-        if target:
-            base = self.referred(target)
-            keys = [
-                types.Field(
-                    "row", {"description": "The message that each is in."}, not self.family.is_given
-                )
-            ]
-            array = self.family.array("Integers")
-            row = f"NotRequired[{array}]" if self.family.is_given else array
-            text = types.plain(part.get("description", ""))
-            doc = textwrap.indent(types.docstring(text, keys), "    ")
-            self.done[name] = f"class {name}({base}):\n{doc}\n\n    row: {row}"
-            return name
-        inner = (
-            types.fields(key.schema)
-            if key.schema.get("type") == "object"
-            else [types.Field("value", key.schema)]
-        )
-        rows: types.Schema = {"type": "integer", "description": "The message that each is in."}
-        keys = [types.Field("row", rows, is_required=False), *inner]
-        self.done[name] = self.table(name, part.get("description", ""), keys)
-        return name
-
     def record(
         self, name: str, description: str, keys: list[types.Field], columns: dict[str, str]
     ) -> str:
@@ -228,6 +201,6 @@ def python_arrays(schemas: types.Types, notice: str) -> str:
     """Return the module of the arrays of brains."""
     received, sent = Columns(schemas, RECEIVED), Columns(schemas, SENT)
     received.whole("Percept", "Percepts", PERCEPTS)
-    sent.whole("Command", "Commands", {})
+    sent.whole("Command", "Commands", COMMANDS)
     parts = [*received.done.values(), *sent.done.values()]
     return types.formatted([f'"""{notice}"""\n{IMPORTS}{HEAD}', *parts])

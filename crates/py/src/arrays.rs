@@ -1,12 +1,13 @@
-//! Percepts and commands of all robots of a kind as arrays, with one entry per robot.
+//! Percepts and commands of all robots of a kind as arrays, with one entry per robot; messages are dicts.
 
 use crate::columns::{self, Given, Shape};
 use crate::convert;
 use crate::error::input_error;
 use crate::message_check::{Kinds, tools_of};
 use base::error::{InputError, InputErrors};
-use brain::{Command, Percept};
+use brain::{Command, Percept, ReceivedMessage};
 use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde::Deserialize;
@@ -17,9 +18,9 @@ use std::sync::LazyLock;
 
 /// The columns of percepts. Robots of a kind share some keys, and have as many scans of as many rays.
 static PERCEPT: LazyLock<Shape> =
-    LazyLock::new(|| Shape::of::<Percept>(&["time_s", "id", "team_size", "scans"]));
+    LazyLock::new(|| Shape::of::<Percept>(&["time_s", "id", "team_size", "scans", "inbox"]));
 
-static COMMAND: LazyLock<Shape> = LazyLock::new(|| Shape::of::<Command>(&[]));
+static COMMAND: LazyLock<Shape> = LazyLock::new(|| Shape::of::<Command>(&["outbox"]));
 
 /// The percepts of the robots of a kind, in columns.
 pub(crate) fn percepts<'py>(
@@ -35,6 +36,7 @@ pub(crate) fn percepts<'py>(
     let indices: Vec<i64> = indices.collect();
     dict.set_item("robots", indices.into_pyarray(py))?;
     dict.set_item("scans", scans(py, decisions)?)?;
+    dict.set_item("inbox", Inbox::of(decisions))?;
     let percepts = decisions.iter().map(|decision| &decision.percept);
     columns::write(&PERCEPT, percepts)?.put_into(&dict)?;
     Ok(dict)
@@ -67,7 +69,41 @@ fn scans<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<
     PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
 }
 
-/// Sets the commands of robots from columns; `at` is their path in errors.
+/// The messages that robots have received, each with the `row` of its receiver. They become dicts when they
+/// are read: brains may read few of them.
+#[pyclass(frozen, sequence)]
+struct Inbox(Vec<(usize, ReceivedMessage)>);
+
+impl Inbox {
+    fn of(decisions: &[PendingDecision]) -> Self {
+        let rows = decisions.iter().enumerate();
+        let received = rows.flat_map(|(row, decision)| {
+            let inbox = decision.percept.inbox.iter();
+            inbox.map(move |received| (row, *received))
+        });
+        Self(received.collect())
+    }
+}
+
+#[pymethods]
+impl Inbox {
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyAny>> {
+        let from_end = if index < 0 { self.0.len() } else { 0 };
+        let found = from_end.checked_add_signed(index);
+        let no_message = || PyIndexError::new_err("no such message");
+        let found = found.and_then(|index| self.0.get(index));
+        let (row, received) = found.ok_or_else(no_message)?;
+        let dict = convert::write(py, received)?;
+        dict.set_item("row", row)?;
+        Ok(dict)
+    }
+}
+
+/// Sets the commands of robots from columns, and their messages from dicts; `at` is their path in errors.
 pub(crate) fn command(
     at: &str,
     scenario: &Scenario,
@@ -91,8 +127,52 @@ pub(crate) fn command(
                 .split(['.', '[', ']'])
                 .filter(|key| !key.is_empty());
             let path = format!("{at}{}", given.path(entry, keys));
-            input_error(&InputErrors(vec![InputError { path, ..error }]), "")
+            as_error(InputError { path, ..error })
         })?;
     }
+    match returned.get_item("outbox") {
+        Ok(outbox) => send(&format!("{at}.outbox"), &kinds, &outbox, decisions),
+        Err(_) => Ok(()),
+    }
+}
+
+/// Adds messages to the commands of the robots that send them.
+fn send(
+    at: &str,
+    kinds: &Kinds,
+    outbox: &Bound<PyAny>,
+    decisions: &mut [PendingDecision],
+) -> PyResult<()> {
+    let refused = |path: &str, given: &Bound<PyAny>, allowed: &str| {
+        let given = given.repr().map(|given| given.to_string());
+        let error = InputError::new(path.to_owned(), given.ok(), allowed.to_owned());
+        as_error(error)
+    };
+    let items = outbox.cast::<PyList>();
+    let items = items.map_err(|_| refused(at, outbox, "a list of dicts, one for each message"))?;
+    let allowed_row = format!("the row of the sender, below {}", decisions.len());
+    for (number, item) in items.iter().enumerate() {
+        let at = format!("{at}[{number}]");
+        let dict = item.cast::<PyDict>();
+        let dict = dict.map_err(|_| refused(&at, &item, "a dict with row, about, confidence"))?;
+        let row = dict.get_item("row")?;
+        let row = row.unwrap_or_else(|| item.py().None().into_bound(item.py()));
+        let found = row.extract::<usize>().ok();
+        let decision = found.and_then(|row| decisions.get_mut(row));
+        let Some(decision) = decision else {
+            return Err(refused(&format!("{at}.row"), &row, &allowed_row));
+        };
+        let content = dict.copy()?;
+        content.del_item("row")?;
+        let message = convert::read(&at, &content).map_err(as_error)?;
+        kinds
+            .message(&at, &message)
+            .map_or(Ok(()), |error| Err(as_error(error)))?;
+        decision.command.outbox.push(message);
+    }
     Ok(())
+}
+
+fn as_error(error: InputError) -> PyErr {
+    input_error(&InputErrors(vec![error]), "")
 }

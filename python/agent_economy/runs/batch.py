@@ -6,8 +6,8 @@ with the age NaN; missing integers are -1, and missing booleans False. The range
 a return is `math.inf`. Enumerations, such as the status of a goal, are numbers in their order.
 
 Lists of different lengths, such as contacts, are concatenated: `row` holds the index of the robot
-of each entry in the arrays of robots. The content of messages is a dict with the arrays of each
-type of message; `row` holds the index of each in the list of messages.
+of each entry in the arrays of robots. Messages are dicts as in the percept and command of a single
+brain, each with its `row`.
 
 `agent_economy.types.arrays` documents each array.
 """

@@ -1,14 +1,10 @@
 //! Reads values from columns.
 
 use super::given::Given;
-use super::shape::{Field, Shape};
-use serde::de::value::{Error, StrDeserializer};
-use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
-};
+use super::shape::Shape;
+use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
+use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
-use std::slice;
 
 /// One entry of columns.
 #[derive(Clone, Copy)]
@@ -63,26 +59,13 @@ impl<'g> Cell<'g> {
         }
     }
 
-    /// The alternative of a union.
-    fn alternative(&self) -> Option<(&'g str, Self)> {
-        let Given::Union(union) = self.given else {
-            return None;
-        };
-        let (number, entry) = union.chosen[self.entry]?;
-        let (field, content) = &union.all[number];
-        Some((field.name.as_str(), content.cell(entry)))
-    }
-
     fn below(&self, key: &str) -> Option<Self> {
         match self.given {
             Given::Table(columns) => {
                 let (_, given) = columns.all.iter().find(|(field, _)| field.name == key)?;
                 Some(given.cell(self.entry))
             }
-            _ => self
-                .alternative()
-                .filter(|(name, _)| *name == key)
-                .map(|(_, cell)| cell),
+            _ => None,
         }
     }
 
@@ -118,16 +101,26 @@ impl<'de> Deserializer<'de> for Cell<'de> {
         match self.given {
             Given::Numbers(Shape::Vector { length, is_whole }, numbers) => {
                 let first = self.entry * length;
-                visitor.visit_seq(Numbers(numbers[first..first + length].iter(), *is_whole))
+                let numbers = numbers[first..first + length].iter();
+                if *is_whole {
+                    visitor.visit_seq(SeqDeserializer::new(numbers.map(|number| whole(*number))))
+                } else {
+                    visitor.visit_seq(SeqDeserializer::new(numbers.copied()))
+                }
             }
             Given::Numbers(shape, numbers) => scalar(shape, numbers[self.entry], visitor),
-            Given::Table(columns) => visitor.visit_map(Keys {
-                rest: columns.all.iter(),
-                entry: self.entry,
-                value: None,
-            }),
-            Given::List(items) => visitor.visit_seq(Entries(self.items().iter(), &items.item)),
-            Given::Union(_) => visitor.visit_map(Only(self.alternative(), None)),
+            Given::Table(columns) => {
+                let keys = columns.all.iter().filter_map(|(field, given)| {
+                    let cell = given.cell(self.entry);
+                    let is_given = field.is_required || !cell.is_missing();
+                    is_given.then_some((field.name.as_str(), cell))
+                });
+                visitor.visit_map(MapDeserializer::new(keys))
+            }
+            Given::List(items) => {
+                let cells = self.items().iter().map(|entry| items.item.cell(*entry));
+                visitor.visit_seq(SeqDeserializer::new(cells))
+            }
         }
     }
 
@@ -145,10 +138,12 @@ impl<'de> Deserializer<'de> for Cell<'de> {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Error> {
-        if let Given::Numbers(shape, _) = self.given {
-            return visitor.visit_enum(name(shape, self.number()).into_deserializer());
-        }
-        visitor.visit_enum(self)
+        let code = self.number().unwrap_or_default();
+        let name = match self.given {
+            Given::Numbers(shape, _) => name(shape, code),
+            _ => "",
+        };
+        visitor.visit_enum(name.into_deserializer())
     }
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
@@ -168,7 +163,8 @@ impl<'de> Deserializer<'de> for Cell<'de> {
     ) -> Result<V::Value, Error> {
         match self.given {
             Given::Table(columns) if columns.is_first && !self.lacks_any() => {
-                visitor.visit_seq(Values(columns.all.iter(), self.entry))
+                let cells = columns.all.iter().map(|(_, given)| given.cell(self.entry));
+                visitor.visit_seq(SeqDeserializer::new(cells))
             }
             _ => self.deserialize_any(visitor),
         }
@@ -180,177 +176,35 @@ impl<'de> Deserializer<'de> for Cell<'de> {
     }
 }
 
+impl<'de> IntoDeserializer<'de, Error> for Cell<'de> {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
+
 /// The name of a code.
-fn name(shape: &Shape, code: Option<f64>) -> &str {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "whole numbers that are not negative"
-    )]
-    let number = code.unwrap_or_default() as usize;
+fn name(shape: &Shape, code: f64) -> &str {
     match shape {
-        Shape::Code(names) => names.get(number).map_or("", String::as_str),
+        Shape::Code(names) => usize::try_from(whole(code))
+            .ok()
+            .and_then(|number| names.get(number))
+            .map_or("", String::as_str),
         _ => "",
     }
 }
 
 fn scalar<'de, V: Visitor<'de>>(shape: &Shape, number: f64, to: V) -> Result<V::Value, Error> {
-    #[expect(clippy::cast_possible_truncation, reason = "whole numbers")]
     match shape {
-        Shape::Integer => to.visit_i64(number as i64),
+        Shape::Integer => to.visit_i64(whole(number)),
         Shape::Flag => to.visit_bool(number != 0.0),
-        Shape::Code(_) => to.visit_str(name(shape, Some(number))),
+        Shape::Code(_) => to.visit_str(name(shape, number)),
         _ => to.visit_f64(number),
     }
 }
 
-/// The numbers of a vector, and whether they are whole.
-struct Numbers<'g>(slice::Iter<'g, f64>, bool);
-
-impl<'de> SeqAccess<'de> for Numbers<'_> {
-    type Error = Error;
-
-    fn next_element_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Error> {
-        let Some(number) = self.0.next().copied() else {
-            return Ok(None);
-        };
-        #[expect(clippy::cast_possible_truncation, reason = "whole numbers")]
-        let value = if self.1 {
-            seed.deserialize((number as i64).into_deserializer())
-        } else {
-            seed.deserialize(number.into_deserializer())
-        };
-        value.map(Some)
-    }
-}
-
-/// The values of the first keys of an object.
-struct Values<'g>(slice::Iter<'g, (&'static Field, Given)>, usize);
-
-impl<'de> SeqAccess<'de> for Values<'de> {
-    type Error = Error;
-
-    fn next_element_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Error> {
-        let column = self.0.next();
-        let value = column.map(|(_, given)| seed.deserialize(given.cell(self.1)));
-        value.transpose()
-    }
-}
-
-/// The items of a list.
-struct Entries<'g>(slice::Iter<'g, usize>, &'g Given);
-
-impl<'de> SeqAccess<'de> for Entries<'de> {
-    type Error = Error;
-
-    fn next_element_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Error> {
-        let entry = self.0.next();
-        let value = entry.map(|entry| seed.deserialize(self.1.cell(*entry)));
-        value.transpose()
-    }
-}
-
-/// The keys of an object that have a value.
-struct Keys<'g> {
-    rest: slice::Iter<'g, (&'static Field, Given)>,
-    entry: usize,
-    value: Option<Cell<'g>>,
-}
-
-impl<'de> MapAccess<'de> for Keys<'de> {
-    type Error = Error;
-
-    fn next_key_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Error> {
-        for (field, given) in self.rest.by_ref() {
-            let cell = given.cell(self.entry);
-            if field.is_required || !cell.is_missing() {
-                self.value = Some(cell);
-                let key: StrDeserializer<Error> = field.name.as_str().into_deserializer();
-                return seed.deserialize(key).map(Some);
-            }
-        }
-        Ok(None)
-    }
-
-    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
-        let value = self.value.take();
-        match value {
-            Some(cell) => seed.deserialize(cell),
-            None => seed.deserialize(().into_deserializer()),
-        }
-    }
-}
-
-/// The alternative of a union as the only key of an object.
-struct Only<'g>(Option<(&'g str, Cell<'g>)>, Option<Cell<'g>>);
-
-impl<'de> MapAccess<'de> for Only<'de> {
-    type Error = Error;
-
-    fn next_key_seed<S: DeserializeSeed<'de>>(
-        &mut self,
-        seed: S,
-    ) -> Result<Option<S::Value>, Error> {
-        let Some((name, cell)) = self.0.take() else {
-            return Ok(None);
-        };
-        self.1 = Some(cell);
-        let key: StrDeserializer<Error> = name.into_deserializer();
-        seed.deserialize(key).map(Some)
-    }
-
-    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
-        let value = self.1.take();
-        match value {
-            Some(cell) => seed.deserialize(cell),
-            None => seed.deserialize(().into_deserializer()),
-        }
-    }
-}
-
-impl<'de> EnumAccess<'de> for Cell<'de> {
-    type Error = Error;
-    type Variant = Self;
-
-    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self), Error> {
-        let (name, content) = self.alternative().unwrap_or(("", self));
-        let name: StrDeserializer<Error> = name.into_deserializer();
-        Ok((seed.deserialize(name)?, content))
-    }
-}
-
-impl<'de> VariantAccess<'de> for Cell<'de> {
-    type Error = Error;
-
-    fn unit_variant(self) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
-        seed.deserialize(self)
-    }
-
-    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
-        self.deserialize_any(visitor)
-    }
-
-    fn struct_variant<V: Visitor<'de>>(
-        self,
-        _: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Error> {
-        self.deserialize_any(visitor)
-    }
+#[expect(clippy::cast_possible_truncation, reason = "whole numbers")]
+fn whole(number: f64) -> i64 {
+    number as i64
 }

@@ -1,6 +1,6 @@
 //! Columns that are filled value by value, and their arrays.
 
-use super::shape::{Field, Shape};
+use super::shape::Shape;
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,15 +18,7 @@ pub(super) enum Data {
     Table(Vec<Column>),
     /// The entry that each item is of, and the items.
     List(Vec<i64>, Box<Column>),
-    /// The alternatives that occur.
-    Union(Vec<Option<Alternative>>),
     Omitted,
-}
-
-/// The entries of one alternative, and their content.
-pub(super) struct Alternative {
-    pub(super) rows: Vec<i64>,
-    pub(super) content: Column,
 }
 
 impl Column {
@@ -42,7 +34,6 @@ impl Column {
                 Data::Table(fields.iter().map(|field| Self::new(&field.shape)).collect())
             }
             Shape::List(item) => Data::List(Vec::new(), Box::new(Self::new(item))),
-            Shape::Union(fields) => Data::Union(fields.iter().map(|_| None).collect()),
             Shape::Omitted => Data::Omitted,
         };
         Self { shape, data }
@@ -59,7 +50,7 @@ impl Column {
             Data::Integers(integers) => integers.extend((0..times).map(|_| -1)),
             Data::Flags(flags) => flags.push(false),
             Data::Table(columns) => columns.iter_mut().for_each(Self::skip),
-            Data::List(..) | Data::Union(_) | Data::Omitted => {}
+            Data::List(..) | Data::Omitted => {}
         }
     }
 
@@ -92,46 +83,9 @@ impl Column {
                 dict.set_item("row", rows.into_pyarray(py))?;
                 items.put_into(dict)?;
             }
-            Data::Union(alternatives) => {
-                for (field, alternative) in fields.iter().zip(alternatives) {
-                    let arrays = match alternative {
-                        Some(alternative) => alternative.arrays(py)?,
-                        None => field.empty(py)?,
-                    };
-                    dict.set_item(&field.name, arrays)?;
-                }
-            }
             _ => dict.set_item("value", self.arrays(py)?)?,
         }
         Ok(())
-    }
-}
-
-impl Alternative {
-    pub(super) fn new(field: &'static Field) -> Self {
-        Self {
-            rows: Vec::new(),
-            content: Column::new(&field.shape),
-        }
-    }
-
-    /// The arrays of a union in a union have rows of their own.
-    fn arrays(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-        let dict = PyDict::new(py);
-        if !matches!(self.content.data, Data::Union(_)) {
-            dict.set_item("row", self.rows.into_pyarray(py))?;
-        }
-        self.content.put_into(&dict)?;
-        Ok(dict.into_any())
-    }
-}
-
-impl Field {
-    /// The arrays of an alternative without entries.
-    fn empty<'py>(&'static self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let make = || Ok(Alternative::new(self).arrays(py)?.unbind());
-        let arrays = self.empty.get_or_try_init(py, make);
-        arrays.map(|arrays| arrays.bind(py).clone())
     }
 }
 

@@ -4,7 +4,7 @@ use super::shape::{Field, Shape};
 use crate::convert::text;
 use crate::error::input_error;
 use base::error::{InputError, InputErrors};
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -16,7 +16,6 @@ pub(crate) enum Given {
     Numbers(&'static Shape, Vec<f64>),
     Table(Columns),
     List(Items),
-    Union(Alternatives),
 }
 
 /// The columns of an object.
@@ -46,19 +45,6 @@ pub(crate) struct Items {
     pub(super) starts: Vec<usize>,
     pub(super) order: Vec<usize>,
     pub(super) item: Box<Given>,
-}
-
-/// The alternatives of a union: of each entry, which one it has, and its number among the entries that have it.
-pub(crate) struct Alternatives {
-    pub(super) chosen: Vec<Option<(usize, usize)>>,
-    pub(super) all: Vec<(&'static Field, Given)>,
-}
-
-impl Alternatives {
-    /// The first entry that has none.
-    fn without(&self) -> Option<usize> {
-        self.chosen.iter().position(Option::is_none)
-    }
 }
 
 /// Where columns are in the returned dict, and their number of entries.
@@ -104,7 +90,6 @@ impl Place<'_> {
         match shape {
             Shape::Table(fields) => Ok(Given::Table(self.table(fields, given, &[])?)),
             Shape::List(item) => self.list(item, given),
-            Shape::Union(fields) => self.union(fields, given),
             _ => self.numbers(shape, given),
         }
     }
@@ -127,7 +112,8 @@ impl Place<'_> {
     ) -> PyResult<Columns> {
         let dict = self.dict(fields, given, extra)?;
         let mut columns = Vec::new();
-        for field in fields {
+        let with_columns = |field: &&Field| !matches!(field.shape, Shape::Omitted);
+        for field in fields.iter().filter(with_columns) {
             let path = self.below(&field.name);
             match dict.get_item(&field.name).ok().flatten() {
                 Some(given) => {
@@ -136,9 +122,7 @@ impl Place<'_> {
                         count: self.count,
                         is_optional: field.is_nullable,
                     };
-                    let column = place.read(&field.shape, &given)?;
-                    place.is_complete(&column, &field.shape)?;
-                    columns.push((field, column));
+                    columns.push((field, place.read(&field.shape, &given)?));
                 }
                 None if field.is_required && self.count > 0 => {
                     let allowed = format!("given: it is a key of {}", self.path);
@@ -230,94 +214,6 @@ impl Place<'_> {
         Ok(Some(rows.into_iter().map(|row| row as usize).collect()))
     }
 
-    /// One alternative for each entry. Without `row`, all entries have the same one.
-    fn union(&self, fields: &'static [Field], given: &Bound<PyAny>) -> PyResult<Given> {
-        let mut union = Alternatives {
-            chosen: vec![None; self.count],
-            all: Vec::new(),
-        };
-        let dict = self.dict(fields, given, &[])?;
-        for field in fields {
-            let Some(given) = dict.get_item(&field.name).ok().flatten() else {
-                continue;
-            };
-            let path = self.below(&field.name);
-            let place = Place {
-                path: &path,
-                ..*self
-            };
-            let (entries, content) = place.alternative(field, &given)?;
-            for (number, entry) in entries.into_iter().enumerate() {
-                // A union in a union has the same entries.
-                let is_union = matches!(content, Given::Union(_));
-                let chosen = (union.all.len(), if is_union { entry } else { number });
-                if union.chosen[entry].replace(chosen).is_some() {
-                    let path = format!("{path}.row[{number}]");
-                    let allowed = "an entry without another alternative".to_owned();
-                    return Err(refusal(path, Some(entry.to_string()), allowed));
-                }
-            }
-            union.all.push((field, content));
-        }
-        Ok(Given::Union(union))
-    }
-
-    /// That a union has an alternative for each entry.
-    fn is_complete(&self, column: &Given, shape: &Shape) -> PyResult<()> {
-        let Given::Union(union) = column else {
-            return Ok(());
-        };
-        union.without().map_or(Ok(()), |entry| {
-            let names: Vec<&str> = shape
-                .fields()
-                .iter()
-                .map(|field| field.name.as_str())
-                .collect();
-            let path = format!("{}[{entry}]", self.path);
-            let given = Some("no type of message".to_owned());
-            Err(refusal(path, given, format!("one of {}", names.join(", "))))
-        })
-    }
-
-    /// The entries that have an alternative, and its content.
-    fn alternative(
-        &self,
-        field: &'static Field,
-        given: &Bound<PyAny>,
-    ) -> PyResult<(Vec<usize>, Given)> {
-        if let Shape::Union(fields) = &field.shape {
-            let content = self.union(fields, given)?;
-            let Given::Union(inner) = &content else {
-                return Ok((Vec::new(), content));
-            };
-            let has_one = |entry: &usize| inner.chosen[*entry].is_some();
-            let entries: Vec<usize> = (0..self.count).filter(has_one).collect();
-            return Ok((entries, content));
-        }
-        let is_value = !matches!(field.shape, Shape::Table(_));
-        let fields = field.shape.fields();
-        let extra: &[&str] = if is_value {
-            &["row", "value"]
-        } else {
-            &["row"]
-        };
-        let dict = self.dict(fields, given, extra)?;
-        let entries = self.rows(&dict)?;
-        let entries = entries.unwrap_or_else(|| (0..self.count).collect());
-        let place = Self {
-            count: entries.len(),
-            ..*self
-        };
-        let content = if is_value {
-            let given = dict.get_item("value").ok().flatten();
-            let given = given.unwrap_or_else(|| dict.py().None().into_bound(dict.py()));
-            Given::read(&field.shape, &self.below("value"), &given, place.count)?
-        } else {
-            Given::Table(place.table(fields, given, extra)?)
-        };
-        Ok((entries, content))
-    }
-
     /// Numbers as their shape allows them.
     fn numbers(&self, shape: &'static Shape, given: &Bound<PyAny>) -> PyResult<Given> {
         let numbers = match shape {
@@ -375,6 +271,9 @@ impl Place<'_> {
 
     /// An array of floats, repeated to a shape if one is given.
     fn array(&self, given: &Bound<PyAny>, shape: Option<&[usize]>) -> PyResult<Vec<f64>> {
+        if let Some(numbers) = floats(given, shape) {
+            return Ok(numbers);
+        }
         let convert = || -> PyResult<Vec<f64>> {
             let numpy = given.py().import(intern!(given.py(), "numpy"))?;
             let array = numpy.call_method1(intern!(given.py(), "asarray"), (given,))?;
@@ -409,6 +308,17 @@ impl Place<'_> {
             )
         })
     }
+}
+
+/// The numbers of a contiguous array of floats that has the shape already.
+fn floats(given: &Bound<PyAny>, shape: Option<&[usize]>) -> Option<Vec<f64>> {
+    let array = given.cast::<PyArrayDyn<f64>>().ok()?;
+    let has_shape = match shape {
+        Some(shape) => array.shape() == shape,
+        None => array.ndim() == 1,
+    };
+    let array = has_shape.then(|| array.readonly())?;
+    array.as_slice().ok().map(<[f64]>::to_vec)
 }
 
 /// A number as it was given: `None` in place of a number is read as NaN.

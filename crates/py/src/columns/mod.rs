@@ -9,7 +9,7 @@
 //! [T; N]         array of shape (entries, N)
 //! object         dict of columns
 //! list           dict of the columns of its items, of all entries one after the other, and `row`: the entry of each
-//! one of several dict of a dict for each alternative, with its columns and `row`: the item of the list it is in
+//! one of several none
 //! ```
 //!
 //! * [`shape`]: what follows from a schema; [`column`]: columns that are filled, and their arrays;

@@ -1,8 +1,5 @@
 //! The columns that a type has, by its schema.
 
-use pyo3::Py;
-use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
 use schemars::JsonSchema;
 use serde_json::{Map, Value as Json};
 
@@ -20,33 +17,17 @@ pub(crate) enum Shape {
     },
     Table(Vec<Field>),
     List(Box<Shape>),
-    /// One of several alternatives.
-    Union(Vec<Field>),
     /// Without columns.
     Omitted,
 }
 
-/// A key of an object, or an alternative of a union.
+/// A key of an object.
 pub(crate) struct Field {
     pub(crate) name: String,
     pub(crate) shape: Shape,
     pub(crate) is_required: bool,
     /// Whether it may have no value.
     pub(super) is_nullable: bool,
-    /// The arrays of an alternative without entries: most messages are of few kinds.
-    pub(super) empty: PyOnceLock<Py<PyAny>>,
-}
-
-impl Field {
-    fn new(name: &str, shape: Shape, schema: &Json) -> Self {
-        Self {
-            name: name.to_owned(),
-            shape,
-            is_required: false,
-            is_nullable: is_nullable(schema),
-            empty: PyOnceLock::new(),
-        }
-    }
 }
 
 impl Shape {
@@ -64,10 +45,10 @@ impl Shape {
         shape
     }
 
-    /// The keys of a table, or the alternatives of a union.
+    /// The keys of a table.
     pub(super) fn fields(&self) -> &[Field] {
         match self {
-            Self::Table(fields) | Self::Union(fields) => fields,
+            Self::Table(fields) => fields,
             _ => &[],
         }
     }
@@ -99,7 +80,7 @@ impl Definitions<'_> {
         }
     }
 
-    /// An optional value, an enumeration, or a union.
+    /// An optional value, or an enumeration.
     fn alternatives(&self, parts: &[Json]) -> Shape {
         let is_null = |part: &&Json| kind(part) == Some("null");
         if let [only] = parts
@@ -109,18 +90,9 @@ impl Definitions<'_> {
         {
             return self.shape(only);
         }
-        let names: Vec<String> = parts
-            .iter()
-            .filter_map(|part| text(part.get("const")?))
-            .collect();
-        if names.len() == parts.len() {
-            return Shape::Code(names);
-        }
-        let keys = parts
-            .iter()
-            .filter_map(|part| part.get("properties")?.as_object()?.iter().next());
-        let fields = keys.map(|(name, inner)| Field::new(name, self.shape(inner), inner));
-        Shape::Union(fields.collect())
+        let names = parts.iter().map(|part| text(part.get("const")?));
+        let names: Option<Vec<String>> = names.collect();
+        names.map_or(Shape::Omitted, Shape::Code)
     }
 
     fn list(&self, schema: &Json) -> Shape {
@@ -151,8 +123,10 @@ impl Definitions<'_> {
         let properties = schema.get("properties").and_then(Json::as_object);
         let fields = properties.unwrap_or(&none).iter();
         let fields = fields.map(|(name, it)| Field {
+            name: name.clone(),
+            shape: self.shape(it),
             is_required: is_required(name),
-            ..Field::new(name, self.shape(it), it)
+            is_nullable: is_nullable(it),
         });
         Shape::Table(fields.collect())
     }

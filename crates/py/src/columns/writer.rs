@@ -1,13 +1,11 @@
 //! Writes values to columns.
 
-use super::column::{Alternative, Column, Data};
+use super::column::{Column, Data};
 use super::shape::{Field, Shape};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
-use serde::ser::{
-    self, Impossible, SerializeSeq, SerializeStruct, SerializeStructVariant, SerializeTuple,
-};
+use serde::ser::{self, Impossible, SerializeSeq, SerializeStruct, SerializeTuple};
 use std::fmt::Display;
 use std::slice;
 
@@ -64,7 +62,6 @@ impl<'c> Writer<'c> {
     fn number(self, number: f64) -> Result<(), Mismatch> {
         match &mut self.column.data {
             Data::Numbers(numbers) => numbers.push(number),
-            Data::Omitted => {}
             _ => return Mismatch::of("a number"),
         }
         Ok(())
@@ -74,7 +71,6 @@ impl<'c> Writer<'c> {
     fn integer(self, number: i64) -> Result<(), Mismatch> {
         match &mut self.column.data {
             Data::Integers(integers) => integers.push(number),
-            Data::Omitted => {}
             _ => return Mismatch::of("an integer"),
         }
         Ok(())
@@ -85,38 +81,13 @@ impl<'c> Writer<'c> {
         let fields = self.column.shape.fields();
         match &mut self.column.data {
             Data::Table(columns) => Ok(TableWriter {
-                keys: if keys == columns.len() {
-                    Keys::All
-                } else {
-                    Keys::Some
-                },
+                has_all: keys == columns.len(),
                 columns: columns.iter_mut(),
                 fields: fields.iter(),
                 entry: self.entry,
             }),
-            Data::Omitted => Ok(TableWriter {
-                keys: Keys::Omitted,
-                columns: [].iter_mut(),
-                fields: [].iter(),
-                entry: self.entry,
-            }),
             _ => Mismatch::of("an object"),
         }
-    }
-
-    /// The content of an alternative.
-    fn alternative(self, number: u32, name: &str) -> Result<Writer<'c>, Mismatch> {
-        let Data::Union(alternatives) = &mut self.column.data else {
-            return Mismatch::of(name);
-        };
-        let number = number as usize;
-        let field = self.column.shape.fields().get(number);
-        let Some(field) = field.filter(|field| field.name == name) else {
-            return Mismatch::of(name);
-        };
-        let alternative = alternatives[number].get_or_insert_with(|| Alternative::new(field));
-        alternative.rows.push(self.entry);
-        Ok(Self::new(&mut alternative.content, self.entry))
     }
 }
 
@@ -138,7 +109,7 @@ impl<'c> ser::Serializer for Writer<'c> {
     type SerializeTupleVariant = Impossible<(), Mismatch>;
     type SerializeMap = Impossible<(), Mismatch>;
     type SerializeStruct = TableWriter<'c>;
-    type SerializeStructVariant = TableWriter<'c>;
+    type SerializeStructVariant = Impossible<(), Mismatch>;
 
     integers! {
         serialize_i8 i8, serialize_i16 i16, serialize_i32 i32, serialize_i64 i64,
@@ -194,21 +165,21 @@ impl<'c> ser::Serializer for Writer<'c> {
     fn serialize_newtype_variant<T: ?Sized + Serialize>(
         self,
         _: &'static str,
-        number: u32,
+        _: u32,
         name: &'static str,
-        value: &T,
+        _: &T,
     ) -> Result<(), Mismatch> {
-        value.serialize(self.alternative(number, name)?)
+        Mismatch::of(name)
     }
 
     fn serialize_struct_variant(
         self,
         _: &'static str,
-        number: u32,
+        _: u32,
         name: &'static str,
-        keys: usize,
-    ) -> Result<TableWriter<'c>, Mismatch> {
-        self.alternative(number, name)?.table(keys)
+        _: usize,
+    ) -> Result<Impossible<(), Mismatch>, Mismatch> {
+        Mismatch::of(name)
     }
 
     fn serialize_struct(self, _: &'static str, keys: usize) -> Result<TableWriter<'c>, Mismatch> {
@@ -278,7 +249,6 @@ impl ItemWriter<'_> {
                 rows.push(*entry);
                 item.serialize(Writer::new(items, number))
             }
-            Data::Omitted => Ok(()),
             _ => item.serialize(Writer::new(column, *entry)),
         }
     }
@@ -315,17 +285,9 @@ struct TableWriter<'c> {
     /// The columns that are left, and their names.
     columns: slice::IterMut<'c, Column>,
     fields: slice::Iter<'static, Field>,
-    keys: Keys,
+    /// Whether no key is missing: names need not be compared.
+    has_all: bool,
     entry: i64,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Keys {
-    /// None is missing: names need not be compared.
-    All,
-    Some,
-    /// There are no columns for them.
-    Omitted,
 }
 
 impl TableWriter<'_> {
@@ -336,12 +298,13 @@ impl TableWriter<'_> {
         value: &T,
     ) -> Result<(), Mismatch> {
         let entry = self.entry;
-        let column = match self.keys {
-            Keys::All => self.columns.next(),
-            Keys::Some => self.named(name),
-            Keys::Omitted => return Ok(()),
+        let column = if self.has_all {
+            self.columns.next()
+        } else {
+            self.named(name)
         };
         match column {
+            Some(column) if matches!(column.data, Data::Omitted) => Ok(()),
             Some(column) => value.serialize(Writer::new(column, entry)),
             None => Mismatch::of(name),
         }
@@ -361,24 +324,6 @@ impl TableWriter<'_> {
 }
 
 impl SerializeStruct for TableWriter<'_> {
-    type Ok = ();
-    type Error = Mismatch;
-
-    fn serialize_field<T: ?Sized + Serialize>(
-        &mut self,
-        name: &'static str,
-        value: &T,
-    ) -> Result<(), Mismatch> {
-        self.field(name, value)
-    }
-
-    fn end(self) -> Result<(), Mismatch> {
-        self.end();
-        Ok(())
-    }
-}
-
-impl SerializeStructVariant for TableWriter<'_> {
     type Ok = ();
     type Error = Mismatch;
 
