@@ -14,7 +14,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 
 CRATE_USES = {
-    "agent-economy-base": set[str](),
+    "agent-economy-base": {"agent-economy-derive"},
     "agent-economy-benchmarks": {
         "agent-economy-base",
         "agent-economy-brain",
@@ -23,6 +23,7 @@ CRATE_USES = {
     },
     "agent-economy-brain": {"agent-economy-base"},
     "agent-economy-classic": {"agent-economy-base"},
+    "agent-economy-derive": set[str](),
     "agent-economy-py": {
         "agent-economy-base",
         "agent-economy-brain",

@@ -1,14 +1,14 @@
 //! Values that a hash of simulation states covers.
 
-use crate::geometry::{Disc, Point};
 use crate::hash::Hash;
+pub use derive::Hashed;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// A value whose content a hash can cover: different contents add different words, numbers with all
 /// their bits.
 ///
-/// [`hashed!`](crate::hashed!) implements it for a struct.
+/// The derive macro covers each field, except those with `#[hashed(skip)]`, such as one that follows from others.
 pub trait Hashed {
     /// Adds the content to a hash.
     fn add_to(&self, hash: &mut Hash);
@@ -22,32 +22,6 @@ pub trait Hashed {
             value.add_to(hash);
         }
     }
-}
-
-/// Implements [`Hashed`] for a struct, by its fields: `hashed!(Kind { a, b })`. A field that is not
-/// part of its content, such as one that follows from others, is named after `without`:
-/// `hashed!(Kind { a, b } without { c })`. A field that is not named at all is a compile error.
-///
-/// For an enum without content it is `hashed!(enum Kind)`.
-#[macro_export]
-macro_rules! hashed {
-    (enum $kind:ty) => {
-        impl $crate::hashed::Hashed for $kind {
-            #[inline]
-            fn add_to(&self, hash: &mut $crate::hash::Hash) {
-                hash.add(*self as u64);
-            }
-        }
-    };
-    ($kind:ty { $($field:ident),+ $(,)? } $(without { $($left_out:ident),+ $(,)? })?) => {
-        impl $crate::hashed::Hashed for $kind {
-            #[inline]
-            fn add_to(&self, hash: &mut $crate::hash::Hash) {
-                let Self { $($field,)+ $($($left_out: _,)+)? } = self;
-                $($crate::hashed::Hashed::add_to($field, hash);)+
-            }
-        }
-    };
 }
 
 /// Numbers that widen to a word.
@@ -199,20 +173,17 @@ impl<A: Hashed, B: Hashed> Hashed for (A, B) {
     }
 }
 
-hashed!(Point { x, y });
-hashed!(Disc { centre, radius_m });
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    #[derive(Hashed)]
     struct Pair {
         left: u8,
         right: Option<f64>,
+        #[hashed(skip)]
         scratch: u32,
     }
-
-    hashed!(Pair { left, right } without { scratch });
 
     const PAIR: Pair = Pair {
         left: 1,

@@ -14,6 +14,9 @@
 //! * [`engine`]: the seam between simulators and studies, [`engine::Engine`] and [`engine::Runner`];
 //! * [`scenario`]: the part of a scenario that is common to all engines.
 
+// The derive macro of `Hashed` names this crate.
+extern crate self as base;
+
 pub mod document;
 pub mod engine;
 pub mod error;

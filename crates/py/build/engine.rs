@@ -13,7 +13,7 @@ use std::path::Path;
 use std::{fs, io};
 
 /// The crates that compute runs. Selection, page and Python decide which runs, not their outcomes.
-const CRATES: [&str; 6] = ["base", "brain", "classic", "economy", "py", "sim"];
+const CRATES: [&str; 7] = ["base", "brain", "classic", "derive", "economy", "py", "sim"];
 
 const LOCK: &str = "Cargo.lock";
 

@@ -44,7 +44,9 @@ impl Workspace {
     fn new(name: &str) -> Self {
         let workspace = Self(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
         let _ = fs::remove_dir_all(&workspace.0);
-        for name in ["base", "brain", "classic", "economy", "py", "select", "sim"] {
+        for name in [
+            "base", "brain", "classic", "derive", "economy", "py", "select", "sim",
+        ] {
             workspace.write(&format!("crates/{name}/Cargo.toml"), "[package]\n");
             workspace.write(&format!("crates/{name}/src/lib.rs"), "mod run;\n");
             workspace.write(&format!("crates/{name}/src/run/mod.rs"), "fn run() {}\n");
@@ -77,7 +79,7 @@ fn it_is_sixteen_hexadecimal_digits_and_the_same_for_each_path_of_a_checkout() {
 fn it_changes_with_each_crate_that_computes_runs() {
     let workspace = Workspace::new("changed");
     let mut seen = vec![workspace.hash()];
-    for name in ["base", "brain", "classic", "economy", "py", "sim"] {
+    for name in ["base", "brain", "classic", "derive", "economy", "py", "sim"] {
         for file in ["Cargo.toml", "src/lib.rs", "src/run/mod.rs", "src/new.toml"] {
             workspace.write(&format!("crates/{name}/{file}"), "// changed\n");
             let hash = workspace.hash();

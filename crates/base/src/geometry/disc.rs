@@ -1,9 +1,10 @@
 //! Round pillars.
 
 use super::Point;
+use crate::hashed::Hashed;
 
 /// A disc, including its boundary.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub struct Disc {
     /// Its centre.
     pub centre: Point,

@@ -16,11 +16,12 @@ pub use rectangle::Rectangle;
 pub use segment::Segment;
 pub use torus::Torus;
 
+use crate::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A point or a vector; in files `[x, y]`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub struct Point {
     /// Along the world's width, in metres.

@@ -1,19 +1,18 @@
 //! Axis-aligned rectangles.
 
 use super::{Point, Segment};
+use crate::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An axis-aligned rectangle, including its boundary. In files, two opposite corners,
 /// `[[x, y], [x, y]]`, in any order.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(from = "[Point; 2]", into = "[Point; 2]")]
 pub struct Rectangle {
     min: Point,
     max: Point,
 }
-
-crate::hashed!(Rectangle { min, max });
 
 impl From<[Point; 2]> for Rectangle {
     fn from([one, other]: [Point; 2]) -> Self {

@@ -1,21 +1,17 @@
 //! A grid of cells.
 
+use crate::hashed::Hashed;
+
 /// Maximum number of cells of a map.
 pub const MAX_CELLS: usize = 64_000_000;
 
 /// A grid of cells, row by row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub(super) struct Grid {
     columns: u32,
     rows: u32,
     cells: Vec<i8>,
 }
-
-crate::hashed!(Grid {
-    columns,
-    rows,
-    cells
-});
 
 /// Number of cells of an image.
 ///

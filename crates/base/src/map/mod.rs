@@ -35,13 +35,16 @@ pub use outline::MAX_SEGMENTS;
 
 use crate::error::{InputError, InputErrors};
 use crate::geometry::{Point, Rectangle, Segment};
+use crate::hashed::Hashed;
 use grid::Grid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use settings::Settings;
 
 /// Treatment of cells that are neither free nor occupied.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(
+    Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Unknown {
     /// They are free.
@@ -50,8 +53,6 @@ pub enum Unknown {
     /// They are occupied.
     Solid,
 }
-
-crate::hashed!(enum Unknown);
 
 /// How a world uses a map.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -63,17 +64,17 @@ pub struct MapOptions {
 }
 
 /// An occupancy grid of square cells.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub struct OccupancyMap {
     /// Occupancy as in ROS: 0 to 100, or -1. The lowest row is first.
     cells: Grid,
     settings: Settings,
     unknown: Unknown,
+    #[hashed(skip)]
     outline: Vec<Segment>,
 }
 
 // The outline follows from the cells.
-crate::hashed!(OccupancyMap { cells, settings, unknown } without { outline });
 
 /// Reads the map with the YAML `text`; `file` is its name in errors.
 ///

@@ -4,6 +4,7 @@ use super::pixel::Pixel;
 use crate::document::{Document, Section, Value};
 use crate::error::{InputError, InputErrors, nearest};
 use crate::geometry::Point;
+use crate::hashed::Hashed;
 use crate::trig;
 
 const KEYS: [&str; 7] = [
@@ -34,27 +35,29 @@ const MODES: [(&str, Mode); 3] = [
 ];
 
 /// The contents of the YAML file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub(super) struct Settings {
     /// Name of the image, as written.
+    #[hashed(skip)]
     pub(super) image: String,
     /// Side of a pixel, in metres.
     pub(super) resolution_m: f64,
     /// Origin of the image's name, for errors.
+    #[hashed(skip)]
     source: String,
     /// Lower left corner.
     origin: Point,
     /// Sine and cosine of the yaw.
     turn: (f64, f64),
+    #[hashed(skip)]
     is_negated: bool,
     occupied_threshold: f64,
     free_threshold: f64,
+    #[hashed(skip)]
     mode: Mode,
 }
 
 // The others decide how the image is read, and its cells contain the result.
-crate::hashed!(Settings { resolution_m, origin, turn, occupied_threshold, free_threshold }
-    without { image, source, is_negated, mode });
 
 pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
     Document::parse_yaml(file, text)?.read(|root| {

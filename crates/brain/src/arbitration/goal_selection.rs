@@ -24,23 +24,18 @@ use crate::perception::dead_reckoning::Odometry;
 use crate::service::assignee::Assignee;
 use crate::situation::Situation;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// The part of a brain that only robots with beliefs have.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct BeliefBrain {
     pub(crate) beliefs: Beliefs,
     pub(crate) messaging: Messaging,
     pub(crate) selection: GoalSelection,
 }
 
-base::hashed!(BeliefBrain {
-    beliefs,
-    messaging,
-    selection
-});
-
 /// The goals of a robot, and the path to the one that it pursues.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
@@ -48,10 +43,9 @@ pub(crate) struct GoalSelection {
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
+    #[hashed(skip)]
     pub(crate) proposals: Vec<(usize, Proposal)>,
 }
-
-base::hashed!(GoalSelection { goals, navigator, pursued, last_goal } without { proposals });
 
 impl BeliefBrain {
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {

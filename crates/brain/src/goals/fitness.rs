@@ -5,6 +5,7 @@ use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalPlace;
 pub use crate::io::verdict::Verdict;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// The robot makes progress when the path to the goal is shorter by this than ever before, in
 /// metres; more if its position is noisy.
@@ -53,7 +54,7 @@ impl Step {
 }
 
 /// The progress towards one goal so far.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Hashed)]
 pub(crate) struct Fitness {
     /// Path length in the last step; only a straight line while another goal is pursued.
     pub(crate) last_m: f64,
@@ -67,14 +68,6 @@ pub(crate) struct Fitness {
     /// well enough.
     pub(crate) is_uncertain: bool,
 }
-
-base::hashed!(Fitness {
-    last_m,
-    behind_m,
-    stuck_s,
-    is_pursued,
-    is_uncertain
-});
 
 impl Fitness {
     /// The minimum path length so far. What the path became longer while another goal was pursued

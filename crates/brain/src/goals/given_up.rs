@@ -3,6 +3,7 @@
 use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalPlace;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// A goal is tried again after this time, in seconds; each failure doubles it, up to a maximum.
 const MIN_REST_S: f64 = 10.0;
@@ -12,15 +13,13 @@ const MAX_REST_S: f64 = 160.0;
 const MAX_GOALS: usize = 16;
 
 /// The goals that a robot has given up.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct GivenUp {
     /// By their last failures, the oldest first.
     goals: Vec<Rest>,
 }
 
-base::hashed!(GivenUp { goals });
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Rest {
     goal: GoalPlace,
     /// Remaining time until it is tried again.
@@ -30,13 +29,6 @@ struct Rest {
     /// Why it failed.
     reason: Reason,
 }
-
-base::hashed!(Rest {
-    goal,
-    left_s,
-    total_s,
-    reason
-});
 
 impl GivenUp {
     pub(crate) fn advance(&mut self, elapsed_s: f64) {

@@ -23,6 +23,7 @@ use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 pub use fitness::Verdict;
 use fitness::{Fitness, Step};
 use given_up::GivenUp;
@@ -32,7 +33,7 @@ use precedence::{precedence, time_s};
 const MAX_DETOUR: f64 = 0.15;
 
 /// The goal of a behaviour, and its state.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Goal {
     /// Index of the behaviour in the brain's list.
     pub(crate) behaviour: usize,
@@ -48,41 +49,22 @@ pub(crate) struct Goal {
     is_reported: bool,
 }
 
-base::hashed!(Goal {
-    behaviour,
-    destination,
-    precedence,
-    verdict,
-    fitness,
-    reason,
-    rest_s,
-    is_reported
-});
-
 /// All goals of a robot, by precedence: at most one per behaviour.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Goals {
     pub(crate) list: Vec<Goal>,
     given_up: GivenUp,
     detours: Option<DetourBudget>,
 }
 
-base::hashed!(Goals {
-    list,
-    given_up,
-    detours
-});
-
 /// The first goal, and the remaining length of detours on the way to it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct DetourBudget {
     goal: GoalId,
     /// Position of the robot when the budget was last updated.
     at: Point,
     left_m: f64,
 }
-
-base::hashed!(DetourBudget { goal, at, left_m });
 
 impl DetourBudget {
     fn new(goal: &Goal, at: Point) -> Self {

@@ -12,6 +12,7 @@ use crate::io::message::{About, OrderAction};
 use crate::io::percept::ReceivedMessage;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +23,7 @@ const MAX_GOALS: usize = 10_000;
 const MAX_COORDINATE_M: f64 = 1e7;
 
 /// A goal that a person has assigned.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 pub struct AssignedGoal {
     /// Its id.
     pub id: GoalId,
@@ -34,15 +35,8 @@ pub struct AssignedGoal {
     pub reason: Option<Reason>,
 }
 
-base::hashed!(AssignedGoal {
-    id,
-    at,
-    verdict,
-    reason
-});
-
 /// The state of a goal that a person has assigned.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum OrderVerdict {
     /// It waits for its turn.
@@ -56,8 +50,6 @@ pub enum OrderVerdict {
     /// The robot has tried for too long. It tries again after all other goals.
     Impossible,
 }
-
-base::hashed!(enum OrderVerdict);
 
 /// The goals that a person has assigned to a robot, in the order of assignment.
 #[derive(Debug, Clone)]

@@ -3,6 +3,7 @@
 use crate::io::command::Motion;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// What an active behaviour proposes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +15,7 @@ pub(crate) enum Proposal {
 }
 
 /// A place to be; the [navigator](crate::navigation::navigator) finds the path for all behaviours.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Destination {
     /// The goal of being there.
     pub(crate) id: GoalId,
@@ -29,15 +30,6 @@ pub(crate) struct Destination {
     /// Value of being there, relative to other destinations.
     pub(crate) value: f64,
 }
-
-base::hashed!(Destination {
-    id,
-    at,
-    tolerance_m,
-    max_deviation_m,
-    max_speed_m_s,
-    value
-});
 
 /// A robot knows that it is within a distance of a place only if the standard deviation of its position
 /// is at most this fraction of the distance: in the plane, it then is within it of where it believes to

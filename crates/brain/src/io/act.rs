@@ -1,11 +1,12 @@
 //! Acts: what robots do to items, or state about them.
 
 use base::geometry::Point;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Something that a robot does to the item at a place, or states about it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Act {
     /// What it does.
@@ -14,11 +15,9 @@ pub struct Act {
     pub at: Point,
 }
 
-base::hashed!(Act { kind, at });
-
 /// What a robot can do to items with its tools.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema, Hashed,
 )]
 #[serde(rename_all = "snake_case")]
 pub enum ActKind {
@@ -38,10 +37,8 @@ pub enum ActKind {
     GiveUp,
 }
 
-base::hashed!(enum ActKind);
-
 /// The result of an act.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Acted {
     /// What the robot did.
@@ -52,12 +49,6 @@ pub struct Acted {
     /// about what is there. An act without the tool, out of its range or without a charge fails.
     pub is_success: bool,
 }
-
-base::hashed!(Acted {
-    kind,
-    at,
-    is_success
-});
 
 /// What a brain knows of a tool of its body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,6 +4,7 @@ use super::act::{ActKind, Tool};
 use alloc::string::String;
 use alloc::vec::Vec;
 use base::geometry::Rectangle;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,7 @@ use serde::{Deserialize, Serialize};
     Serialize,
     Deserialize,
     JsonSchema,
+    Hashed,
 )]
 #[serde(deny_unknown_fields)]
 pub struct RobotId {
@@ -29,8 +31,6 @@ pub struct RobotId {
     /// Index within the kind.
     pub index: u32,
 }
-
-base::hashed!(RobotId { kind, index });
 
 /// The kind of ids that are not those of robots: no scenario has that many kinds.
 pub(crate) const NO_ROBOT: u8 = u8::MAX;

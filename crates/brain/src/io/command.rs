@@ -48,7 +48,7 @@ impl Hashed for Command {
 }
 
 /// A speed and a turn rate.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
     /// Forward; negative is reverse.
@@ -57,13 +57,8 @@ pub struct Motion {
     pub turn_rate_rad_s: f64,
 }
 
-base::hashed!(Motion {
-    speed_m_s,
-    turn_rate_rad_s
-});
-
 /// A request to switch a sensor on or off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct SensorRequest {
     /// Index of the sensor in [`Body::sensors`](crate::Body::sensors).
@@ -71,5 +66,3 @@ pub struct SensorRequest {
     /// Whether it measures.
     pub on: bool,
 }
-
-base::hashed!(SensorRequest { sensor, on });

@@ -8,118 +8,90 @@ use super::lane::{Coverage, Lane, MAX_COORDINATE_M, Mark, Statement};
 use super::verdict::Verdict;
 
 use base::geometry::Point;
-use base::hash::Hash;
 use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Defines the messages, and their numbers in hashes.
-macro_rules! dispatch {
-    ($($(#[doc = $purpose:literal])+ $number:literal $kind:ident
-        $(($content:ty))? $({$($(#[doc = $what:literal])+ $field:ident: $type:ty,)*})?,)+) => {
-        /// A message about a goal that a controller owns or awards.
-        #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-        #[serde(rename_all = "snake_case", deny_unknown_fields)]
-        pub enum Dispatch {
-            $($(#[doc = $purpose])+ $kind $(($content))? $({$($(#[doc = $what])+ $field: $type,)*})?,)+
-        }
-
-        impl Hashed for Dispatch {
-            fn add_to(&self, hash: &mut Hash) {
-                $(dispatch!(@hash self hash $number $kind $(($content))? $({$($field)*})?);)+
-            }
-        }
-    };
-    (@hash $self:ident $hash:ident $number:literal $kind:ident ($content:ty)) => {
-        if let Self::$kind(content) = $self {
-            ($number as u8, *content).add_to($hash);
-        }
-    };
-    (@hash $self:ident $hash:ident $number:literal $kind:ident {$($field:ident)*}) => {
-        if let Self::$kind { $($field),* } = $self {
-            ($number as u8).add_to($hash);
-            $($field.add_to($hash);)*
-        }
-    };
-}
-
-dispatch! {
+/// A message about a goal that a controller owns or awards.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Dispatch {
     /// From the operator to a controller: a goal that it is to own from now on.
-    0 Issue(Task),
+    Issue(Task),
     /// From a controller to all: it is present, and has this serial number.
-    1 Serial(u32),
+    Serial(u32),
     /// From a controller to robots: a request of a report.
-    2 Query {},
+    Query {},
     /// From a robot to controllers: its state.
-    3 Report(Report),
+    Report(Report),
     /// From a robot to the owner of a goal that it serves: its progress.
-    4 Fitness(Fitness),
+    Fitness(Fitness),
     /// From a controller to robots: a goal that they can bid for. A call to one robot requests an
     /// answer, a bid or a refusal.
-    5 Call {
+    Call {
         /// The number that the caller gave the offer; it is the same when the call is repeated.
         number: u16,
         /// The goal.
         task: Task,
     },
     /// From a robot to the caller: its best bid.
-    6 Bid(Bid),
+    Bid(Bid),
     /// From the owner to a bidder: it is to serve the goal.
-    7 Award(Award),
+    Award(Award),
     /// From the receiver of an award: it serves the goal.
-    8 Commit(Claim),
+    Commit(Claim),
     /// From a robot: it does not serve the goal, and no award or call of this number changes that.
-    9 Refuse(Refusal),
+    Refuse(Refusal),
     /// From a robot to all, until its owner withdraws the goal: the goal has been served.
-    10 Done(Claim),
+    Done(Claim),
     /// From a robot to the owner: it does not reach the goal. From a controller to the operator: no
     /// robot can serve the goal, or its owner has lost it.
-    11 Stuck(Refusal),
+    Stuck(Refusal),
     /// From a robot or an owner: its lease has ended.
-    12 Release(Claim),
+    Release(Claim),
     /// From the owner to all: the goal is no longer on offer. To its assignee: it is to release it.
-    13 Withdraw(Claim),
+    Withdraw(Claim),
     /// From the holder of leases: a request to renew all that it has of the receiver.
-    14 Renew(Renewal),
+    Renew(Renewal),
     /// The renewal of this number is granted.
-    15 Renewed(u32),
+    Renewed(u32),
     /// The lists of leases differ; the holder is to renew each one.
-    16 Differs(u32),
+    Differs(u32),
     /// From the holder of a lease: a request to renew it.
-    17 RenewOne(Claim),
+    RenewOne(Claim),
     /// The renewal of a lease is granted.
-    18 RenewedOne(Claim),
+    RenewedOne(Claim),
     /// From a controller to others: the position of a robot that they may not see.
-    19 Seen(Seen),
+    Seen(Seen),
     /// From an owner to another controller: it is to be the heir of a goal.
-    20 Entrust(Task),
+    Entrust(Task),
     /// The answer to it, and to a binding: it is ready to be the heir, and grants owner leases of this
     /// duration.
-    21 Entrusted(Award),
+    Entrusted(Award),
     /// From an owner to its heir: a request to be the heir no longer.
-    22 Relieve(Claim),
+    Relieve(Claim),
     /// The answer to it: it is no longer the heir.
-    23 Relieved(Claim),
+    Relieved(Claim),
     /// From an heir that owns a goal to the previous owner: it can have it back.
-    24 Restore(Task),
+    Restore(Task),
     /// From an owner to its heir: from now on, it owns the goal only while the heir renews its lease.
     /// The number is that of the answer to which it refers, the duration that of its longest service
     /// lease.
-    25 Bind(Award),
+    Bind(Award),
     /// From an owner to its heir: a robot that has been awarded a goal. Of an inherited goal, only such
     /// a robot can report that it is done.
-    26 Assigned(Assignment),
+    Assigned(Assignment),
     /// From the operator to a robot: whether it is in service. Out of service, it releases its goals,
     /// bids for none, and refuses awards.
-    27 Service(bool),
+    Service(bool),
     /// From a controller to robots: a lane of which it needs coverage and marks.
-    28 Lane(Lane),
+    Lane(Lane),
     /// From a robot to controllers: what it has searched of the lane.
-    29 Coverage(Coverage),
+    Coverage(Coverage),
     /// From a robot to controllers: a place where it has detected something.
-    30 Mark(Mark),
+    Mark(Mark),
     /// From a robot to controllers: what it states about a mark.
-    31 Statement(Statement),
+    Statement(Statement),
 }
 
 impl Dispatch {
@@ -155,7 +127,7 @@ impl Dispatch {
 }
 
 /// A goal as it is described in messages.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
     /// Its id.
@@ -177,17 +149,6 @@ pub struct Task {
     pub capability: u8,
 }
 
-base::hashed!(Task {
-    id,
-    at_m,
-    radius_m,
-    value,
-    service_s,
-    due_s,
-    work,
-    capability
-});
-
 impl Task {
     /// Its position in the world.
     #[must_use]
@@ -207,7 +168,7 @@ impl Task {
 }
 
 /// What a goal consists of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum Work {
     /// To be there for the time of service.
@@ -220,10 +181,8 @@ pub enum Work {
     Neutralise,
 }
 
-base::hashed!(enum Work);
-
 /// A goal, and the number of a request of the robot or controller that holds its lease.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
     /// The goal.
@@ -232,10 +191,8 @@ pub struct Claim {
     pub number: u32,
 }
 
-base::hashed!(Claim { goal, number });
-
 /// The state of a robot.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
     /// Its position in the world, in metres.
@@ -250,16 +207,8 @@ pub struct Report {
     pub payload: u16,
 }
 
-base::hashed!(Report {
-    at_m,
-    speed_m_s,
-    battery,
-    goals,
-    payload
-});
-
 /// The progress of a robot towards a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Fitness {
     /// The goal.
@@ -270,14 +219,8 @@ pub struct Fitness {
     pub remaining_s: f32,
 }
 
-base::hashed!(Fitness {
-    goal,
-    verdict,
-    remaining_s
-});
-
 /// A bid of a robot for a goal. The confidence of its message is the probability that it serves it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Bid {
     /// The goal.
@@ -292,16 +235,8 @@ pub struct Bid {
     pub call: u16,
 }
 
-base::hashed!(Bid {
-    goal,
-    number,
-    time_s,
-    energy,
-    call
-});
-
 /// The award of a goal, or the grant of its ownership.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Award {
     /// The goal.
@@ -312,14 +247,8 @@ pub struct Award {
     pub lease_s: f32,
 }
 
-base::hashed!(Award {
-    goal,
-    number,
-    lease_s
-});
-
 /// A robot that has been awarded a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Assignment {
     /// The goal.
@@ -328,10 +257,8 @@ pub struct Assignment {
     pub robot: RobotId,
 }
 
-base::hashed!(Assignment { goal, robot });
-
 /// Why a robot or a controller does not serve a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Refusal {
     /// The goal.
@@ -342,14 +269,8 @@ pub struct Refusal {
     pub reason: Reason,
 }
 
-base::hashed!(Refusal {
-    goal,
-    number,
-    reason
-});
-
 /// Why a goal is not served.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// No path leads there, or the robot does not come nearer.
@@ -376,10 +297,8 @@ pub enum Reason {
     Position,
 }
 
-base::hashed!(enum Reason);
-
 /// A request to renew all leases between two agents.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Renewal {
     /// The number that the holder gave the request.
@@ -390,14 +309,8 @@ pub struct Renewal {
     pub hash: [u32; 2],
 }
 
-base::hashed!(Renewal {
-    number,
-    count,
-    hash
-});
-
 /// The position of a robot.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Seen {
     /// The robot.
@@ -406,12 +319,11 @@ pub struct Seen {
     pub at_m: [f32; 2],
 }
 
-base::hashed!(Seen { robot, at_m });
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::io::lane::MarkVerdict;
+    use base::hash::Hash;
 
     #[test]
     fn a_dispatch_takes_at_most_44_bytes() {

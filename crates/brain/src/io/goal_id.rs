@@ -2,6 +2,7 @@
 
 use super::body::{NO_ROBOT, RobotId};
 use base::geometry::Point;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +25,7 @@ const FNV_PRIME: u32 = 0x0100_0193;
     Serialize,
     Deserialize,
     JsonSchema,
+    Hashed,
 )]
 #[serde(deny_unknown_fields)]
 pub struct GoalId {
@@ -35,16 +37,12 @@ pub struct GoalId {
     pub number: u32,
 }
 
-base::hashed!(GoalId { issuer, number });
-
 /// A goal, and its place in the world.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct GoalPlace {
     pub(crate) id: GoalId,
     pub(crate) at: Point,
 }
-
-base::hashed!(GoalPlace { id, at });
 
 /// The issuer of the goals of a list of waypoints. It follows from the list, so that kinds of robots
 /// with different lists do not confuse their goals, and kinds with the same list share them.

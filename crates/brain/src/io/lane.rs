@@ -2,6 +2,7 @@
 
 use super::goal_id::GoalId;
 use base::geometry::{Point, Rectangle};
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +25,7 @@ const STEPS_PER_NAT: f64 = 16.0;
 const MAX_LOG_RATIO: f32 = 1e4;
 
 /// A lane to be cleared, as a grid of square cells, row by row from the lower left corner.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Lane {
     /// Its lower left corner in the world, in metres.
@@ -36,13 +37,6 @@ pub struct Lane {
     /// The kinds of items that are to be cleared: one bit for each, from the lowest.
     pub hazards: u8,
 }
-
-base::hashed!(Lane {
-    min_m,
-    max_m,
-    cell_m,
-    hazards
-});
 
 impl Lane {
     /// Whether it has an area, and at most 65,536 cells.
@@ -145,7 +139,7 @@ impl Lane {
 
 /// What all looks of a robot so far have missed, for 16 cells of a lane. It is cumulative: a later
 /// message replaces an earlier one, and a repeated one changes nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Coverage {
     /// The first of the cells.
@@ -157,12 +151,6 @@ pub struct Coverage {
     /// as its negative logarithm in steps of 1/16 nat; 255 stands for 255 or more.
     pub missed: [u8; CELLS_PER_MESSAGE],
 }
-
-base::hashed!(Coverage {
-    first,
-    marks,
-    missed
-});
 
 impl Coverage {
     /// The nearest step for a negative logarithm in nats.
@@ -185,7 +173,7 @@ impl Coverage {
 
 /// A place where a robot has detected something. It is cumulative: a later message replaces an earlier
 /// one with the same id.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Mark {
     /// Its id: the robot, and the number that the robot gave it.
@@ -199,13 +187,6 @@ pub struct Mark {
     /// nothing there but false alarms.
     pub log_ratios: [f32; MARK_KINDS],
 }
-
-base::hashed!(Mark {
-    id,
-    at_m,
-    deviation_m,
-    log_ratios
-});
 
 impl Mark {
     /// Its position in the world.
@@ -227,7 +208,7 @@ impl Mark {
 }
 
 /// What a robot states about a mark.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Statement {
     /// The mark, or the goal that the robot served there.
@@ -238,14 +219,8 @@ pub struct Statement {
     pub verdict: MarkVerdict,
 }
 
-base::hashed!(Statement {
-    mark,
-    at_m,
-    verdict
-});
-
 /// A verdict on a mark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum MarkVerdict {
     /// There is an item that is to be cleared.
@@ -259,8 +234,6 @@ pub enum MarkVerdict {
     /// A charge there has destroyed nothing.
     Missed,
 }
-
-base::hashed!(enum MarkVerdict);
 
 #[cfg(test)]
 mod tests {

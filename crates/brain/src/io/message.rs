@@ -76,7 +76,7 @@ impl Hashed for Message {
 }
 
 /// The content of a message.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum About {
     /// An item.
@@ -122,30 +122,21 @@ pub enum About {
     Dispatch(Dispatch),
 }
 
-impl Hashed for About {
-    fn add_to(&self, hash: &mut Hash) {
-        match self {
-            Self::Item {
-                kind,
-                at,
-                provenance,
-            } => (0_u8, ((*kind, *at), *provenance)).add_to(hash),
-            Self::Sender {
-                at,
-                heading_rad,
-                observations,
-            } => (1_u8, ((*at, *heading_rad), *observations)).add_to(hash),
-            Self::Goal { id, at, status } => (2_u8, ((*id, *at), *status)).add_to(hash),
-            Self::Order { goal, at, action } => (3_u8, ((*goal, *at), *action)).add_to(hash),
-            Self::Dispatch(dispatch) => (4_u8, *dispatch).add_to(hash),
-        }
-    }
-}
-
 /// The observations of one item by one robot: they count once, whichever robot reports them, and
 /// however often.
 #[derive(
-    Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Serialize,
+    Deserialize,
+    JsonSchema,
+    Hashed,
 )]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
@@ -157,14 +148,8 @@ pub struct Provenance {
     pub observations: u32,
 }
 
-base::hashed!(Provenance {
-    observer,
-    track_id,
-    observations
-});
-
 /// What a person orders.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum OrderAction {
     /// Visit the goal after those assigned before; move it if it is known.
@@ -173,10 +158,8 @@ pub enum OrderAction {
     Withdraw,
 }
 
-base::hashed!(enum OrderAction);
-
 /// The status of a commitment to a destination.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum CommitmentStatus {
     /// The sender is driving there: no other robot needs to go.
@@ -186,8 +169,6 @@ pub enum CommitmentStatus {
     /// The sender gave it up without having been there: other robots may go.
     Released,
 }
-
-base::hashed!(enum CommitmentStatus);
 
 #[cfg(test)]
 mod tests {

@@ -99,7 +99,7 @@ impl Hashed for Percept {
 }
 
 /// A value, and its age.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "{T}Reading")]
 pub struct Reading<T> {
@@ -109,16 +109,8 @@ pub struct Reading<T> {
     pub age_s: f64,
 }
 
-impl<T: Hashed> Hashed for Reading<T> {
-    fn add_to(&self, hash: &mut Hash) {
-        let Self { value, age_s } = self;
-        value.add_to(hash);
-        age_s.add_to(hash);
-    }
-}
-
 /// A measurement of a range ring.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scan {
     /// Time since the measurement; `None` without a scan.
@@ -130,10 +122,8 @@ pub struct Scan {
     pub ranges_m: Vec<f64>,
 }
 
-base::hashed!(Scan { age_s, ranges_m });
-
 /// A measurement of an item detector.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Observation {
     /// Index of the sensor in [`Body::sensors`](crate::Body::sensors).
@@ -142,10 +132,8 @@ pub struct Observation {
     pub age_s: f64,
 }
 
-base::hashed!(Observation { sensor, age_s });
-
 /// A detected item, or a false alarm.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Index of the item's kind in [`Body::item_kinds`](crate::Body::item_kinds).
@@ -161,16 +149,8 @@ pub struct Contact {
     pub age_s: f64,
 }
 
-base::hashed!(Contact {
-    kind,
-    sensor,
-    range_m,
-    bearing_rad,
-    age_s
-});
-
 /// A detected robot.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct Neighbour {
     /// Distance from centre to centre at the time of measurement.
@@ -187,16 +167,8 @@ pub struct Neighbour {
     pub id: RobotId,
 }
 
-base::hashed!(Neighbour {
-    range_m,
-    bearing_rad,
-    course_rad,
-    age_s,
-    id
-});
-
 /// A received message.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(deny_unknown_fields)]
 pub struct ReceivedMessage {
     /// The sender.
@@ -206,12 +178,6 @@ pub struct ReceivedMessage {
     /// The message.
     pub message: Message,
 }
-
-base::hashed!(ReceivedMessage {
-    from,
-    age_s,
-    message
-});
 
 /// Reads a number that may be omitted, but not be `null`, which stands for infinity in JSON.
 fn number<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {

@@ -1,10 +1,11 @@
 //! The verdict on a goal.
 
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The state of a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The robot has reached it.
@@ -16,5 +17,3 @@ pub enum Verdict {
     /// The robot has not come nearer for some time.
     Receding,
 }
-
-base::hashed!(enum Verdict);

@@ -9,6 +9,7 @@ use crate::io::goal_id::GoalPlace;
 use crate::io::message::{About, CommitmentStatus, Message};
 use crate::perception::beliefs::pose::Pose;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use base::trig::wrapped;
 
 /// Time between two broadcasts of the robot's own position. Each robot has its own phase within the
@@ -25,7 +26,7 @@ const BROADCASTS_PER_REPEAT: u8 = 3;
 const MAX_TURN_RAD: f64 = 0.3;
 
 /// What the robot broadcast last, and when.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct BroadcastState {
     /// Time that a step is expected to take.
     period_s: f64,
@@ -38,16 +39,6 @@ pub(crate) struct BroadcastState {
     count: u8,
     visits: OwnVisits,
 }
-
-base::hashed!(BroadcastState {
-    period_s,
-    goal,
-    heading_rad,
-    observations,
-    age_s,
-    count,
-    visits
-});
 
 impl BroadcastState {
     /// Before the first broadcast of a robot whose steps are expected to take this time.

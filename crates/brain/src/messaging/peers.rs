@@ -8,6 +8,7 @@ use crate::io::message::CommitmentStatus;
 use crate::io::percept::Reading;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Maximum number of team mates; the one with the oldest message is dropped first.
 pub(crate) const MAX_PEERS: usize = 64;
@@ -22,7 +23,7 @@ const MAX_AGE_S: f64 = 10.0;
 const AGE_TOLERANCE_S: f64 = 1e-6;
 
 /// A team mate, as known from its messages.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Peer {
     pub(crate) id: RobotId,
     /// Its last reported position and number of observations, whether trusted or not.
@@ -33,27 +34,14 @@ pub(crate) struct Peer {
     destination: Option<Reading<Option<GoalPlace>>>,
 }
 
-base::hashed!(Peer {
-    id,
-    reported,
-    at,
-    destination
-});
-
 /// All robots from which a message was received.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Peers {
     pub(crate) mates: Vec<Peer>,
     visits: Vec<GoalId>,
     /// Total number of visits.
     visited: u32,
 }
-
-base::hashed!(Peers {
-    mates,
-    visits,
-    visited
-});
 
 impl Peers {
     pub(crate) fn advance(&mut self, elapsed_s: f64) {

@@ -10,23 +10,18 @@ use crate::io::message::Message;
 use crate::perception::beliefs::{Beliefs, BeliefsSpec};
 use crate::perception::believed::BelievedItem;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of messages about items per step.
 const MAX_ITEM_MESSAGES: usize = 2;
 
 /// The memory of one robot for its messages.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Messaging {
     pub(crate) peers: Peers,
     pub(super) trust: Trust,
     broadcast: BroadcastState,
 }
-
-base::hashed!(Messaging {
-    peers,
-    trust,
-    broadcast
-});
 
 impl Messaging {
     /// Before the first message.

@@ -3,6 +3,7 @@
 use crate::io::body::RobotId;
 use crate::perception::beliefs::TrustSpec;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of robots with a record; the oldest record is dropped first.
 const MAX_RECORDS: usize = 64;
@@ -33,26 +34,18 @@ pub(crate) const MIN_TRUST: f64 = 0.5;
 /// against each robot that relayed it; a correct one counts for them in the same way. For each
 /// robot, trust is the share of its reports that were correct. Positions and destinations with less
 /// weight than [`MIN_TRUST`] are ignored.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Trust {
     spec: TrustSpec,
     records: Vec<Record>,
 }
 
-base::hashed!(Trust { spec, records });
-
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 struct Record {
     id: RobotId,
     confirmed: f32,
     refuted: f32,
 }
-
-base::hashed!(Record {
-    id,
-    confirmed,
-    refuted
-});
 
 impl Trust {
     pub(crate) fn new(spec: &TrustSpec) -> Self {

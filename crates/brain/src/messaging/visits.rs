@@ -3,18 +3,17 @@
 use crate::io::body::NO_ROBOT;
 use crate::io::goal_id::GoalPlace;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of visits; the oldest is dropped first.
 const MAX_VISITS: usize = 64;
 
 /// The own visits of goals that other robots may have too, and which of them is repeated next.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct OwnVisits {
     visits: Vec<GoalPlace>,
     next: u8,
 }
-
-base::hashed!(OwnVisits { visits, next });
 
 impl OwnVisits {
     /// Adds a visit, unless the goal is one that the robot chose itself: no other robot has that.

@@ -38,13 +38,16 @@ const CLEARANCE: f64 = 0.35;
 const TIGHT_CLEARANCE: f64 = 0.5;
 
 /// The path of one robot, and its memory for driving along it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Navigator {
     pub(crate) reachable: Reachable,
     pub(crate) traffic: Traffic,
     shunting: Shunting,
+    #[hashed(skip)]
     hits: Vec<Ray>,
+    #[hashed(skip)]
     hazards: Hazards,
+    #[hashed(skip)]
     wavefront: Wavefront,
     plan: Option<Plan>,
     is_lengthened: bool,
@@ -54,7 +57,6 @@ pub(crate) struct Navigator {
 }
 
 // The others are the scratch memory of one step.
-base::hashed!(Navigator { reachable, traffic, shunting, plan, is_lengthened, target } without { hits, hazards, wavefront });
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {

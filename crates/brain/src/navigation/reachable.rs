@@ -20,6 +20,7 @@ use crate::perception::beliefs::mover::Mover;
 use crate::perception::rays::Ray;
 use crate::perception::sector::direction;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use base::trig::wrapped;
 use core::array;
 use core::f64::consts::{PI, TAU};
@@ -43,16 +44,16 @@ const OBSTACLE_MARGIN_M: f64 = 0.03;
 const TURN_COST_M: f64 = 0.02;
 
 /// The headings around a robot, each with its free distance.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Reachable {
     /// Relative to the robot's front, the first straight ahead, anticlockwise.
     pub(crate) free_m: [f64; HEADINGS],
     /// Unit vectors of the headings, in separate arrays so that loops over them vectorise.
+    #[hashed(skip)]
     unit_x: [f64; HEADINGS],
+    #[hashed(skip)]
     unit_y: [f64; HEADINGS],
 }
-
-base::hashed!(Reachable { free_m } without { unit_x, unit_y });
 
 /// The best of the headings.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,6 +12,7 @@ use crate::perception::beliefs::mover::Mover;
 use crate::perception::rays::Ray;
 use crate::perception::sector::direction;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -47,7 +48,7 @@ const SAME_GOAL_M: f64 = 1.0;
 const SAME_WIDTH_M: f64 = 0.1;
 
 /// One robot's memory of its progress.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Shunting {
     /// The goal of the last step, and the path length to it.
     goal: Point,
@@ -60,16 +61,6 @@ pub(crate) struct Shunting {
     yield_rad: f64,
     backoff: f64,
 }
-
-base::hashed!(Shunting {
-    goal,
-    remaining_m,
-    blocked_s,
-    patience,
-    yield_s,
-    yield_rad,
-    backoff
-});
 
 impl Default for Shunting {
     fn default() -> Self {

@@ -32,6 +32,7 @@ use crate::perception::dead_reckoning::Odometry;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
+use base::hashed::Hashed;
 
 /// Clearance between two robots in addition to the sensor error, in metres.
 const CLEARANCE_M: f64 = 0.02;
@@ -43,21 +44,17 @@ const BRAKING: f64 = 0.9;
 const DEVIATIONS: f64 = 3.0;
 
 /// A line that the robot must not cross: points on its side satisfy `normal . point <= max`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Line {
     normal: Point,
     max: f64,
 }
 
-base::hashed!(Line { normal, max });
-
 /// The lines between this robot and all others nearby.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Traffic {
     lines: Vec<Line>,
 }
-
-base::hashed!(Traffic { lines });
 
 impl Traffic {
     /// Computes the lines for a robot with a current speed and a turn in its last step.

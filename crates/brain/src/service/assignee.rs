@@ -25,9 +25,10 @@ use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
 use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle};
+use base::hashed::Hashed;
 
 /// A robot as the assignee of goals.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Assignee {
     /// The robot's clock.
     pub(crate) now_s: f64,
@@ -44,13 +45,14 @@ pub(crate) struct Assignee {
     pub(super) proposed: Option<GoalId>,
     pub(super) lane: LaneReports,
     /// The goal of this step in which it has interrogated a mark.
+    #[hashed(skip)]
     interrogated: Option<Task>,
     pub(super) firing: Firing,
+    #[hashed(skip)]
     pub(super) outbox: Vec<Message>,
+    #[hashed(skip)]
     pub(super) acts: Vec<Act>,
 }
-
-base::hashed!(Assignee { now_s, numbers, holder, jobs, offers, failures, finished, schedule, is_out_of_service, proposed, lane, firing } without { outbox, acts, interrogated });
 
 impl Assignee {
     /// Takes a step: messages first, then the work, then what is due.

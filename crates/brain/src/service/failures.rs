@@ -3,6 +3,7 @@
 use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of goals; the oldest failure is forgotten first.
 const MAX_GOALS: usize = 64;
@@ -12,14 +13,12 @@ const MIN_REST_S: f64 = 20.0;
 const MAX_REST_S: f64 = 320.0;
 
 /// The failures of a robot.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Failures {
     list: Vec<Failure>,
 }
 
-base::hashed!(Failures { list });
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Failure {
     goal: GoalId,
     count: u8,
@@ -27,13 +26,6 @@ struct Failure {
     /// Why the last attempt failed.
     reason: Reason,
 }
-
-base::hashed!(Failure {
-    goal,
-    count,
-    rests_until_s,
-    reason
-});
 
 impl Failures {
     /// Notes a failure; returns until when the goal rests.

@@ -4,6 +4,7 @@ use crate::io::body::RobotId;
 use crate::io::dispatch::Claim;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of goals that are remembered; the oldest is forgotten first.
 const MAX_GOALS: usize = 128;
@@ -13,14 +14,12 @@ const PERIOD_S: f64 = 2.0;
 const MAX_REPORTS: u8 = 30;
 
 /// The goals that a robot has served.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Finished {
     list: Vec<Service>,
 }
 
-base::hashed!(Finished { list });
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Service {
     claim: Claim,
     owner: RobotId,
@@ -28,13 +27,6 @@ struct Service {
     left: u8,
     next_s: f64,
 }
-
-base::hashed!(Service {
-    claim,
-    owner,
-    left,
-    next_s
-});
 
 impl Finished {
     pub(crate) fn add(&mut self, claim: Claim, owner: RobotId, now_s: f64) {

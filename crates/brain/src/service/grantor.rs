@@ -18,17 +18,16 @@ use crate::io::body::RobotId;
 use crate::io::dispatch::{Claim, Renewal};
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// The leases that an agent has granted.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub struct Grantor {
     grants: Vec<Grant>,
 }
 
-base::hashed!(Grantor { grants });
-
 /// A granted lease, on the grantor's clock.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub struct Grant {
     /// The goal.
     pub goal: GoalId,
@@ -43,15 +42,6 @@ pub struct Grant {
     /// Whether it is not renewed any more.
     pub is_withdrawn: bool,
 }
-
-base::hashed!(Grant {
-    goal,
-    holder,
-    number,
-    wait_s,
-    until_s,
-    is_withdrawn
-});
 
 /// The time for which a grantor waits after the grant of a lease, with clocks of a maximum drift.
 #[must_use]

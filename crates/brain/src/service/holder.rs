@@ -9,6 +9,7 @@ use crate::io::body::RobotId;
 use crate::io::dispatch::{Claim, Renewal};
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of requests without an answer; the oldest is forgotten first.
 const MAX_REQUESTS: usize = 64;
@@ -17,17 +18,15 @@ const MAX_REQUESTS: usize = 64;
 const MAX_LEASE_S: f64 = 3600.0;
 
 /// The leases that an agent holds.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub struct Holder {
     leases: Vec<Lease>,
     /// Requests without an answer, the oldest first.
     requests: Vec<Request>,
 }
 
-base::hashed!(Holder { leases, requests });
-
 /// A lease, on the holder's clock.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub struct Lease {
     /// The goal.
     pub goal: GoalId,
@@ -43,16 +42,7 @@ pub struct Lease {
     pub lasts_s: f64,
 }
 
-base::hashed!(Lease {
-    goal,
-    grantor,
-    number,
-    since_s,
-    until_s,
-    lasts_s
-});
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Request {
     number: u32,
     grantor: RobotId,
@@ -60,13 +50,6 @@ struct Request {
     goal: Option<GoalId>,
     sent_s: f64,
 }
-
-base::hashed!(Request {
-    number,
-    grantor,
-    goal,
-    sent_s
-});
 
 impl Holder {
     /// The leases.

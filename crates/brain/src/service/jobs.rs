@@ -10,6 +10,7 @@ use crate::io::goal_id::GoalId;
 use crate::io::verdict::Verdict;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Times in messages have the precision of 32-bit floats.
 const ROUNDING_S: f64 = 1e-6;
@@ -18,7 +19,7 @@ const ROUNDING_S: f64 = 1e-6;
 const APPROACH: f64 = 0.8;
 
 /// A goal that a robot serves.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Job {
     pub(crate) task: Task,
     pub(crate) owner: RobotId,
@@ -35,22 +36,10 @@ pub(crate) struct Job {
     /// Until when others are served first, because it was impossible.
     pub(crate) rests_until_s: f64,
     /// What it is to neutralise, once it has detected it.
+    #[hashed(skip)]
     pub(crate) aim: Option<Aim>,
     pub(crate) charges: Charges,
 }
-
-base::hashed!(Job {
-    task,
-    owner,
-    due_at_s,
-    served_s,
-    corners,
-    visited,
-    verdict,
-    is_uncertain,
-    rests_until_s,
-    charges
-} without { aim });
 
 impl Job {
     pub(crate) fn new(task: Task, owner: RobotId, due_at_s: f64) -> Self {
@@ -145,14 +134,12 @@ impl Job {
 }
 
 /// All goals that a robot serves.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Jobs {
     pub(crate) list: Vec<Job>,
     /// Number of changes.
     pub(crate) version: u32,
 }
-
-base::hashed!(Jobs { list, version });
 
 impl Jobs {
     pub(crate) fn get(&self, goal: GoalId) -> Option<&Job> {

@@ -11,32 +11,29 @@ use crate::perception::beliefs::field::Field;
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Parts of a cell along each side, and the maximum number of parts of all cells.
 const PARTS: f64 = 2.0;
 const MAX_PARTS: usize = 262_144;
 
 /// The coverage of a lane.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(super) struct LaneCoverage {
     lane: Lane,
     /// Finer than the cells of the lane, as parts of a cell are at the edge of every look.
+    #[hashed(skip)]
     field: Field,
     own: CoverageMap,
     /// The steps that were sent last, and the next block of cells.
     sent: Vec<u8>,
     next_block: usize,
     /// The steps of each cell, computed again for the blocks in view of later observations.
+    #[hashed(skip)]
     steps: Vec<u8>,
+    #[hashed(skip)]
     is_stale: Vec<bool>,
 }
-
-base::hashed!(LaneCoverage {
-    lane,
-    own,
-    sent,
-    next_block
-} without { field, steps, is_stale });
 
 impl LaneCoverage {
     pub(super) fn new(lane: Lane) -> Self {

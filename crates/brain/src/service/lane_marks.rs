@@ -10,6 +10,7 @@ use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::Track;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of marks; controllers wait for those of further tracks, and declare nothing.
 const MAX_MARKS: usize = 1024;
@@ -27,7 +28,7 @@ const CHANGE_DEVIATIONS: f32 = 0.5;
 const MIN_POSE_ERROR: f64 = 0.5;
 
 /// All marks of a robot.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct LaneMarks {
     list: Vec<Reported>,
     /// Whether there were tracks beyond the maximum.
@@ -35,13 +36,7 @@ pub(super) struct LaneMarks {
     repeated: usize,
 }
 
-base::hashed!(LaneMarks {
-    list,
-    is_full,
-    repeated
-});
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Reported {
     mark: Mark,
     /// How often all looks before the first contact missed a visible item there, in nats.
@@ -49,12 +44,6 @@ struct Reported {
     /// The mark that was sent last.
     sent: Option<Mark>,
 }
-
-base::hashed!(Reported {
-    mark,
-    missed_nats,
-    sent
-});
 
 impl LaneMarks {
     /// Number of marks so far, including those that have not been sent.

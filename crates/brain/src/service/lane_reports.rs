@@ -60,20 +60,13 @@ impl Hashed for LaneReports {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 struct Work {
     coverage: LaneCoverage,
     marks: LaneMarks,
     named_s: f64,
     next_s: f64,
 }
-
-base::hashed!(Work {
-    coverage,
-    marks,
-    named_s,
-    next_s
-});
 
 impl LaneReports {
     /// A controller has named a lane. Looks count from the first message on; another lane replaces it. Each robot has

@@ -8,12 +8,10 @@ use base::hashed::Hashed;
 ///
 /// The first number is a hash of the agent's first percept: an agent that restarts, and remembers
 /// nothing, does not take the answer to an earlier request for that to a new one.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Hashed)]
 pub struct Numbers {
     last: Option<u32>,
 }
-
-base::hashed!(Numbers { last });
 
 impl Numbers {
     /// The next number.

@@ -4,6 +4,7 @@ use crate::io::body::RobotId;
 use crate::io::dispatch::Task;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// Maximum number of offers; the one that was called the longest ago is forgotten first.
 const MAX_OFFERS: usize = 256;
@@ -12,7 +13,7 @@ const MAX_OFFERS: usize = 256;
 const LIFE_S: f64 = 60.0;
 
 /// All known offers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Offers {
     /// By the times of their last calls, the oldest first.
     list: Vec<Offer>,
@@ -20,10 +21,8 @@ pub(crate) struct Offers {
     pub(crate) version: u32,
 }
 
-base::hashed!(Offers { list, version });
-
 /// A goal for which a controller has called for bids.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Offer {
     pub(crate) task: Task,
     pub(crate) owner: RobotId,
@@ -33,14 +32,6 @@ pub(crate) struct Offer {
     pub(crate) due_at_s: f64,
     called_s: f64,
 }
-
-base::hashed!(Offer {
-    task,
-    owner,
-    call,
-    due_at_s,
-    called_s
-});
 
 impl Offer {
     pub(crate) fn new(task: Task, owner: RobotId, call: u16, now_s: f64) -> Self {

@@ -4,6 +4,7 @@ use crate::io::body::RobotId;
 use crate::io::goal_id::GoalId;
 use crate::io::percept::Percept;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 
 /// A bid is repeated after this time, because its lease counts from sending it, in seconds.
 const BID_LIFE_S: f64 = 4.0;
@@ -22,7 +23,7 @@ const BIDS_PER_STEP: u32 = 4;
 const MAX_TURNS: u32 = 20;
 
 /// What a robot knows of a controller.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Contact {
     pub(crate) id: RobotId,
     received_s: f64,
@@ -32,16 +33,8 @@ pub(crate) struct Contact {
     pub(crate) bid: Option<StandingBid>,
 }
 
-base::hashed!(Contact {
-    id,
-    received_s,
-    next_report_s,
-    next_renewal_s,
-    bid
-});
-
 /// A bid that stays valid until it is replaced.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct StandingBid {
     pub(crate) goal: GoalId,
     pub(crate) call: u16,
@@ -49,13 +42,6 @@ pub(crate) struct StandingBid {
     /// [`Jobs::version`](super::jobs::Jobs::version) of that time.
     pub(crate) jobs: u32,
 }
-
-base::hashed!(StandingBid {
-    goal,
-    call,
-    sent_s,
-    jobs
-});
 
 impl StandingBid {
     /// Whether another one for a goal and call need not be sent.
@@ -66,19 +52,13 @@ impl StandingBid {
 }
 
 /// The controllers that a robot has received messages from.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Schedule {
     pub(crate) contacts: Vec<Contact>,
     steps: u32,
     /// Versions of offers and goals at the last bids, and when these were computed.
     bid_for: Option<([u32; 2], f64)>,
 }
-
-base::hashed!(Schedule {
-    contacts,
-    steps,
-    bid_for
-});
 
 impl Schedule {
     /// Counts a step, and forgets silent controllers.

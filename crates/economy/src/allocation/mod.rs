@@ -10,12 +10,15 @@ mod none;
 pub(crate) mod optimal;
 
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 pub use market::{Market, Offer, Pair};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The rule by which a controller allocates its goals to robots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(
+    Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Hashed,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Allocation {
     /// It awards nothing.
@@ -41,5 +44,3 @@ impl Allocation {
         }
     }
 }
-
-base::hashed!(enum Allocation);

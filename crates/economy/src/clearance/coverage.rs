@@ -2,30 +2,24 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use brain::{Coverage, RobotId};
 
 /// For each sensor model and cell, the evidence that there is no visible item without a mark.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Searched {
     robots: Vec<RobotSearched>,
     /// The sums over the robots of each model, in steps of the messages.
+    #[hashed(skip)]
     totals: Vec<Vec<u32>>,
 }
 
-base::hashed!(Searched { robots } without { totals });
-
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 struct RobotSearched {
     robot: RobotId,
     model: usize,
     steps: Vec<u8>,
 }
-
-base::hashed!(RobotSearched {
-    robot,
-    model,
-    steps
-});
 
 impl Searched {
     pub(super) fn new(models: usize, cells: usize) -> Self {

@@ -3,7 +3,6 @@
 use super::picture::LanePicture;
 use super::plan::Plan;
 use base::geometry::Point;
-use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::{Act, ActKind};
 
@@ -12,7 +11,7 @@ use brain::{Act, ActKind};
 const PATIENCE_S: f64 = 60.0;
 
 /// What a controller states about a lane. It states it once.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub struct LaneStatement {
     /// Whether it declares the lane clear; otherwise it gives it up.
     pub is_clear: bool,
@@ -35,24 +34,12 @@ impl LaneStatement {
     }
 }
 
-base::hashed!(LaneStatement {
-    is_clear,
-    risk,
-    at_s
-});
-
 /// The decision on a lane.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Hashed)]
 pub(crate) struct Decision {
     pub(crate) statement: Option<LaneStatement>,
     /// Since when no goal lowers the risk.
     hopeless_since_s: Option<f64>,
-}
-
-impl Hashed for Decision {
-    fn add_to(&self, hash: &mut Hash) {
-        (self.statement, self.hopeless_since_s).add_to(hash);
-    }
 }
 
 impl Decision {

@@ -3,13 +3,14 @@
 use super::place::Place;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use brain::{Mark, MarkVerdict, RobotId, Statement};
 
 /// Maximum number of places; marks of further ones are refused, and remain missing.
 const MAX_PLACES: usize = 10_000;
 
 /// All places that robots have marked.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Marks {
     pub(super) places: Vec<Place>,
     next_number: u32,
@@ -17,24 +18,12 @@ pub(super) struct Marks {
     counts: Vec<MarkCount>,
 }
 
-base::hashed!(Marks {
-    places,
-    next_number,
-    counts
-});
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct MarkCount {
     robot: RobotId,
     received: u32,
     reported: u32,
 }
-
-base::hashed!(MarkCount {
-    robot,
-    received,
-    reported
-});
 
 impl Marks {
     /// Takes a mark: it updates the one with the same id, or belongs to the nearest place within reach,

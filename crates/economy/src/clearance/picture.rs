@@ -10,6 +10,7 @@ use alloc::sync::Arc;
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use brain::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
 use core::ops::Range;
 
@@ -26,19 +27,21 @@ const NEAR_M: f64 = 1.5;
 const GONE: f64 = 0.01;
 
 /// What a controller believes of a lane.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub struct LanePicture {
+    #[hashed(skip)]
     clearance: Arc<Clearance>,
     /// For each sensor model, the blind share of each kind; for each kind of robots, its model.
+    #[hashed(skip)]
     blind: Vec<[f64; MARK_KINDS]>,
+    #[hashed(skip)]
     model_of_kind: Vec<usize>,
     searched: Searched,
     marks: Marks,
     /// What follows for each cell.
+    #[hashed(skip)]
     remaining: Remaining,
 }
-
-base::hashed!(LanePicture { searched, marks } without { clearance, blind, model_of_kind, remaining });
 
 /// A place that robots have marked, as a controller believes it to be.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use brain::{GoalId, Mark, MarkVerdict, RobotId};
 use core::f64::consts::TAU;
 
@@ -16,7 +17,7 @@ const STATEMENT_M: f64 = 1.0;
 const MAX_MARKS: usize = 64;
 
 /// A place with at least one mark.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(super) struct Place {
     /// Its number, which never changes.
     pub(super) number: u32,
@@ -29,15 +30,6 @@ pub(super) struct Place {
     pub(super) at: Point,
     pub(super) variance_m2: f64,
 }
-
-base::hashed!(Place {
-    number,
-    marks,
-    verdict,
-    missed,
-    at,
-    variance_m2
-});
 
 impl Place {
     pub(super) fn new(number: u32, mark: Mark) -> Self {

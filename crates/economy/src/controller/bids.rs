@@ -1,6 +1,7 @@
 //! The bids of robots. Each stays valid until it is replaced, its goal is awarded, or it is too old.
 
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use brain::{Bid, GoalId, RobotId};
 
 /// A bid is valid for this time, in seconds: robots repeat it.
@@ -11,28 +12,19 @@ const MAX_OF_ROBOT: usize = 16;
 const MAX_BIDS: usize = 4096;
 
 /// All valid bids.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Bids {
     list: Vec<Standing>,
 }
 
-base::hashed!(Bids { list });
-
 /// The bid of a robot.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Standing {
     pub(super) robot: RobotId,
     pub(super) bid: Bid,
     pub(super) confidence: f64,
     received_s: f64,
 }
-
-base::hashed!(Standing {
-    robot,
-    bid,
-    confidence,
-    received_s
-});
 
 impl Bids {
     pub(super) fn iter(&self) -> impl Iterator<Item = &Standing> {

@@ -1,33 +1,26 @@
 //! The other controllers.
 
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use brain::RobotId;
 
 /// A controller is out of range when nothing has been received of it for this time, in seconds.
 const LIFE_S: f64 = 8.0;
 
 /// The other controllers in range.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Colleagues {
     pub(super) list: Vec<Colleague>,
     /// When the next message of presence is due; at once without it.
     pub(super) next_s: Option<f64>,
 }
 
-base::hashed!(Colleagues { list, next_s });
-
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Colleague {
     pub(super) id: RobotId,
     serial: u32,
     received_s: f64,
 }
-
-base::hashed!(Colleague {
-    id,
-    serial,
-    received_s
-});
 
 impl Colleagues {
     pub(super) fn note(&mut self, id: RobotId, serial: u32, now_s: f64) {

@@ -33,7 +33,7 @@ impl Hashed for Clearing {
 }
 
 /// The work on a lane.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(super) struct LaneWork {
     pub(super) picture: LanePicture,
     pub(super) decision: Decision,
@@ -43,17 +43,9 @@ pub(super) struct LaneWork {
     pub(super) next_plan_s: f64,
     pub(super) next_lane_s: f64,
     /// Whether a mark that may be a mine had no verdict at the last plan.
+    #[hashed(skip)]
     pub(super) has_open_marks: bool,
 }
-
-base::hashed!(LaneWork {
-    picture,
-    decision,
-    planned,
-    interrogated,
-    next_plan_s,
-    next_lane_s
-} without { has_open_marks });
 
 /// A goal that the controller has planned.
 #[derive(Debug, Clone, Copy)]

@@ -4,6 +4,7 @@
 //! awarded the goal again and again.
 
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use brain::RobotId;
 
 /// Bids do not count for this time, in seconds; each further lapse doubles it, up to a maximum.
@@ -17,18 +18,12 @@ const MAX_ROBOTS: usize = 64;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Lapses(Vec<Lapse>);
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Lapse {
     robot: RobotId,
     rest_s: f64,
     until_s: f64,
 }
-
-base::hashed!(Lapse {
-    robot,
-    rest_s,
-    until_s
-});
 
 impl base::hashed::Hashed for Lapses {
     fn add_to(&self, hash: &mut base::hash::Hash) {

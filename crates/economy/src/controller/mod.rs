@@ -38,6 +38,7 @@ use crate::clearance::{LanePicture, LaneStatement};
 use crate::settings::Settings;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use bids::Bids;
 use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
 use brain::{Reason, RobotId, Task, wait_s};
@@ -48,8 +49,9 @@ use picture::Picture;
 use wards::{Orphan, Ward};
 
 /// One controller: it owns goals, and awards them to robots.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub struct Controller {
+    #[hashed(skip)]
     settings: Arc<Settings>,
     own: RobotId,
     /// Its clock, and the time since the last step.
@@ -76,31 +78,9 @@ pub struct Controller {
     awards: u32,
     lapses: u32,
     clearing: Clearing,
+    #[hashed(skip)]
     outbox: Vec<Message>,
 }
-
-base::hashed!(Controller {
-    own,
-    now_s,
-    step_s,
-    silent_until_s,
-    numbers,
-    goals,
-    wards,
-    orphans,
-    services,
-    estates,
-    tenures,
-    picture,
-    colleagues,
-    bids,
-    next_round_s,
-    next_renewal_s,
-    refused,
-    awards,
-    lapses,
-    clearing
-} without { settings, outbox });
 
 /// A goal that a controller owns.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,6 @@
 
 use super::lapses::Lapses;
 use alloc::vec::Vec;
-use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::{Reason, RobotId, Task};
 
@@ -27,7 +26,7 @@ const MIN_REST_S: f64 = 20.0;
 const MAX_REST_S: f64 = 320.0;
 
 /// A goal that a controller owns.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(super) struct Owned {
     pub(super) task: Task,
     /// Its deadline on the controller's clock.
@@ -59,30 +58,8 @@ pub(super) struct Owned {
     pub(super) reserved: Option<Reservation>,
 }
 
-base::hashed!(Owned {
-    task,
-    due_at_s,
-    is_done,
-    origin,
-    next_return_s,
-    ready_s,
-    call,
-    called_s,
-    next_call_s,
-    assigned,
-    heir,
-    without_bid_s,
-    next_probe_s,
-    declined,
-    reason,
-    rest,
-    assignees,
-    lapses,
-    reserved
-});
-
 /// The award of a goal.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Assigned {
     pub(super) robot: RobotId,
     /// Number of the bid.
@@ -105,41 +82,23 @@ pub(super) struct Assigned {
     pub(super) there_s: f64,
 }
 
-base::hashed!(Assigned {
-    robot,
-    number,
-    is_committed,
-    awarded_s,
-    lease_s,
-    next_s,
-    overdue_s,
-    is_contested,
-    stuck_s,
-    is_withdrawn,
-    there_s
-});
-
 /// A robot that is to be awarded a goal first.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Reservation {
     pub(super) robot: RobotId,
     pub(super) until_s: f64,
 }
 
-base::hashed!(Reservation { robot, until_s });
-
 /// The rest of a goal that no robot can serve.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Rest {
     pub(super) until_s: f64,
     /// Its duration after the last failure; 0 before the first.
     pub(super) total_s: f64,
 }
 
-base::hashed!(Rest { until_s, total_s });
-
 /// The heir of a goal.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(super) enum Heir {
     /// There is none.
     None,
@@ -155,22 +114,6 @@ pub(super) enum Heir {
     },
     /// It is to be the heir no longer, and has not answered.
     Relieving { heir: RobotId, next_s: f64 },
-}
-
-impl Hashed for Heir {
-    fn add_to(&self, hash: &mut Hash) {
-        match *self {
-            Self::None => 0_u8.add_to(hash),
-            Self::Offered { heir, next_s } => (1_u8, (heir, next_s)).add_to(hash),
-            Self::Bound {
-                heir,
-                number,
-                is_confirmed,
-                next_s,
-            } => (2_u8, ((heir, number), (is_confirmed, next_s))).add_to(hash),
-            Self::Relieving { heir, next_s } => (3_u8, (heir, next_s)).add_to(hash),
-        }
-    }
 }
 
 impl Owned {

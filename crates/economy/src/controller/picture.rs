@@ -8,6 +8,7 @@
 use super::trust::Trust;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use brain::{Report, RobotId, Task};
 
 /// A robot is forgotten when nothing has been received of it for this time, in seconds, except for
@@ -21,15 +22,13 @@ const HALF_LIFE_S: f64 = 3.0;
 const MAX_ROBOTS: usize = 4096;
 
 /// All robots that a controller knows.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Picture {
     robots: Vec<Robot>,
 }
 
-base::hashed!(Picture { robots });
-
 /// A robot, as a controller knows it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Robot {
     pub(super) id: RobotId,
     pub(super) at: Option<Point>,
@@ -44,19 +43,6 @@ pub(super) struct Robot {
     pub(super) is_present: bool,
     pub(super) trust: Trust,
 }
-
-base::hashed!(Robot {
-    id,
-    at,
-    weight,
-    at_s,
-    speed_m_s,
-    goals,
-    payload,
-    received_s,
-    is_present,
-    trust
-});
 
 impl Robot {
     /// Distance to a goal; infinite if its position is unknown.

@@ -1,5 +1,7 @@
 //! Trust in robots, earned by past awards.
 
+use base::hashed::Hashed;
+
 /// Weight of the initial trust, in awards, and its value.
 const PRIOR_WEIGHT: f64 = 4.0;
 const INITIAL: f64 = 0.9;
@@ -11,13 +13,11 @@ const INITIAL: f64 = 0.9;
 /// ```
 ///
 /// (Jøsang and Ismail, *The beta reputation system*, 2002).
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Hashed)]
 pub(super) struct Trust {
     served: u32,
     failed: u32,
 }
-
-base::hashed!(Trust { served, failed });
 
 impl Trust {
     pub(super) fn value(self) -> f64 {

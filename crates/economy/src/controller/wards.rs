@@ -2,10 +2,11 @@
 
 use super::owned::Owned;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use brain::{RobotId, Task};
 
 /// A goal of another controller, of which this one is the heir.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(super) struct Ward {
     pub(super) task: Task,
     pub(super) due_at_s: f64,
@@ -34,37 +35,19 @@ impl Ward {
     }
 }
 
-base::hashed!(Ward {
-    task,
-    due_at_s,
-    owner,
-    number,
-    is_bound,
-    service_wait_s,
-    assignees
-});
-
 /// A goal that a controller owned until its lease ended.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(super) struct Orphan {
     pub(super) owned: Owned,
     /// The request by which it would be owned again.
     pub(super) request: Option<Request>,
 }
 
-base::hashed!(Orphan { owned, request });
-
 /// A request of an owner lease by which an heir can return a goal.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(super) struct Request {
     pub(super) number: u32,
     pub(super) heir: RobotId,
     /// The lease counts from then.
     pub(super) sent_s: f64,
 }
-
-base::hashed!(Request {
-    number,
-    heir,
-    sent_s
-});

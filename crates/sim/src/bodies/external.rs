@@ -1,5 +1,6 @@
 //! Where a body is that something outside of the simulation moves.
 
+use base::hashed::Hashed;
 use brain::{Body, Motion, Percept, Pose, PoseTracker};
 
 /// A command counts as executed for this number of periods of the brain. A robot whose percepts end has
@@ -7,7 +8,7 @@ use brain::{Body, Motion, Percept, Pose, PoseTracker};
 const MAX_PERIODS: f64 = 2.0;
 
 /// The estimated motion of an external body.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct ExternalBody {
     tracker: PoseTracker,
     /// Time since its last percept.
@@ -15,12 +16,6 @@ pub(crate) struct ExternalBody {
     /// Whether it is where something else is.
     pub(crate) is_in_contact: bool,
 }
-
-base::hashed!(ExternalBody {
-    tracker,
-    since_s,
-    is_in_contact
-});
 
 impl ExternalBody {
     /// Takes a percept.

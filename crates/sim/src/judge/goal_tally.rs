@@ -6,11 +6,12 @@ use super::journey::{Journey, Service};
 use super::stays::Stays;
 use crate::bodies::body_state::Status;
 use crate::radio::channel::Outgoing;
+use base::hashed::Hashed;
 use brain::{About, CommitmentStatus, Dispatch, GoalId, Reason, RobotId};
 use std::mem::replace;
 
 /// Counts of the goals of a run, and of its messages.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Hashed)]
 pub(crate) struct GoalTally {
     /// By the number of the goal.
     pub(crate) records: Vec<GoalRecord>,
@@ -22,16 +23,8 @@ pub(crate) struct GoalTally {
     pub(crate) messages_dropped: u64,
 }
 
-base::hashed!(GoalTally {
-    records,
-    journeys,
-    stays,
-    messages_sent,
-    messages_dropped
-});
-
 /// What happened to one goal so far, in steps.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
 pub(crate) struct GoalRecord {
     pub(crate) issued_at: Option<u64>,
     /// The controller that it was issued to.
@@ -44,20 +37,10 @@ pub(crate) struct GoalRecord {
     /// Whether several robots served it.
     pub(crate) is_served_twice: bool,
     /// Why no robot can serve it, as a controller last reported to the operator.
+    /// It follows from the messages, and affects no outcome.
+    #[hashed(skip)]
     pub(crate) unserved: Option<Reason>,
 }
-
-base::hashed!(GoalRecord {
-    issued_at,
-    issued_to,
-    awarded_at,
-    pursued_at,
-    served,
-    is_served_twice
-} without {
-    // It follows from the messages, and affects no outcome.
-    unserved
-});
 
 impl GoalTally {
     /// The tally of a run that begins.

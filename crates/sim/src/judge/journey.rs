@@ -1,10 +1,11 @@
 //! The way of a robot to a goal.
 
 use crate::bodies::body_state::BodyState;
+use base::hashed::Hashed;
 use brain::RobotId;
 
 /// The way of a robot to the goal that it last reported to drive to; all times are steps.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
 pub(crate) struct Journey {
     /// Number of the goal.
     pub(crate) goal: Option<usize>,
@@ -15,15 +16,8 @@ pub(crate) struct Journey {
     blocked: u64,
 }
 
-base::hashed!(Journey {
-    goal,
-    began_at,
-    arrived_at,
-    blocked
-});
-
 /// The service of a goal, in steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Service {
     /// The robot; `None` if it was removed.
     pub(crate) by: Option<RobotId>,
@@ -34,14 +28,6 @@ pub(crate) struct Service {
     /// Steps in which the robot stood under way.
     pub(crate) blocked: u64,
 }
-
-base::hashed!(Service {
-    by,
-    began_at,
-    arrived_at,
-    at,
-    blocked
-});
 
 impl Journey {
     pub(super) fn begin(goal: Option<usize>, now: u64, is_there: bool) -> Self {

@@ -2,20 +2,19 @@
 
 use super::goal_moment::GoalMoment;
 use crate::bodies::body_state::Status;
+use base::hashed::Hashed;
 
 /// The robots that are at goals whose service takes time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Stays(Vec<Stay>);
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 struct Stay {
     goal: usize,
     robot: usize,
     /// The step in which it came there.
     since: u64,
 }
-
-base::hashed!(Stay { goal, robot, since });
 
 impl base::hashed::Hashed for Stays {
     fn add_to(&self, hash: &mut base::hash::Hash) {

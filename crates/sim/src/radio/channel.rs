@@ -22,15 +22,13 @@ pub(crate) struct RadioChannel {
 }
 
 /// A message in transit to one participant.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Transmission {
     /// The number of the receiver.
     pub(crate) to: u32,
     pub(crate) at: u64,
     pub(crate) message: ReceivedMessage,
 }
-
-base::hashed!(Transmission { to, at, message });
 
 /// A message that a participant sends, and its number among those that it sends in this step.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,5 @@
 //! Queues of readings and messages that wait until the brain of a robot steps.
 
-use base::hash::Hash;
 use base::hashed::Hashed;
 
 /// A brain gets at most this number of the entries that arrived before a step; older ones are
@@ -16,19 +15,11 @@ pub(crate) struct PendingQueue<T> {
 }
 
 /// A reading or message, and the step in which the robot has it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Pending<T> {
     pub(crate) taken: u64,
     pub(crate) due: u64,
     pub(crate) what: T,
-}
-
-impl<T: Hashed> Hashed for Pending<T> {
-    fn add_to(&self, hash: &mut Hash) {
-        let Self { taken, due, what } = self;
-        [*taken, *due].add_to(hash);
-        what.add_to(hash);
-    }
 }
 
 impl<T> Default for PendingQueue<T> {

@@ -2,7 +2,6 @@
 
 use super::grid::Still;
 use base::geometry::{Disc, Point, Polygon, Rectangle};
-use base::hash::Hash;
 use base::hashed::Hashed;
 use base::map::OccupancyMap;
 use base::trig::sin_cos;
@@ -180,7 +179,7 @@ impl ObstacleSpec {
 }
 
 /// An obstacle on the ground, checked.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub enum Solid {
     /// A polygon.
     Polygon(Polygon),
@@ -188,25 +187,6 @@ pub enum Solid {
     Disc(Disc),
     /// The occupied cells of a map.
     Map(OccupancyMap),
-}
-
-impl Hashed for Solid {
-    fn add_to(&self, hash: &mut Hash) {
-        match self {
-            Self::Polygon(polygon) => {
-                hash.add(0);
-                polygon.add_to(hash);
-            }
-            Self::Disc(disc) => {
-                hash.add(1);
-                disc.add_to(hash);
-            }
-            Self::Map(map) => {
-                hash.add(2);
-                map.add_to(hash);
-            }
-        }
-    }
 }
 
 impl Solid {

@@ -2,6 +2,7 @@
 
 use super::grid::{NearCells, Still};
 use base::geometry::{Point, Polygon};
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -25,15 +26,13 @@ fn one() -> f64 {
 }
 
 /// The effect of the terrain on a robot.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct TerrainFactors {
     /// Factor on the maximum speed.
     pub(crate) speed: f64,
     /// Factor on the energy of motion.
     pub(crate) energy: f64,
 }
-
-base::hashed!(TerrainFactors { speed, energy });
 
 impl TerrainFactors {
     pub(crate) const NO_EFFECT: Self = Self {
@@ -43,16 +42,11 @@ impl TerrainFactors {
 }
 
 /// A polygon of one class of terrain.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub struct Area {
     polygon: Polygon,
     terrain_factors: TerrainFactors,
 }
-
-base::hashed!(Area {
-    polygon,
-    terrain_factors
-});
 
 impl Area {
     /// An area of the class that `spec` describes.

@@ -5,6 +5,7 @@ mod simple;
 pub use simple::PolygonError;
 
 use super::{Point, Rectangle, Segment};
+use crate::hashed::Hashed;
 use simple::{MAX_COORDINATE_M, MAX_VERTICES, MIN_VERTICES, edges, side};
 
 /// A solid simple polygon, including its boundary.
@@ -18,13 +19,11 @@ use simple::{MAX_COORDINATE_M, MAX_VERTICES, MIN_VERTICES, edges, side};
 /// assert!(wall.contains(Point { x: 2.0, y: 0.5 }));
 /// # Ok::<(), base::geometry::PolygonError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub struct Polygon {
     /// Clockwise.
     vertices: Vec<Point>,
 }
-
-crate::hashed!(Polygon { vertices });
 
 impl Polygon {
     /// Minimum number of vertices.

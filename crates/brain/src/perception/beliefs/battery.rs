@@ -2,6 +2,7 @@
 
 use super::readings::fresh;
 use crate::io::percept::Percept;
+use base::hashed::Hashed;
 
 /// Minimum time over which the rate of discharge is estimated.
 const MIN_INTERVAL_S: f64 = 5.0;
@@ -10,17 +11,15 @@ const MIN_INTERVAL_S: f64 = 5.0;
 const MIN_CHARGE_GAIN: f64 = 0.1;
 
 /// A charge, as a fraction of the capacity, and its time in seconds since the brain was started.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct Level {
     charge: f64,
     at_s: f64,
 }
 
-base::hashed!(Level { charge, at_s });
-
 /// The charge of the battery: the median of the previous estimate and the last two readings, so
 /// that a single outlier has no effect, and two in a row are accepted.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Battery {
     /// The start of the discharge.
     first: Option<Level>,
@@ -32,15 +31,6 @@ pub(crate) struct Battery {
     age_s: Option<f64>,
     uptime_s: f64,
 }
-
-base::hashed!(Battery {
-    first,
-    now,
-    min_charge,
-    last,
-    age_s,
-    uptime_s
-});
 
 impl Battery {
     pub(crate) fn update(&mut self, percept: &Percept, elapsed_s: f64) {

@@ -3,14 +3,13 @@
 //! A prediction is a sequence of [additions](Covariance::add_multiple) of a multiple of one quantity to
 //! another. That is exact for the product of the matrices, most entries of which are zero.
 
+use base::hashed::Hashed;
+
 /// The covariances of `N` quantities.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Covariance<const N: usize> {
     rows: [[f64; N]; N],
 }
-
-base::hashed!(Covariance<3> { rows });
-base::hashed!(Covariance<7> { rows });
 
 impl<const N: usize> Covariance<N> {
     /// Of quantities that are all exact.

@@ -7,6 +7,7 @@ use crate::io::body::Detector;
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// For each cell, the probability that all observations so far would have missed an item there.
 ///
@@ -25,12 +26,10 @@ use base::geometry::Point;
 /// This holds for all messages together: each reduces only the part above 1 - trust, and values
 /// below that stay. A robot is therefore never believed more than it is trusted, however often it
 /// repeats a report.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct CoverageMap {
     missed: Vec<f32>,
 }
-
-base::hashed!(CoverageMap { missed });
 
 impl CoverageMap {
     pub(crate) fn new(cells: usize) -> Self {

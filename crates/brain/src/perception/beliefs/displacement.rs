@@ -5,6 +5,7 @@ use crate::io::body::Body;
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::sector::direction;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Relative odometry error, of the distance and of the turn.
 const ODOMETRY_ERROR: f64 = 0.02;
@@ -24,7 +25,7 @@ const PROCESS_NOISE_M2_S: f64 = 1e-6;
 const PROCESS_NOISE_RAD2_S: f64 = 1e-8;
 
 /// The displacement of the body since the previous step, or in a part of a step.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Hashed)]
 pub(crate) struct Displacement {
     pub(crate) elapsed_s: f64,
     /// The chord of the path, in the frame of the body at its beginning.
@@ -42,18 +43,6 @@ pub(crate) struct Displacement {
     pub(crate) variance_m2: f64,
     pub(crate) variance_rad2: f64,
 }
-
-base::hashed!(Displacement {
-    elapsed_s,
-    chord,
-    turned_rad,
-    path_m,
-    is_commanded,
-    from_m_s,
-    to_m_s,
-    variance_m2,
-    variance_rad2
-});
 
 impl Displacement {
     /// The displacement to a new speed: constant acceleration first, then motion at that speed, both

@@ -10,6 +10,7 @@
 //! speed follow faster.
 
 use super::displacement::Displacement;
+use base::hashed::Hashed;
 
 /// Standard deviations before any reading: of the factors on commanded speed and turn rate, of the
 /// curvature in rad/m, and of the lag in seconds.
@@ -42,7 +43,7 @@ const BLOCKED_SCALE: f64 = 0.2;
 const MIN_COMMANDED_M_S: f64 = 0.05;
 
 /// The estimated parameters of a drive, and the motion of its body by them.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct DriveEstimate {
     /// Factors on commanded speed and turn rate.
     pub(super) speed_scale: f64,
@@ -54,15 +55,6 @@ pub(crate) struct DriveEstimate {
     speed_m_s: f64,
     turn_rate_rad_s: f64,
 }
-
-base::hashed!(DriveEstimate {
-    speed_scale,
-    turn_scale,
-    curvature_rad_m,
-    lag_s,
-    speed_m_s,
-    turn_rate_rad_s
-});
 
 impl Default for DriveEstimate {
     fn default() -> Self {
@@ -191,7 +183,7 @@ pub(super) fn random_walk(lagged: &Lagged, elapsed_s: f64, trend: &Trend) -> Ran
 ///
 /// The differences along the path, in standard deviations, are smoothed; if the estimate is right,
 /// they have no trend. The rate grows while there is one, and decays slowly.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Trend {
     /// Natural logarithm of the square of the rate.
     log_rate2: f64,
@@ -200,13 +192,6 @@ pub(super) struct Trend {
     since_s: f64,
     pub(super) since_m: f64,
 }
-
-base::hashed!(Trend {
-    log_rate2,
-    smoothed,
-    since_s,
-    since_m
-});
 
 /// Time constant of the smoothing, in seconds.
 const SMOOTHING_S: f64 = 2.8;

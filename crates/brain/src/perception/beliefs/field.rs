@@ -1,13 +1,14 @@
 //! The grid of cells over the mission area.
 
 use base::geometry::{Point, Rectangle};
+use base::hashed::Hashed;
 use core::ops::Range;
 
 /// Fractional bits of fixed-point coordinates.
 const FRACTION_BITS: u32 = 20;
 
 /// A rectangle of square cells, row by row from the lower left corner.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Field {
     area: Rectangle,
     pub(crate) cell_m: f64,
@@ -15,14 +16,6 @@ pub(crate) struct Field {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
 }
-
-base::hashed!(Field {
-    area,
-    cell_m,
-    cells_per_m,
-    columns,
-    rows
-});
 
 impl Field {
     /// Covers `area` with at most `max_cells` cells that are at least `min_cell_m` wide.

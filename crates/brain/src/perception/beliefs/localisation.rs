@@ -9,6 +9,7 @@ use super::readings::MAX_AGE_S;
 use crate::io::body::Body;
 use crate::io::percept::{Percept, Reading};
 use crate::perception::dead_reckoning::Odometry;
+use base::hashed::Hashed;
 
 /// Readings farther from the origin than this are ignored.
 const MAX_COORDINATE_M: f64 = 1e7;
@@ -21,7 +22,7 @@ const MAX_HEADING_RAD: f64 = 1e4;
 /// The history is as long as the maximum age of the readings so far, so that it takes next to no
 /// memory without late sensors; while the pose is unknown, it has its maximum length. A reading that
 /// is older than the history is ignored, but extends it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Localisation {
     history: PoseHistory,
     /// Speed in the last step; negative in reverse.
@@ -31,14 +32,6 @@ pub(crate) struct Localisation {
     position_s: Option<f64>,
     heading_s: Option<f64>,
 }
-
-base::hashed!(Localisation {
-    history,
-    speed_m_s,
-    depth_s,
-    position_s,
-    heading_s
-});
 
 impl Localisation {
     /// The pose, once a position and a heading are known.

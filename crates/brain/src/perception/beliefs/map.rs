@@ -9,6 +9,7 @@ use super::spec::BeliefsSpec;
 use crate::perception::rays::{Ring, free_ranges_m};
 use crate::perception::sector::direction;
 use base::geometry::{Point, Rectangle, Segment};
+use base::hashed::Hashed;
 use base::trig::wrapped;
 
 /// Scans are integrated into the map when the robot has moved by this fraction of a cell, has
@@ -18,7 +19,7 @@ const MAP_UPDATE_RAD: f64 = 0.1;
 const MAP_UPDATE_S: f64 = 0.5;
 
 /// The maps of the mission area: occupancy and coverage.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Map {
     pub(crate) field: Field,
     pub(crate) occupancy: Occupancy,
@@ -26,13 +27,6 @@ pub(crate) struct Map {
     /// Pose of the last map update, and the time since.
     last_update: Option<(Pose, f64)>,
 }
-
-base::hashed!(Map {
-    field,
-    occupancy,
-    coverage,
-    last_update
-});
 
 impl Map {
     pub(crate) fn new(spec: &BeliefsSpec, area: &Rectangle) -> Self {

@@ -2,6 +2,7 @@
 
 use crate::io::body::RobotId;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Corrections to higher speeds are ignored as sensor errors.
 const MAX_SPEED_M_S: f64 = 100.0;
@@ -15,7 +16,7 @@ const PARKED_S: f64 = 20.0;
 const SAME_PLACE_M: f64 = 0.5;
 
 /// The estimated state of a robot or other moving object.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
 pub(crate) struct Mover {
     /// The robot, if it was identified as one.
     pub(crate) id: Option<RobotId>,
@@ -37,19 +38,6 @@ pub(crate) struct Mover {
     pub(crate) place: Point,
     pub(crate) standing_s: f64,
 }
-
-base::hashed!(Mover {
-    id,
-    at,
-    velocity_m_s,
-    course,
-    radius_m,
-    braking_m_s2,
-    age_s,
-    observations,
-    place,
-    standing_s
-});
 
 impl Mover {
     /// Corrects the state with an observed position; `gain` is that of the velocity.

@@ -4,6 +4,7 @@ use super::field::Field;
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
+use base::hashed::Hashed;
 use core::ops::Range;
 
 /// Change of the log odds of a cell in which a ray ends, and of one that it passes, in quarters of
@@ -26,10 +27,11 @@ const OCCUPIED: i8 = 4;
 /// A wall at a grazing angle ends few rays, while many pass through cells that it occupies in part.
 /// A ray therefore clears cells only as far as its neighbours reach, and each cell about once per
 /// scan.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Occupancy {
     quarter_nats: Vec<i8>,
     /// The cells that the previous ray passed, in order.
+    #[hashed(skip)]
     passed: Vec<usize>,
     /// Number of cells that have become occupied or free so far.
     pub(crate) changes: u32,
@@ -37,8 +39,6 @@ pub(crate) struct Occupancy {
     was_occupied: Vec<u64>,
     pub(crate) ever_occupied: u32,
 }
-
-base::hashed!(Occupancy { quarter_nats, changes, was_occupied, ever_occupied } without { passed });
 
 /// A measured ray.
 #[derive(Debug, Clone, Copy)]

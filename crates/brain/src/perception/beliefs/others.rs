@@ -10,6 +10,7 @@ use crate::perception::rays::Ring;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
+use base::hashed::Hashed;
 
 /// Maximum number of tracks.
 const MAX_MOVERS: usize = 16;
@@ -32,15 +33,14 @@ const NOISY_GAIN: f64 = 0.3;
 ///
 /// They are kept in the robot's own frame and predicted by its odometry, so that collision
 /// avoidance does not need a pose in the world.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
     objects: ScanObjects,
     /// Scratch memory, to avoid allocations.
+    #[hashed(skip)]
     distances_m: Vec<f64>,
 }
-
-base::hashed!(Others { movers, objects } without { distances_m });
 
 impl Others {
     /// Updates the tracks after a step with a displacement.

@@ -2,6 +2,7 @@
 
 use crate::perception::sector::direction;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// *A new approach to linear filtering and prediction problems*, 1960, in one dimension): gain = own
 /// variance / (own variance + variance of the sensor). A reading that differs by more than five standard
 /// deviations is ignored, unless three in a row agree: then the estimate is reset to the last one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 pub struct Pose {
     /// Position in the world.
     pub at: Point,
@@ -24,14 +25,6 @@ pub struct Pose {
     /// Age of the last position reading.
     pub age_s: f64,
 }
-
-base::hashed!(Pose {
-    at,
-    heading_rad,
-    deviation_m,
-    deviation_rad,
-    age_s
-});
 
 impl Pose {
     /// Tolerance of visibility tests: two standard deviations, which the errors of the robot's

@@ -15,6 +15,7 @@ use crate::io::body::Body;
 use crate::perception::sector::direction;
 use alloc::boxed::Box;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use base::trig::wrapped;
 
 /// The estimated quantities: the pose, then the parameters of the drive.
@@ -40,17 +41,15 @@ const MAX_HEADING_RAD2: f64 = 0.5;
 const MIN_DRIFT_S: f64 = 0.1;
 
 /// The state of the filter.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Hashed)]
 pub(super) struct PoseFilter {
     pose: PoseState,
     /// From the first commanded motion on.
     drive: Option<Box<DriveFilter>>,
 }
 
-base::hashed!(PoseFilter { pose, drive });
-
 /// The estimated pose. Its covariance counts only while no drive is estimated.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct PoseState {
     at: Point,
     heading_rad: f64,
@@ -63,36 +62,19 @@ struct PoseState {
     heading_gate: ValidationGate<f64>,
     /// The variance of the slow part of the errors of the position sensor: positions do not reveal it,
     /// so the estimate follows it.
+    #[hashed(skip)]
     drift_m2: f64,
     /// Time since the last position reading.
     age_s: f64,
 }
 
-base::hashed!(PoseState {
-    at,
-    heading_rad,
-    covariance,
-    knows_position,
-    knows_heading,
-    is_lost,
-    position_gate,
-    heading_gate,
-    age_s
-} without { drift_m2 });
-
 /// The estimated drive, and the covariance of pose and drive.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct DriveFilter {
     estimate: DriveEstimate,
     trend: Trend,
     covariance: Covariance<STATES>,
 }
-
-base::hashed!(DriveFilter {
-    estimate,
-    trend,
-    covariance
-});
 
 impl Default for PoseState {
     fn default() -> Self {

@@ -11,6 +11,7 @@ use super::pose_filter::PoseFilter;
 use crate::io::body::Body;
 use alloc::collections::VecDeque;
 use base::geometry::Point;
+use base::hashed::Hashed;
 use core::mem;
 
 /// Maximum number of parts: five seconds at 10 Hz. Above it, the shortest parts are joined.
@@ -30,7 +31,7 @@ pub(super) enum Measured {
 }
 
 /// A part of the motion, with the readings measured at its end, and the pose after them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 struct Part {
     moved: Displacement,
     position: Option<Point>,
@@ -38,15 +39,8 @@ struct Part {
     after: PoseFilter,
 }
 
-base::hashed!(Part {
-    moved,
-    position,
-    heading_rad,
-    after
-});
-
 /// The recent motion in parts, the oldest first.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct PoseHistory {
     /// The pose before the oldest part.
     before: PoseFilter,
@@ -54,14 +48,9 @@ pub(super) struct PoseHistory {
     /// Number of parts whose poses are up to date, from the oldest one.
     valid: usize,
     /// Scratch memory, to avoid allocations.
+    #[hashed(skip)]
     scratch: PoseFilter,
 }
-
-base::hashed!(PoseHistory {
-    before,
-    parts,
-    valid
-} without { scratch });
 
 impl PoseHistory {
     /// The pose now.

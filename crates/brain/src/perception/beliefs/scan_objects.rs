@@ -12,6 +12,7 @@ use crate::perception::rays::{Ray, Ring};
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Neighbouring rays belong to the same object if their ranges differ by less.
 const SAME_OBJECT_M: f64 = 0.5;
@@ -38,7 +39,7 @@ const MAX_AGE_S: f64 = 0.5;
 const MAX_OBJECTS: usize = 16;
 
 /// A static or moving object.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Hashed)]
 struct ScanObject {
     /// Position in this robot's frame, if it is static.
     at: Point,
@@ -49,21 +50,11 @@ struct ScanObject {
     age_s: f64,
 }
 
-base::hashed!(ScanObject {
-    at,
-    radius_m,
-    closing_m_s,
-    observations,
-    age_s
-});
-
 /// All objects in view, in this robot's frame.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct ScanObjects {
     objects: Vec<ScanObject>,
 }
-
-base::hashed!(ScanObjects { objects });
 
 impl ScanObjects {
     /// Predicts all objects after a step in which the robot moved by `motion` (in its previous

@@ -3,6 +3,7 @@
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use base::geometry::Rectangle;
+use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +43,7 @@ impl Default for BeliefsSpec {
 }
 
 /// How far a brain trusts the reports of other robots.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(default, deny_unknown_fields)]
 pub struct TrustSpec {
     /// Initial trust in a robot, 0 to 1.
@@ -51,8 +52,6 @@ pub struct TrustSpec {
     /// Whether trust changes when the robot's own observations confirm or refute reports.
     pub adaptive: bool,
 }
-
-base::hashed!(TrustSpec { initial, adaptive });
 
 impl Default for TrustSpec {
     fn default() -> Self {

@@ -1,6 +1,5 @@
 //! The validation gate of readings: outliers are rejected unless several in a row agree.
 
-use base::hash::Hash;
 use base::hashed::Hashed;
 
 /// Half width of the gate, in standard deviations of the difference (Bar-Shalom and Fortmann,
@@ -13,18 +12,10 @@ const RESET_AFTER: u8 = 3;
 
 /// The last rejected reading, and the number of consecutive rejected readings in agreement, itself
 /// included.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Hashed)]
 pub(crate) struct ValidationGate<T> {
     last: T,
     count: u8,
-}
-
-impl<T: Hashed> Hashed for ValidationGate<T> {
-    fn add_to(&self, hash: &mut Hash) {
-        let Self { last, count } = self;
-        last.add_to(hash);
-        count.add_to(hash);
-    }
 }
 
 /// The difference between a reading and the estimate, and how much of it is expected.

@@ -21,6 +21,7 @@ use crate::perception::dead_reckoning::Odometry;
 use crate::perception::rays::Ring;
 use alloc::sync::Arc;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Rounding tolerance between the ages of an observation and of its contacts.
 const AGE_TOLERANCE_S: f64 = 1e-6;
@@ -30,7 +31,7 @@ const AGE_TOLERANCE_S: f64 = 1e-6;
 const STATED_WITHIN_M: f64 = 1.0;
 
 /// The beliefs of one robot.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Beliefs {
     /// Prior density of items of each kind; all robots of a kind share it.
     pub(crate) per_m2: Arc<[f64]>,
@@ -45,18 +46,6 @@ pub(crate) struct Beliefs {
     pub(crate) observations: u32,
     uptime_s: f64,
 }
-
-base::hashed!(Beliefs {
-    per_m2,
-    id,
-    localisation,
-    others,
-    items,
-    battery,
-    map,
-    observations,
-    uptime_s
-});
 
 impl Beliefs {
     /// The initial beliefs.

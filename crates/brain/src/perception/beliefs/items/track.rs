@@ -64,7 +64,7 @@ impl Hashed for Track {
 }
 
 /// The observations of one robot.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
 pub(crate) struct Source {
     pub(crate) provenance: Provenance,
     /// The sender of the report; the robot itself for own observations.
@@ -79,20 +79,14 @@ pub(crate) struct Source {
     /// Whether own observations have confirmed or refuted it; each source is judged once.
     pub(crate) is_judged: bool,
     /// Whether it is this robot, and a detector of it has detected the item.
+    #[hashed(skip)]
     pub(crate) is_contact: bool,
     /// The kind that a report named, and its probability given that there is an item, if kinds are uncertain.
+    #[hashed(skip)]
     pub(crate) kind: u16,
+    #[hashed(skip)]
     pub(crate) kind_share: f32,
 }
-
-base::hashed!(Source {
-    provenance,
-    from,
-    prior,
-    log_ratio,
-    sent_confidence,
-    is_judged
-} without { is_contact, kind, kind_share });
 
 impl Track {
     /// A track without sources.

@@ -7,6 +7,7 @@ use crate::io::body::RobotId;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::hashed::Hashed;
 
 /// Association gate, in standard deviations: one contact of an item in ninety is beyond it, and begins a second
 /// track. In mined lanes and of uncertain kinds, where the number of items matters, it is wider: one in 3,000.
@@ -14,13 +15,16 @@ const GATE: f64 = 3.0;
 const WIDE_GATE: f64 = 4.0;
 
 /// All item tracks of a robot.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Hashed)]
 pub(crate) struct Items {
     /// Maximum number of tracks; the least likely one is replaced first.
+    #[hashed(skip)]
     max_tracks: usize,
     /// Without it, contacts have the kind of the item.
+    #[hashed(skip)]
     pub(crate) kinds: Option<Arc<KindModel>>,
     /// Whether a controller has named a lane that is to be cleared.
+    #[hashed(skip)]
     pub(crate) is_in_lane: bool,
     pub(crate) tracks: Vec<Track>,
     pub(crate) last_track_id: u32,
@@ -30,14 +34,6 @@ pub(crate) struct Items {
     pub(crate) unsent: TrackSet,
     pub(crate) unjudged: TrackSet,
 }
-
-base::hashed!(Items {
-    tracks,
-    last_track_id,
-    repeated,
-    unsent,
-    unjudged
-} without { max_tracks, kinds, is_in_lane });
 
 impl Items {
     /// No tracks, a maximum number of them, and what is known of uncertain kinds.
