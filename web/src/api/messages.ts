@@ -1,33 +1,4 @@
-import type {
-  Economy,
-  Ended,
-  Exported,
-  Lanes,
-  MapPart,
-  Opened,
-  Refused,
-  Saved,
-  Saving,
-  SeriesAnswer,
-  Setting,
-  State,
-} from "./protocol";
-import type { StudyProgress } from "./study";
-
-export type Message =
-  | Opened
-  | Setting
-  | State
-  | MapPart
-  | Economy
-  | Lanes
-  | Refused
-  | Saving
-  | Saved
-  | Exported
-  | SeriesAnswer
-  | Ended
-  | StudyProgress;
+import type { ServerMessage } from "./protocol";
 
 const types = [
   "opened",
@@ -46,11 +17,11 @@ const types = [
 ];
 
 /** Decodes a message of the server; null if its type is unknown. */
-export function readMessage(text: string): Message | null {
+export function readMessage(text: string): ServerMessage | null {
   try {
     const message: unknown = JSON.parse(text);
     if (typeof message !== "object" || message === null || !("type" in message)) return null;
-    return types.includes(String(message.type)) ? (message as Message) : null;
+    return types.includes(String(message.type)) ? (message as ServerMessage) : null;
   } catch {
     return null;
   }

@@ -1,24 +1,8 @@
 /** Messages about studies: generated from the Rust types, but for the runs. */
 import type { InputError, Json, StudyProgress } from "./protocol";
 
-export type {
-  Factor,
-  Factors,
-  Guarantee,
-  RequirementStatus,
-  Study,
-  StudyAnswer,
-  StudyList,
-  StudyPlan,
-  StudyProgress,
-  StudyQuestion as Question,
-  StudyRequest,
-  StudyResult as Result,
-  StudySection,
-  StudyState,
-  StudySummary,
-  StudyTable,
-} from "./protocol";
+export type * from "./protocol";
+export type { StudyQuestion as Question, StudyResult as Result } from "./protocol";
 
 /** A scenario of the server by id, or the text of one: exactly one of the two. */
 export type ScenarioSource = { scenario: string; text: null } | { scenario: null; text: string };
