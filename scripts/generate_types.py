@@ -43,18 +43,25 @@ OMITTED = {"acts"}
 """Their keys that commands of Python brains may lack: only robots with tools act."""
 
 
+OF_WARDEN = ("Drive", "WardenState")
+"""Their types have modules of their own: the warden uses the standard library only."""
+
+
 def main() -> None:
     """Write all files, or with `--check` exit with 1 if one of them differs."""
     brain, page = load(BRAIN_SCHEMA), load(PAGE_SCHEMA)
     own = {name: each for name, each in page.items() if name not in brain}
+    warden = {name: own.pop(name) for name in in_order(own, OF_WARDEN)}
     wanted = {
-        PYTHON / "brain.py": python_brain(brain),
+        PYTHON / "brain.py": python_dicts("brain", brain),
         PYTHON / "arrays.py": python_arrays(brain, NOTICE),
         PYTHON / "page.py": python_page(own),
+        PYTHON / "warden.py": python_dicts("warden", warden),
         TYPESCRIPT / "brain.ts": typescript(
             {name: page[name] for name in brain if name in page}, ()
         ),
         TYPESCRIPT / "page.ts": typescript(own, brain),
+        TYPESCRIPT / "warden.ts": typescript(warden, brain),
     }
     is_check = "--check" in sys.argv[1:]
     stale = [path for path, text in wanted.items() if not is_same(path, text)]
@@ -100,9 +107,9 @@ def messages(union: str, types: Types) -> dict[str, Schema]:
 # Python.
 
 
-def python_brain(types: Types) -> str:
-    """Return the module of the inputs and outputs of brains."""
-    return formatted([header("brain", typed_dicts(types), ""), *typed_dicts(types)])
+def python_dicts(file: str, types: Types) -> str:
+    """Return a module of types of dicts."""
+    return formatted([header(file, typed_dicts(types), ""), *typed_dicts(types)])
 
 
 def python_page(types: Types) -> str:
@@ -149,11 +156,11 @@ def header(file: str, parts: list[str], library: str) -> str:
 
 def typed_dicts(types: Types) -> list[str]:
     """Return the types, each after those that it uses."""
-    return [typed_dict(name, types[name]) for name in in_order(types)]
+    return [typed_dict(name, types[name]) for name in in_order(types, types)]
 
 
-def in_order(types: Types) -> list[str]:
-    """Return the names of types, each after those that it uses."""
+def in_order(types: Types, roots: Iterable[str]) -> list[str]:
+    """Return the names of some types and of those that they use, each after those that it uses."""
     done: dict[str, None] = {}
 
     def add(name: str) -> None:
@@ -163,7 +170,7 @@ def in_order(types: Types) -> list[str]:
                     add(used)
             done[name] = None
 
-    for name in sorted(types):
+    for name in sorted(roots):
         add(name)
     return list(done)
 

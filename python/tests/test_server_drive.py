@@ -8,18 +8,26 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 from agent_economy.server.app import app
-from agent_economy.server.drive import Drive, RobotOnMap, Sonar
 from agent_economy.server.guard import cookie_of
 from agent_economy.server.workspace import Workspace
+from agent_economy.types.warden import Drive, Warden, WorldOrigin
 
 FENCE = ((1.0, 1.0), (39.0, 1.0), (39.0, 29.0))
-DRIVE = Drive(
-    40123,
-    "secret",
-    "bender",
-    {"latitude_deg": 36.6, "longitude_deg": -121.9},
-    {"bender/0": RobotOnMap(FENCE, (Sonar(20.0, 6.0),))},
-)
+ORIGIN: WorldOrigin = {
+    "latitude_deg": 36.6,
+    "longitude_deg": -121.9,
+    "rotation_deg": 0.0,
+    "declination_deg": 0.0,
+}
+WARDEN: Warden = {"port": 40123, "token": "secret"}
+DRIVE: Drive = {
+    "warden": WARDEN,
+    "fleet": "bender",
+    "origin": ORIGIN,
+    "robots": {
+        "bender/0": {"fence_m": FENCE, "sonars": [{"facing_deg": 20.0, "max_m": 6.0}]},
+    },
+}
 
 
 SECRET = "secret-of-the-page"  # noqa: S105  (of a test)
@@ -48,7 +56,7 @@ def test_the_page_of_a_drive_receives_port_and_token_of_the_warden(tmp_path: Pat
     assert response.json() == {
         "warden": {"port": 40123, "token": "secret"},
         "fleet": "bender",
-        "origin": {"latitude_deg": 36.6, "longitude_deg": -121.9},
+        "origin": ORIGIN,
         "robots": {
             "bender/0": {
                 "fence_m": [[1, 1], [39, 1], [39, 29]],
@@ -99,7 +107,9 @@ def test_a_page_without_the_secret_learns_nothing(tmp_path: Path, method: str, p
     response = stranger(tmp_path, DRIVE).request(method, path)
     assert response.status_code == 403
     known = response.text + str(response.headers)
-    assert not [secret for secret in (DRIVE.token, SECRET, str(DRIVE.port)) if secret in known]
+    assert not [
+        secret for secret in (WARDEN["token"], SECRET, str(WARDEN["port"])) if secret in known
+    ]
 
 
 @pytest.mark.parametrize(
@@ -146,7 +156,7 @@ def test_a_server_that_gets_the_cookie_on_another_port_cannot_take_the_robots(
     for stolen in ({}, {"agent-economy-token": cookie_of(SECRET)}, {"agent-economy-token": ""}):
         response = thief.get("/drive", headers={"cookie": COOKIE, **stolen})
         assert response.status_code == 403
-        assert DRIVE.token not in response.text
+        assert WARDEN["token"] not in response.text
 
 
 def test_two_servers_on_one_host_keep_their_cookies(tmp_path: Path) -> None:

@@ -178,7 +178,12 @@ export function isNeutral({ left, right }: Received["body"]): boolean {
   return left === 150 && right === 150;
 }
 
-const origin = { latitude_deg: 36.595267, longitude_deg: -121.875003, declination_deg: 14.5 };
+const origin = {
+  latitude_deg: 36.595267,
+  longitude_deg: -121.875003,
+  rotation_deg: 0,
+  declination_deg: 14.5,
+};
 const facings_deg = [20, -20, 160, -160, -90, 90];
 const robots: Drive["robots"] = {
   "bender/0": {

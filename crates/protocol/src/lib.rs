@@ -3,7 +3,7 @@
 //! Messages are JSON on a WebSocket, each with its `type`; frames and overlays are binary. Requests
 //! and answers about studies are JSON over HTTP. The JSON Schema of these types ([`page_schema`]) and
 //! that of brains ([`brain_schema`]) are the source of the Python types of the server and of the
-//! TypeScript types of the page.
+//! TypeScript types of the page. Its schema also has the answers of a drive's warden to pages.
 //!
 //! Seeds and run numbers can have 64 bits, which JavaScript numbers cannot hold: they are strings.
 
@@ -17,6 +17,7 @@ mod setting;
 mod study;
 mod study_answer;
 mod study_form;
+mod warden;
 
 pub use economy::{ControllerView, Economy, GoalStatus, GoalView, ServedGoalView, ServiceView};
 pub use lane::{LaneScale, LaneStatementView, LaneView, Lanes, MarkView, RiskView};

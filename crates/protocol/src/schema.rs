@@ -5,6 +5,7 @@ use crate::page::PageMessage;
 use crate::server::ServerMessage;
 use crate::study_answer::{Study, StudyList};
 use crate::study_form::{Factors, StudyRequest};
+use crate::warden::{Drive, WardenState};
 use brain::{AssignedGoal, BeliefState, Body, Command, Percept, ServedGoal};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value as Json, json};
@@ -40,6 +41,8 @@ pub fn page_schema() -> Json {
     from_server.subschema_for::<StudyRequest>();
     from_server.subschema_for::<StudyList>();
     from_server.subschema_for::<Study>();
+    from_server.subschema_for::<WardenState>();
+    from_server.subschema_for::<Drive>();
     definitions(
         "Messages between the server and the page",
         [from_server, from_page],

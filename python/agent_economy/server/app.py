@@ -5,7 +5,8 @@ GET `/api/schema?engine=`: the JSON Schema of a scenario. POST `/api/check`: a s
 errors are the response, with status 422.
 GET `/api/recordings`: the recordings below the server's folder, the newest first.
 `/api/recordings/file?id=`: the file of one.
-`/drive`: the drive that the server belongs to (see `drive`).
+`/drive`: where the page finds the warden of the server's drive, and what its map draws. Without a
+drive it is `null`, not an error: browsers report errors of requests in the console of every page.
 `/ws`: a run (see `agent_economy.types.page`), or the progress of a study with `?study=ID`.
 The addresses of studies are in `studies.routes`.
 """
@@ -34,7 +35,6 @@ from starlette.websockets import WebSocket
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.server.drive import Drive, drive_response
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
@@ -50,6 +50,7 @@ from agent_economy.server.studies.progress import send_progress
 from agent_economy.server.studies.routes import Routes
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.server.workspace import Workspace
+from agent_economy.types.warden import Drive
 
 MAX_SESSIONS = 16
 """Maximum number of open runs; each has a thread of its own, so that none delays another."""
@@ -86,7 +87,8 @@ def app(
         raise ValueError(message)
     web = Path(str(files("agent_economy") / "web"))
     addresses = Addresses(workspace, web, StudyManager(workspace), token or "", live, drive)
-    return Guard(addresses.application(), host, token, None if drive is None else drive.address)
+    warden = None if drive is None else f"http://127.0.0.1:{drive['warden']['port']}"
+    return Guard(addresses.application(), host, token, warden)
 
 
 @dataclass
@@ -165,7 +167,7 @@ class Addresses:
         given = request.headers.get(TOKEN_NAME, request.query_params.get("token", ""))
         if self.drive is not None and not is_same(given, self.token):
             return PlainTextResponse(REFUSAL, 403)
-        return drive_response(self.drive)
+        return JSONResponse(self.drive, headers={"cache-control": "no-store"})
 
     async def scenarios(self, _: Request) -> Response:
         """Return the gallery."""

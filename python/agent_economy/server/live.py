@@ -22,10 +22,10 @@ from agent_economy import _core
 from agent_economy.live.channel import Decoder
 from agent_economy.scenario import Scenario, Source
 from agent_economy.server.app import app
-from agent_economy.server.drive import Drive, RobotOnMap, Sonar
 from agent_economy.server.runs.live_run import LiveRun
 from agent_economy.server.serving import http_server
 from agent_economy.server.workspace import Workspace
+from agent_economy.types.warden import Drive, Sonar
 
 BLOCK_BYTES = 2**16
 
@@ -81,22 +81,29 @@ def scenario_of(source: Mapping[str, Any]) -> Scenario:
 def drive_of(start: Mapping[str, Any], scenario: Scenario) -> Drive:
     """Return where the warden is, and what the map draws of each robot."""
     kinds = _core.read_filled(scenario.source)["robots"]
-    robots = {
-        name: RobotOnMap(start["fences_m"].get(name), sonars_of(kinds[name.rpartition("/")[0]]))
-        for name in start["external"]
+    fences_m = start["fences_m"]
+    return {
+        "warden": start["warden"],
+        "fleet": Path(start["fleet"]).stem,
+        "origin": start["origin"],
+        "robots": {
+            name: {
+                "fence_m": fences_m.get(name),
+                "sonars": sonars_of(kinds[name.rpartition("/")[0]]),
+            }
+            for name in start["external"]
+        },
     }
-    warden, fleet = start["warden"], Path(start["fleet"]).stem
-    return Drive(warden["port"], warden["token"], fleet, start["origin"], robots)
 
 
-def sonars_of(kind: Mapping[str, Any]) -> tuple[Sonar, ...]:
+def sonars_of(kind: Mapping[str, Any]) -> list[Sonar]:
     """Return the range sensors of a kind of robots, in the order of their names."""
     sensors = sorted(kind.get("sensors", {}).items())
-    return tuple(
-        Sonar(sensor.get("facing_deg", 0.0), sensor["range_m"])
+    return [
+        {"facing_deg": sensor.get("facing_deg", 0.0), "max_m": sensor["range_m"]}
         for _, sensor in sensors
         if sensor["kind"] == "range"
-    )
+    ]
 
 
 if __name__ == "__main__":

@@ -1,1 +1,1 @@
-"""Types of brains and of the page's messages, generated from the Rust types by `make schemas`."""
+"""Types of brains, the page and the warden, generated from the Rust types by `make schemas`."""

@@ -2,6 +2,8 @@
 
 import math
 
+from agent_economy.types.warden import Operator
+
 SEEN_S = 3.0
 """A client that has sent nothing for this time is no operator any more."""
 
@@ -24,7 +26,7 @@ class Authority:
         if client and client == self.operator(now_s):
             self._seen_s = now_s
 
-    def role(self, client: object, now_s: float) -> str | None:
+    def role(self, client: object, now_s: float) -> Operator | None:
         """Return what a client has to know: whether itself or another one is the operator."""
         operator = self.operator(now_s)
         if not operator:

@@ -15,6 +15,7 @@ from agent_economy.live.warden.request_body import Body, check_body, flag
 from agent_economy.live.warden.state import robot_state
 from agent_economy.live.warden.warden import Warden
 from agent_economy.live.warden.waypoint_request import WaypointOrders
+from agent_economy.types.warden import Level, WardenState
 
 KEYS = {
     "/state": ("since",),
@@ -93,7 +94,7 @@ class Control:
 
         return act
 
-    def _note(self, text: str, level: str = "info", robot: str | None = None) -> Answer:
+    def _note(self, text: str, level: Level = "info", robot: str | None = None) -> Answer:
         self._events.add(level, robot, text)
         return {"message": text}
 
@@ -110,7 +111,7 @@ class Control:
         self._warden.operator.arm.clear()
         return self._note(text)
 
-    def _state(self, body: Body) -> Answer:
+    def _state(self, body: Body) -> WardenState:
         since = body.get("since", 0)
         if type(since) is not int:
             message = "since must be the number of an event"
@@ -164,7 +165,7 @@ class Control:
         for robot in self._warden.robots.values():
             robot.manual = None
 
-    def _manual(self, body: Body) -> Answer:
+    def _manual(self, body: Body) -> WardenState:
         name, now = self._robot(body).name, now_s()
         if self._authority.role(body.get("client"), now) != "you":
             message = "this client is not the operator"

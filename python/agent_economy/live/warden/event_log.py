@@ -6,6 +6,7 @@ from typing import Any
 
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden.sentences import sentence
+from agent_economy.types.warden import Level, WardenEvent
 
 MAX_EVENTS = 1000
 
@@ -19,7 +20,7 @@ class EventLog:
     def __init__(self) -> None:
         """Start without events."""
         self._began_s = now_s()
-        self._events: deque[dict[str, Any]] = deque(maxlen=MAX_EVENTS)
+        self._events: deque[WardenEvent] = deque(maxlen=MAX_EVENTS)
         self._number = 0
 
     @property
@@ -27,11 +28,13 @@ class EventLog:
         """The time since its start."""
         return now_s() - self._began_s
 
-    def add(self, level: str, robot: str | None, text: str) -> None:
+    def add(self, level: Level, robot: str | None, text: str) -> None:
         """Add an event; of more than the maximum, the oldest is dropped."""
         self._number += 1
-        event = {"number": self._number, "time_s": self.time_s, "level": level}
-        self._events.append(event | {"robot": robot, "text": text})
+        number, time_s = self._number, self.time_s
+        self._events.append(
+            {"number": number, "time_s": time_s, "level": level, "robot": robot, "text": text}
+        )
 
     def report(self, event: Mapping[str, Any]) -> None:
         """Add an event of the drive, in words; but the address of the page contains a secret."""
@@ -39,12 +42,12 @@ class EventLog:
         if text:
             self.add(_level(event), event.get("robot"), text)
 
-    def since(self, number: int) -> Iterator[dict[str, Any]]:
+    def since(self, number: int) -> Iterator[WardenEvent]:
         """Yield the events with larger numbers."""
         return (event for event in self._events if event["number"] > number)
 
 
-def _level(event: Mapping[str, Any]) -> str:
+def _level(event: Mapping[str, Any]) -> Level:
     match event["type"]:
         case "event":
             return _level_of_robot(event)
@@ -59,7 +62,7 @@ def _level(event: Mapping[str, Any]) -> str:
     return "info"
 
 
-def _level_of_robot(event: Mapping[str, Any]) -> str:
+def _level_of_robot(event: Mapping[str, Any]) -> Level:
     if set(event["latched"]) - HARMLESS:
         return "error"
     return "warning" if set(event["faults"]) - HARMLESS or event["warnings"] else "info"

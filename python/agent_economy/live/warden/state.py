@@ -3,9 +3,9 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
-from typing import Any
+from typing import Any, cast
 
-from agent_economy.live.plan import InputPlan, Origin
+from agent_economy.live.plan import InputPlan, Origin, Point
 from agent_economy.live.readings import Motion, Quantity
 from agent_economy.live.rules import Decision, Fault, Mode, Setpoint
 from agent_economy.live.rules.faults import MANUAL_LIFETIME_S, MAX_UNACKNOWLEDGED_S
@@ -13,8 +13,19 @@ from agent_economy.live.warden.geometry import geographic_of, world_heading_deg
 from agent_economy.live.warden.port_link import PortLink
 from agent_economy.live.warden.robot import Robot
 from agent_economy.live.warden.sentences import reason_of
-
-Values = dict[str, Any]
+from agent_economy.types.warden import (
+    Battery,
+    FaultView,
+    Heading,
+    LinkState,
+    Position,
+    Ranges,
+    RequestedMotion,
+    WardenLink,
+    WardenRobot,
+    Waypoint,
+    WrittenLine,
+)
 
 
 def robot_state(
@@ -23,32 +34,34 @@ def robot_state(
     goals: Iterable[Mapping[str, Any]],
     origin: Origin,
     now_s: float,
-) -> Values:
+) -> WardenRobot:
     """Return what is known of one robot."""
     return {
         "name": robot.plan.name,
         "driver": robot.plan.driver,
-        "mode": decision.mode.value,
+        "mode": cast("Any", decision.mode.value),
         "is_armed": decision.is_armed,
-        "action": decision.action.name.lower(),
+        "action": cast("Any", decision.action.name.lower()),
         "requested": _requested(robot, decision.mode, now_s),
         "written": _written(robot, now_s),
         "is_standing": decision.is_confirmed,
-        "unseen": None if decision.unseen is None else asdict(decision.unseen),
+        "unseen": None if decision.unseen is None else cast("Any", asdict(decision.unseen)),
         "doubted": list(decision.doubted),
         "faults": _reasons(decision.faults),
         "latched": _reasons(decision.latched),
         "blockers": _reasons(decision.blockers),
         "warnings": _reasons(decision.warnings),
         "links": [_link(robot, port, link, now_s) for port, link in robot.links.items()],
-        **{key: read(robot, origin, now_s) for key, read in _READINGS.items()},
+        "position": _position(robot, now_s),
+        "heading": _heading(robot, origin, now_s),
+        "ranges": _ranges(robot, now_s),
         "battery": _battery(robot),
         "waypoints": [_waypoint(goal, origin) for goal in goals],
         "navigates": decision.navigates,
     }
 
 
-def _requested(robot: Robot, mode: Mode, now_s: float) -> Values | None:
+def _requested(robot: Robot, mode: Mode, now_s: float) -> RequestedMotion | None:
     """Return the motion that is requested now; None if the newest request has expired."""
     setpoint = robot.manual if mode is Mode.MANUAL else robot.setpoint
     if setpoint is None or now_s - setpoint.received_s > _lifetime_s(setpoint, mode):
@@ -60,7 +73,7 @@ def _lifetime_s(setpoint: Setpoint, mode: Mode) -> float:
     return MANUAL_LIFETIME_S if mode is Mode.MANUAL else setpoint.lifetime_s
 
 
-def _motion(motion: Motion) -> Values:
+def _motion(motion: Motion) -> RequestedMotion:
     return {
         "speed_m_s": _finite(motion.speed_m_s),
         "turn_rate_rad_s": _finite(motion.turn_rate_rad_s),
@@ -68,21 +81,22 @@ def _motion(motion: Motion) -> Values:
     }
 
 
-def _written(robot: Robot, now_s: float) -> Values | None:
+def _written(robot: Robot, now_s: float) -> WrittenLine | None:
     if robot.written is None:
         return None
     line, at_s = robot.written
     return {"line": line, "age_s": now_s - at_s, "is_acknowledged": robot.is_acknowledged()}
 
 
-def _reasons(faults: Iterable[Fault]) -> list[dict[str, str]]:
+def _reasons(faults: Iterable[Fault]) -> list[FaultView]:
     return [{"name": fault.name, "reason": fault.reason} for fault in faults]
 
 
-def _link(robot: Robot, port: str, link: PortLink, now_s: float) -> Values:
+def _link(robot: Robot, port: str, link: PortLink, now_s: float) -> WardenLink:
     connection = link.connection
     waiting_s = connection.unacknowledged_s(now_s)
-    state, reason = "connected", ""
+    state: LinkState = "connected"
+    reason = ""
     if not connection.is_up:
         state, reason = ("lost" if link.has_connected else "connecting"), connection.reason
     elif waiting_s >= MAX_UNACKNOWLEDGED_S:
@@ -98,12 +112,11 @@ def _link(robot: Robot, port: str, link: PortLink, now_s: float) -> Values:
     }
 
 
-def _position(robot: Robot, origin: Origin, now_s: float) -> Values | None:
-    del origin
+def _position(robot: Robot, now_s: float) -> Position | None:
     plan, values, age_s = _read(robot, Quantity.POSITION, now_s)
     if plan is None or not all(map(_is_number, values)):
         return None
-    x_m, y_m = robot.position_m(plan.port)
+    x_m, y_m = cast("Point", robot.position_m(plan.port))
     return {
         "port": plan.port,
         "x_m": x_m,
@@ -115,30 +128,25 @@ def _position(robot: Robot, origin: Origin, now_s: float) -> Values | None:
     }
 
 
-def _heading(robot: Robot, origin: Origin, now_s: float) -> Values | None:
+def _heading(robot: Robot, origin: Origin, now_s: float) -> Heading | None:
     plan, values, age_s = _read(robot, Quantity.HEADING, now_s)
     if plan is None or not all(map(_is_number, values)):
         return None
-    world_deg = world_heading_deg(origin, values[0])
     return {
         "port": plan.port,
         "magnetic_deg": values[0],
-        "world_deg": world_deg,
+        "world_deg": world_heading_deg(origin, values[0]),
         "age_s": age_s,
     }
 
 
-def _ranges(robot: Robot, origin: Origin, now_s: float) -> Values | None:
-    del origin
+def _ranges(robot: Robot, now_s: float) -> Ranges | None:
     plan, values, age_s = _read(robot, Quantity.RANGES, now_s)
     if plan is None:
         return None
     is_known = [each is not None and not math.isnan(each) for each in values]
     values_m = [_finite(each) for each in values]
     return {"port": plan.port, "values_m": values_m, "is_known": is_known, "age_s": age_s}
-
-
-_READINGS = {"position": _position, "heading": _heading, "ranges": _ranges}
 
 
 def _read(
@@ -152,7 +160,7 @@ def _read(
     return None, (), math.inf
 
 
-def _battery(robot: Robot) -> Values | None:
+def _battery(robot: Robot) -> Battery | None:
     plan, values, _ = _read(robot, Quantity.BATTERY, 0.0)
     if plan is not None and all(map(_is_number, values)):
         return {"share": values[0], "is_estimated": False}
@@ -161,7 +169,7 @@ def _battery(robot: Robot) -> Values | None:
     return None if used is None else {"share": 1.0 - used, "is_estimated": True}
 
 
-def _waypoint(goal: Mapping[str, Any], origin: Origin) -> Values:
+def _waypoint(goal: Mapping[str, Any], origin: Origin) -> Waypoint:
     x_m, y_m = goal["at_m"]
     latitude_deg, longitude_deg = geographic_of(origin, x_m, y_m)
     return {
@@ -180,6 +188,6 @@ def _is_number(value: float | None) -> bool:
     return value is not None and math.isfinite(value)
 
 
-def _finite(value: float | None) -> float | None:
+def _finite(value: float | None) -> Any:  # of setpoints, all are
     """Return a number that JSON has; None for others."""
     return value if value is not None and math.isfinite(value) else None

@@ -42,7 +42,7 @@ export function extendTrails(trails: Map<string, Point[]>, robots: WardenRobot[]
 /** A view of all fences, robots and waypoints; null if there are none. */
 export function fitMap({ drive, robots }: MapScene, width: number, height: number): Camera | null {
   const points = [
-    ...Object.values(drive.robots ?? {}).flatMap(({ fence_m }) => fence_m ?? []),
+    ...Object.values(drive.robots).flatMap(({ fence_m }) => fence_m ?? []),
     ...robots
       .flatMap(({ position, waypoints }) => [...(position ? [position] : []), ...waypoints])
       .map(placeOf),
@@ -66,7 +66,7 @@ export function drawMap(pen: Pen, scene: MapScene): void {
   context.fillRect(0, 0, camera.width, camera.height);
   context.font = "12px system-ui, sans-serif";
   drawGrid(pen);
-  for (const robot of scene.robots) drawFence(pen, scene.drive.robots?.[robot.name]?.fence_m ?? []);
+  for (const robot of scene.robots) drawFence(pen, scene.drive.robots[robot.name]?.fence_m ?? []);
   for (const robot of scene.robots) drawTrail(pen, scene.trails.get(robot.name) ?? []);
   for (const robot of scene.robots) drawWaypoints(pen, robot);
   for (const robot of scene.robots) drawRobot(pen, scene, robot);
@@ -174,7 +174,7 @@ function drawFans(
   at: Point,
   heading: number,
 ) {
-  const sonars = scene.drive.robots?.[robot.name]?.sonars ?? [];
+  const sonars = scene.drive.robots[robot.name]?.sonars ?? [];
   sonars.forEach(({ facing_deg, max_m }, i) => {
     const value_m = robot.ranges?.values_m[i];
     if (value_m === undefined || !robot.ranges?.is_known[i]) return;

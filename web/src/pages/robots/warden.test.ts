@@ -2,8 +2,8 @@ import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { WardenRobot, WardenState } from "../../api/warden";
 import { WardenSession } from "./warden.svelte";
 
-const origin = { latitude_deg: 0, longitude_deg: 0 };
-const drive = { warden: { port: 1, token: "secret" }, fleet: "bender", origin };
+const origin = { latitude_deg: 0, longitude_deg: 0, rotation_deg: 0, declination_deg: 0 };
+const drive = { warden: { port: 1, token: "secret" }, fleet: "bender", origin, robots: {} };
 const ahead = { left: 175, right: 175 };
 const isAhead = ({ left }: Record<string, unknown>) => left === ahead.left;
 
