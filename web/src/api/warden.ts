@@ -1,4 +1,4 @@
-import type { Drive, FaultView, Level, Warden } from "./generated/warden";
+import type { Drive, Level, Warden } from "./generated/warden";
 import { tokenFields } from "./token";
 
 export type * from "./generated/warden";
@@ -15,7 +15,7 @@ export interface Angle {
 export type Answer<Body> =
   | { kind: "answered"; body: Body }
   /** The request is not possible now. */
-  | { kind: "conflict"; reasons: FaultView[] }
+  | { kind: "conflict"; message: string }
   /** The token is wrong, or this page's origin is not the warden's. */
   | { kind: "refused" }
   | { kind: "failed" };
@@ -60,14 +60,12 @@ export async function ask<Body>(
     if (response.status === 401 || response.status === 403) return { kind: "refused" };
     const content: unknown = await response.json();
     if (response.ok) return { kind: "answered", body: content as Body };
-    return { kind: "conflict", reasons: reasonsOf(content) };
+    const { message } = (content ?? {}) as { message?: unknown };
+    return {
+      kind: "conflict",
+      message: typeof message === "string" ? message : "The warden gave no reason.",
+    };
   } catch {
     return { kind: "failed" };
   }
-}
-
-/** The reason of a refusal. */
-function reasonsOf(content: unknown): FaultView[] {
-  const { message } = (content ?? {}) as { message?: unknown };
-  return [{ name: "refused", reason: typeof message === "string" ? message : "The warden gave no reason." }];
 }

@@ -11,7 +11,6 @@ import { onEmergencyStop } from "../../shared/emergency_stop";
 import { type Connection, type ConnectionEvent, lastOf, next } from "./connection";
 import { Deadman, isNeutral, onHoldEnd, type Tracks } from "./deadman";
 import { eventOf, Poller } from "./poller";
-import { readable } from "./words";
 
 const maxEvents = 1000;
 const limit_ms = 2000;
@@ -150,7 +149,7 @@ function refusalOf(answer: Answer<unknown>): string {
     case "answered":
       return "";
     case "conflict":
-      return answer.reasons.map(({ name, reason }) => `${readable(name)}: ${reason}`).join("; ");
+      return `refused: ${answer.message}`;
     case "refused":
       return "The warden does not accept this page.";
     case "failed":
