@@ -13,24 +13,22 @@ The status is 1 if a cell or a direction fails.
 """
 
 import argparse
-import csv
 import math
 import sys
-import time
-from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass, fields, replace
-from typing import Any, get_type_hints
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
-from page import ROOT, is_stale, table
-from plots import INK, Row, Spec, page_of, panel, picture, plain, points
+from page import ROOT, Page, table
+from plots import Row, Spec, page_of, panel, path, points
+from scipy import stats
 
 import agent_economy as ae
 from agent_economy.scenario import Override
 
-FOLDER = ROOT / "docs" / "mines"
-PAGE = FOLDER.with_suffix(".md")
+PAGE = Page("mines")
 
 SEED = 2
 RISKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.9)
@@ -159,10 +157,11 @@ def main() -> None:
     options = parser.parse_args()
     if not options.draw:
         measure(options.scale)
-    cells, directions = read("calibration", Cell), read("directions", Direction)
-    draw(cells, directions)
+    cells, moved = PAGE.read("calibration", Cell), PAGE.read("directions", Direction)
+    tables = {"calibration": of_cells(cells), "directions": of_directions(moved)}
+    PAGE.draw(lambda name: tables[name], {"calibration": chart(cells)})
     failed = [f"{each.series}, {each.declare_below:g}" for each in cells if is_failed(each)]
-    failed += [each.claim for each in directions if is_failed(each)]
+    failed += [each.claim for each in moved if is_failed(each)]
     sys.exit(f"failed: {'; '.join(failed)}" if failed else 0)
 
 
@@ -176,14 +175,9 @@ def is_failed(each: Cell | Direction) -> bool:
 
 def measure(scale: float) -> None:
     """Run everything, and write the measurements as they come."""
-    FOLDER.mkdir(exist_ok=True)
-    write("calibration", Cell, (cell(*each, scale) for each in all_cells()))
-    write("directions", Direction, directions(scale))
-
-
-def all_cells() -> Iterable[tuple[Series, float]]:
-    """Yield each series with each of its risks."""
-    return ((series, risk) for series in SERIES for risk in series.risks)
+    cells = (cell(series, risk, scale) for series in SERIES for risk in series.risks)
+    PAGE.write("calibration", Cell, cells)
+    PAGE.write("directions", Direction, directions(scale))
 
 
 def scenario(changes: Changes, lane: Changes = SMALL) -> ae.Scenario:
@@ -191,12 +185,6 @@ def scenario(changes: Changes, lane: Changes = SMALL) -> ae.Scenario:
     bundled = ae.Scenario.load(ROOT / "scenarios" / "mines.toml")
     every = (lane | changes).items()
     return bundled.changed(tuple(Override.at(path, value, "change") for path, value in every))
-
-
-def column(runs: Any, name: str) -> np.ndarray:
-    """Return a column as numbers."""
-    values: np.ndarray = runs[name].to_numpy().astype(np.float64)
-    return values
 
 
 def cell(series: Series, risk: float, scale: float) -> Cell:
@@ -214,14 +202,12 @@ def cell(series: Series, risk: float, scale: float) -> Cell:
 
 def counted(series: Series, risk: float, runs: Any) -> Cell:
     """Return what was stated and what was true in some runs."""
-    is_declared = column(runs, "declared") > 0
-    declared = int(is_declared.sum())
-    if declared == 0:
+    declared = runs.filter(runs["declared"])
+    if len(declared) == 0:
         return Cell(series.name, risk, len(runs), 0, 1.0, 0.0, 1.0, "undecided")
-    stated = float(np.mean(column(runs, "stated_risk")[is_declared]))
-    not_clear = float(np.mean(column(runs, "declared_not_clear")[is_declared]))
-    error = math.sqrt(stated * (1 - stated) / declared)
-    return Cell(series.name, risk, len(runs), declared, stated, not_clear, error, "")
+    stated, not_clear = np.mean(declared["stated_risk"]), np.mean(declared["declared_not_clear"])
+    error = math.sqrt(stated * (1 - stated) / len(declared))
+    return Cell(series.name, risk, len(runs), len(declared), stated, not_clear, error, "")
 
 
 def needed(one: Cell) -> float:
@@ -267,12 +253,13 @@ def direction(
 ) -> Direction:
     """Return how a change moves a column: by two standard errors in the expected direction."""
     name, sign = expected
-    before, after = (column(ae.replicate(scenario(side), number, SEED), name) for side in sides)
-    difference = after - before
-    error = float(np.std(difference, ddof=1)) / math.sqrt(number)
-    sigmas = sign * float(np.mean(difference)) / error if error > 0 else 0.0
-    means = (float(np.mean(before)), float(np.mean(after)))
-    return Direction(claim, name, number, *means, sigmas, "passes" if sigmas > SIGMAS else "fails")
+    before, after = (
+        np.array(ae.replicate(scenario(side), number, SEED)[name], float) for side in sides
+    )
+    error = stats.sem(after - before)
+    sigmas = sign * np.mean(after - before) / error if error > 0 else 0.0
+    verdict = "passes" if sigmas > SIGMAS else "fails"
+    return Direction(claim, name, number, np.mean(before), np.mean(after), sigmas, verdict)
 
 
 def dearer(number: int) -> Direction:
@@ -282,63 +269,20 @@ def dearer(number: int) -> Direction:
     enough = []
     for oavs, ugvs in teams:
         team = slow | {"robots.oav.count": oavs, "robots.ugv.count": ugvs}
-        clear = column(ae.replicate(scenario(team, lane={}), number, SEED), "declared_clear")
-        if float(np.mean(clear)) >= CLEAR_SHARE:
+        runs = ae.replicate(scenario(team, lane={}), number, SEED)
+        if np.mean(runs["declared_clear"]) >= CLEAR_SHARE:
             enough.append((oavs, ugvs))
 
     def cheapest(price: float) -> int:
-        return min(enough, key=lambda team: (15_000 * team[0] + price * team[1], team))[1]
+        costs = [(15_000 * oavs + price * ugvs, oavs, ugvs) for oavs, ugvs in enough]
+        return min(costs, default=(0.0, 0, 0))[-1]
 
-    if not enough:
-        return Direction("a dearer ground vehicle", "robots.ugv", number, 0, 0, 0, "fails")
     before, after = cheapest(1_000), cheapest(300_000)
     passes = "passes" if after < before else "fails"
     return Direction("a dearer ground vehicle", "robots.ugv", number, before, after, 0, passes)
 
 
-def write(name: str, kind: type, rows: Iterable[Any]) -> None:
-    """Write rows to a CSV file as they come, with six digits."""
-    with (FOLDER / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, [each.name for each in fields(kind)], lineterminator="\n")
-        writer.writeheader()
-        began_s = time.monotonic()
-        for row in rows:
-            values = asdict(row).items()
-            short = {
-                key: f"{value:.6g}" if isinstance(value, float) else value for key, value in values
-            }
-            writer.writerow(short)
-            file.flush()
-            print(f"{time.monotonic() - began_s:.0f} s: {short}", flush=True)
-
-
-def read(name: str, kind: Callable[..., Any]) -> list[Any]:
-    """Return the rows of a CSV file."""
-    types = get_type_hints(kind)
-    with (FOLDER / f"{name}.csv").open(encoding="utf-8", newline="") as file:
-        rows = csv.DictReader(file)
-        return [kind(**{key: types[key](value) for key, value in row.items()}) for row in rows]
-
-
 # Drawn.
-
-
-def draw(cells: list[Cell], moved: list[Direction]) -> None:
-    """Write the chart and the tables of the page, if they are stale."""
-    text = PAGE.read_text(encoding="utf-8")
-    for name, made in (("calibration", of_cells(cells)), ("directions", of_directions(moved))):
-        text = with_block(text, name, made)
-    for file, content in ((FOLDER / "calibration.svg", picture(chart(cells))), (PAGE, text)):
-        if is_stale(file, content):
-            file.write_text(content, encoding="utf-8")
-            print(file.relative_to(ROOT))
-
-
-def with_block(text: str, name: str, made: str) -> str:
-    """Return a page with another content of a block."""
-    start, rest = text.split(f"<!-- {name} -->\n")
-    _, end = rest.split("<!-- end -->", 1)
-    return f"{start}<!-- {name} -->\n{made}\n<!-- end -->{end}"
 
 
 def of_cells(cells: list[Cell]) -> str:
@@ -383,12 +327,7 @@ def chart(cells: list[Cell]) -> Spec:
         for each in cells
     ]
     ends = [{"x": risk, "y": risk} for risk in (0.0, max(row.x for row in rows))]
-    same = {
-        "data": {"values": ends},
-        "mark": {"type": "line", "color": INK, "strokeWidth": 1},
-        "encoding": plain(),
-    }
-    layers = [same, *points(rows)]
+    layers = [path(ends, strokeWidth=1), *points(rows)]
     return page_of(panel(layers, "stated risk", "share of declared lanes not clear"))
 
 

@@ -4,20 +4,26 @@ A table is between `<!-- NAME -->` and `<!-- end -->`. The measurements and the 
 folder next to the page that has its name.
 """
 
+import csv
 import re
 import sys
+import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, fields
 from pathlib import Path
+from typing import Any, TypeVar
 
+import msgspec
 from plots import Spec, picture
 
 ROOT = Path(__file__).resolve().parent.parent
 
+Kind = TypeVar("Kind")
+
 
 @dataclass(frozen=True)
 class Page:
-    """A page of docs, which `make NAME` measures and generates."""
+    """A page of docs."""
 
     name: str
 
@@ -25,6 +31,26 @@ class Page:
     def folder(self) -> Path:
         """Return the folder of its measurements and charts."""
         return ROOT / "docs" / self.name
+
+    def write(self, name: str, kind: type, rows: Iterable[Any]) -> None:
+        """Write rows of a dataclass to a CSV as they come, with six digits, and print them."""
+        began_s = time.monotonic()
+        with (self.folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(field.name for field in fields(kind))
+            for row in rows:
+                short = [float(f"{x:.6g}") if isinstance(x, float) else x for x in astuple(row)]
+                writer.writerow(short)
+                file.flush()
+                print(f"{time.monotonic() - began_s:.0f} s:", *short, flush=True)
+
+    def read(self, name: str, kind: type[Kind]) -> list[Kind]:
+        """Return the rows of a CSV; an empty cell is None."""
+        with (self.folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+            return [
+                msgspec.convert({key: x or None for key, x in row.items()}, kind, strict=False)
+                for row in csv.DictReader(file)
+            ]
 
     def draw(self, table: Callable[[str], str], pictures: dict[str, Spec]) -> None:
         """Write the stale tables and charts, which are identified by their names.

@@ -83,6 +83,11 @@ class Axes:
 LINEAR = Axes()
 
 
+def interval(value: float, error: float, digits: int = 1) -> str:
+    """Return a number with its 95% interval."""
+    return f"{value:.{digits}f} ± {Z95 * error:.{digits}f}"
+
+
 def picture(spec: Spec) -> str:
     """Return a chart as SVG, with a hash of its specification at the end."""
     drawn = json.dumps(spec, sort_keys=True).encode()
@@ -119,16 +124,33 @@ def points(some: Iterable[Row], *, legend: bool = True) -> list[Spec]:
 def curves(some: Iterable[Row], interpolate: str = "linear") -> list[Spec]:
     """Return the closed forms of series as connected lines."""
     forms = [{**values(row), "y": row.expected} for row in some if row.expected is not None]
-    curve = line()
-    curve["mark"]["interpolate"] = interpolate
-    return [{**curve, "data": {"values": forms}}]
+    return [lines(forms, interpolate=interpolate)]
+
+
+def connected(some: Iterable[Row], *, legend: bool = True) -> list[Spec]:
+    """Return points with their 95% intervals, connected by a line for each series."""
+    some = list(some)
+    return [lines([values(row) for row in some]), *points(some, legend=legend)]
+
+
+def lines(data: list[dict[str, Any]], **mark: str) -> Spec:
+    """Return a thin line for each series of the data."""
+    line = path(data, strokeWidth=1, **mark)
+    line["encoding"]["detail"] = {"field": "series", "type": "nominal"}
+    return line
 
 
 def line() -> Spec:
     """Return a thin line for each series, without its data."""
+    return {key: part for key, part in lines([]).items() if key != "data"}
+
+
+def path(places: list[dict[str, Any]], **mark: Any) -> Spec:
+    """Return a line through places."""
     return {
-        "mark": {"type": "line", "color": INK, "strokeWidth": 1},
-        "encoding": {**plain(), "detail": {"field": "series", "type": "nominal"}},
+        "data": {"values": places},
+        "mark": {"type": "line", "color": INK, **mark},
+        "encoding": plain(),
     }
 
 
