@@ -8,17 +8,17 @@ and `<!-- end -->`. Examples:
     python scripts/economy.py --check  exit with 1 if pictures or page are stale
 """
 
-import csv
 import math
 import sys
-import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, fields
-from typing import Any, get_type_hints
+from dataclasses import dataclass, fields
+from itertools import groupby, product
+from typing import Any
 
 import numpy as np
 from page import ROOT, Page, table
-from plots import Z95, Axes, Row, Spec, line, page_of, panel, points, values
+from plots import Axes, Row, Spec, connected, interval, page_of, panel
+from scipy import stats
 
 import agent_economy as ae
 
@@ -37,6 +37,7 @@ LOSS = ("robots.rover.radio.loss_probability", "controllers.base.radio.loss_prob
 BANDWIDTH = ("robots.rover.radio.messages_per_step", "controllers.base.radio.messages_per_step")
 FAILURES = "robots.rover.mean_time_between_failures_s"
 CONTROLLER_FAILURES = "controllers.base.mean_time_between_failures_s"
+LOST = {CONTROLLER_FAILURES: MISSION_S}
 LEASE = "controllers.base.service_lease_s"
 START = "robots.rover.start"
 
@@ -106,12 +107,12 @@ class Case:
     """A table of the page: a number that varies, by rule."""
 
     name: str
-    runs: int
     rules: tuple[str, ...]
     varied: str
     numbers: tuple[float, ...]
-    changes: Callable[[float], Changes]
+    changes: Callable[[Any], Changes]
     scenario: ae.Scenario = WAYPOINTS
+    runs: int = 100
 
     def all_changes(self, rule: str, number: float) -> Changes:
         """Return what differs from the scenario for a rule and a number."""
@@ -141,162 +142,87 @@ class Result:
     messages_dropped: float
 
 
-def both(keys: tuple[str, str], value: float) -> Changes:
-    """Return a change of robots and controllers."""
-    return dict.fromkeys(keys, value)
-
-
 def failing(share: float) -> Changes:
     """Return failures that stop a share of the robots during a mission, on average."""
     return {FAILURES: -MISSION_S / math.log(1 - share)} if share > 0 else {}
 
 
-def crowd(robots: float) -> Changes:
+def narrow(messages: int) -> Changes:
+    """Return radios of sixteen robots and of controllers that send few messages per step."""
+    return {ROBOTS: 16, **dict.fromkeys(BANDWIDTH, messages)}
+
+
+def crowd(robots: int) -> Changes:
     """Return a team that starts anywhere: the start area of the scenario is too small for it."""
-    return {ROBOTS: int(robots), START: {"kind": "uniform"}}
+    return {ROBOTS: robots, START: {"kind": "uniform"}}
 
 
-ALL = tuple(RULES)
 TWO = ("messages", "auction", "auction and messages")
+AWARDING = ("auction", "auction and messages")
+LASTING = ("messages", "auction", "fixed plan", "auction and messages")
+SHARES = (0, 0.1, 0.2, 0.3, 0.4, 0.5)
+LOSSES = (0, 0.1, 0.3, 0.5, 0.7, 0.9)
 
 CASES = [
-    Case("rules", 100, ALL, "robots", (2, 4, 8, 16, 32), lambda n: {ROBOTS: int(n)}),
+    Case("rules", tuple(RULES), "robots", (2, 4, 8, 16, 32), lambda n: {ROBOTS: n}),
+    Case("failures", LASTING, "share of robots lost", SHARES, failing),
+    Case("loss", TWO, "lost messages", LOSSES, lambda p: dict.fromkeys(LOSS, p)),
+    Case("bandwidth", TWO, "messages per step", (2, 4, 8, 16, 32), narrow),
+    Case("controllers", AWARDING, "controllers", (1, 2, 3), lambda n: {CONTROLLERS: n}),
     Case(
-        "failures",
-        100,
-        ("messages", "auction", "fixed plan", "auction and messages"),
-        "share of robots lost",
-        (0, 0.1, 0.2, 0.3, 0.4, 0.5),
-        failing,
+        "lost_controllers", AWARDING, "controllers", (1, 2, 3), lambda n: {CONTROLLERS: n, **LOST}
     ),
-    Case("loss", 100, TWO, "lost messages", (0, 0.1, 0.3, 0.5, 0.7, 0.9), lambda p: both(LOSS, p)),
-    Case(
-        "bandwidth",
-        100,
-        TWO,
-        "messages per step",
-        (2, 4, 8, 16, 32),
-        lambda n: {ROBOTS: 16, **both(BANDWIDTH, int(n))},
-    ),
-    Case(
-        "controllers",
-        100,
-        ("auction", "auction and messages"),
-        "controllers",
-        (1, 2, 3),
-        lambda n: {CONTROLLERS: int(n)},
-    ),
-    Case(
-        "lost_controllers",
-        100,
-        ("auction", "auction and messages"),
-        "controllers",
-        (1, 2, 3),
-        lambda n: {CONTROLLERS: int(n), CONTROLLER_FAILURES: MISSION_S},
-    ),
-    Case("crowd", 5, ("messages", "auction"), "robots", (1, 10, 100, 300, 1000), crowd),
-    Case(
-        "search",
-        100,
-        tuple(SEARCHES),
-        "robots",
-        (1, 2, 4, 8, 16),
-        lambda n: {ROBOTS: int(n)},
-        AREA_SEARCH,
-    ),
+    Case("crowd", ("messages", "auction"), "robots", (1, 10, 100, 300, 1000), crowd, runs=5),
+    Case("search", tuple(SEARCHES), "robots", (1, 2, 4, 8, 16), lambda n: {ROBOTS: n}, AREA_SEARCH),
 ]
 
 
 def main() -> None:
     """Measure, draw or check."""
     if not {"--check", "--draw"} & set(sys.argv[1:]):
-        measure()
-    PAGE.draw(lambda name: BLOCKS[name](), specifications())
+        PAGE.write("cases", Result, measured())
+    PAGE.draw(of_case, specifications())
 
 
-# Measured.
-
-
-def measure() -> None:
-    """Run everything, and write the means."""
-    PAGE.folder.mkdir(exist_ok=True)
-    with (PAGE.folder / "cases.csv").open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, [each.name for each in fields(Result)], lineterminator="\n")
-        writer.writeheader()
-        for case in CASES:
-            writer.writerows(asdict(result) for result in results(case))
-            file.flush()
-
-
-def results(case: Case) -> Iterator[Result]:
-    """Yield the means of each rule and number, all in the same worlds."""
-    for rule in case.rules:
-        for number in case.numbers:
-            began_s = time.monotonic()
+def measured() -> Iterator[Result]:
+    """Yield the means of each case, rule and number, all in the same worlds."""
+    for case in CASES:
+        for rule, number in product(case.rules, case.numbers):
             scenario = case.scenario
             for path, value in case.all_changes(rule, number).items():
                 scenario = scenario.replace(path, value)
-            yield result(case, rule, number, scenario)
-            took_s = time.monotonic() - began_s
-            print(f"{case.name}: {rule}, {number:g}: {took_s:.1f} s", flush=True)
+            yield result(case, rule, number, ae.replicate(scenario, case.runs, SEED))
 
 
-def result(case: Case, rule: str, number: float, scenario: ae.Scenario) -> Result:
+def result(case: Case, rule: str, number: float, runs: Any) -> Result:
     """Return the means of the runs of a scenario."""
-    runs = ae.replicate(scenario, case.runs, SEED)
-
-    def mean(name: str) -> float:
-        return short(float(np.mean(runs[name].to_numpy().astype(np.float64))))
-
-    times_s = runs["time_s"].to_numpy().astype(np.float64)
-    named = [each.name for each in fields(Result)][6:]
-    return Result(
-        case.name,
-        rule,
-        number,
-        case.runs,
-        mean("time_s"),
-        short(float(np.std(times_s, ddof=1) / math.sqrt(len(times_s)))),
-        *(mean(name) for name in named),
-    )
-
-
-def short(value: float) -> float:
-    """Return a number with six digits."""
-    return float(f"{value:.6g}")
-
-
-def read() -> list[Result]:
-    """Return the rows of the CSV."""
-    types = get_type_hints(Result)
-    with (PAGE.folder / "cases.csv").open(encoding="utf-8", newline="") as file:
-        return [
-            Result(**{key: types[key](value) for key, value in row.items()})
-            for row in csv.DictReader(file)
-        ]
+    names = {each.name for each in fields(Result)}.intersection(runs.column_names)
+    means = {name: np.mean(runs[name]) for name in names}
+    error_s = stats.sem(runs["time_s"])
+    return Result(case.name, rule, number, case.runs, time_error_s=error_s, **means)
 
 
 # Tables.
 
 
-def of_case(name: str, cell: Callable[[Result], str]) -> Callable[[], str]:
-    """Return what makes a table with a row for each rule and a column for each number."""
+def read(name: str) -> tuple[Case, list[Result]]:
+    """Return a case with its results."""
+    (case,) = (each for each in CASES if each.name == name)
+    return case, [each for each in PAGE.read("cases", Result) if each.case == name]
 
-    def made() -> str:
-        case = next(each for each in CASES if each.name == name)
-        found = {(each.rule, each.number): each for each in read() if each.case == name}
-        rows = [
-            [rule, *(cell(found[rule, float(number)]) for number in case.numbers)]
-            for rule in case.rules
-        ]
-        return table([case.varied, *(f"{number:g}" for number in case.numbers)], rows)
 
-    return made
+def of_case(name: str) -> str:
+    """Return the table CASE, of times, or CASE_CELL: a row per rule, a column per number."""
+    first, _, last = name.rpartition("_")
+    case, own = read(first if last in CELLS else name)
+    cell = CELLS.get(last, seconds)
+    lines = ([rule, *map(cell, each)] for rule, each in groupby(own, lambda each: each.rule))
+    return table([case.varied, *(f"{number:g}" for number in case.numbers)], lines)
 
 
 def seconds(each: Result) -> str:
     """Return the time of a mission with its 95% interval."""
-    text = f"{each.time_s:.0f} ± {Z95 * each.time_error_s:.0f}"
+    text = interval(each.time_s, each.time_error_s, 0)
     return text if each.complete == 1 else f"{text} ({each.complete:.0%} complete)"
 
 
@@ -311,24 +237,13 @@ def radio(each: Result) -> str:
     return f"{each.messages_sent:,.0f}, {each.messages_dropped:,.0f} dropped"
 
 
-BLOCKS: dict[str, Callable[[], str]] = {
-    "rules_time": of_case("rules", seconds),
-    "rules_twice": of_case("rules", lambda each: f"{each.served_twice:.1f}"),
-    "rules_distance": of_case("rules", lambda each: f"{each.distance_m:,.0f}"),
-    "rules_split": of_case("rules", split),
-    "rules_radio": of_case("rules", radio),
-    "failures": of_case("failures", seconds),
-    "failures_served": of_case("failures", lambda each: f"{each.served:.1f}"),
-    "loss": of_case("loss", seconds),
-    "loss_twice": of_case("loss", lambda each: f"{each.served_twice:.1f}"),
-    "bandwidth": of_case("bandwidth", seconds),
-    "bandwidth_twice": of_case("bandwidth", lambda each: f"{each.served_twice:.1f}"),
-    "controllers": of_case("controllers", seconds),
-    "lost_controllers": of_case("lost_controllers", seconds),
-    "search": of_case("search", seconds),
-    "search_served": of_case("search", lambda each: f"{each.served:.1f}"),
-    "crowd": of_case("crowd", seconds),
-    "crowd_twice": of_case("crowd", lambda each: f"{each.served_twice:.1f}"),
+CELLS: dict[str, Callable[[Result], str]] = {
+    "time": seconds,
+    "twice": lambda each: f"{each.served_twice:.1f}",
+    "served": lambda each: f"{each.served:.1f}",
+    "distance": lambda each: f"{each.distance_m:,.0f}",
+    "split": split,
+    "radio": radio,
 }
 
 
@@ -348,12 +263,10 @@ def drawn(
     name: str, title: str, number: Callable[[Result], tuple[float, float]], *, log: bool = False
 ) -> Spec:
     """Return a number of a case by what varies, with a curve for each rule."""
-    case = next(each for each in CASES if each.name == name)
-    own = [each for each in read() if each.case == name]
+    case, own = read(name)
     some = [Row(each.rule, each.number, *number(each), None) for each in own]
-    layers = [{**line(), "data": {"values": [values(row) for row in some]}}, *points(some)]
     axes = Axes("log" if log else "linear", x_ticks=case.numbers)
-    return page_of(panel(layers, case.varied, title, width=520, axes=axes))
+    return page_of(panel(connected(some), case.varied, title, width=520, axes=axes))
 
 
 if __name__ == "__main__":
