@@ -11,12 +11,10 @@ from collections.abc import Callable, Iterable
 from itertools import takewhile
 
 from brain_measurements import Answered, Measurements
+from plots import Z95
 
 NUMBERS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 """Numbers up to ten are words."""
-
-Z95 = 1.96
-"""Half of a 95% interval, in standard errors."""
 
 SMALL_TEAM = 4
 RADIO_TEAMS = (3, 4, 6, 8)
@@ -48,6 +46,11 @@ def wrapped(text: str) -> str:
     return textwrap.fill(
         text, 110, subsequent_indent=indent, break_on_hyphens=False, break_long_words=False
     )
+
+
+def listed(title: str, items: Iterable[str]) -> str:
+    """Return a list below its title."""
+    return "\n".join(map(wrapped, (title, "", *items)))
 
 
 def verify(holds: bool, claim: str) -> None:  # noqa: FBT001  (a condition, as in assert)
@@ -84,12 +87,12 @@ def votes(studies: Iterable[Answered]) -> str:
     return ", ".join(f"{size} ({count} of {total})" for size, count in sorted(counts.items()))
 
 
-def mean_time_s(studies: tuple[Answered, ...]) -> float:
+def mean_time_s(studies: list[Answered]) -> float:
     """Return the mean time of the teams that studies selected."""
     return sum(study.time_s for study in studies) / len(studies)
 
 
-def mean_size(studies: tuple[Answered, ...]) -> float:
+def mean_size(studies: list[Answered]) -> float:
     """Return the mean size of the teams that studies selected."""
     return sum(study.robots for study in studies) / len(studies)
 
@@ -134,15 +137,8 @@ def large_teams_differ_less(data: Measurements) -> None:
 
 def helps(data: Measurements) -> str:
     """Return what helps."""
-    sentences = (
-        best_with_radio(data),
-        "",
-        fastest_brains(data),
-        radio_helps(data),
-        rate_helps(data),
-        few_collisions(data),
-    )
-    return "\n".join(map(wrapped, sentences))
+    items = (fastest_brains, radio_helps, rate_helps, few_collisions)
+    return listed(best_with_radio(data), (item(data) for item in items))
 
 
 def best_with_radio(data: Measurements) -> str:
@@ -220,16 +216,8 @@ def few_collisions(data: Measurements) -> str:
 
 def does_not_help(data: Measurements) -> str:
     """Return what does not help."""
-    sentences = (
-        "**What does not help.**",
-        "",
-        single_robot(data),
-        memory_alone(data),
-        lawnmower_alone(data),
-        bounce(data),
-        large_teams(data),
-    )
-    return "\n".join(map(wrapped, sentences))
+    items = (single_robot, memory_alone, lawnmower_alone, bounce, large_teams)
+    return listed("**What does not help.**", (item(data) for item in items))
 
 
 def single_robot(data: Measurements) -> str:

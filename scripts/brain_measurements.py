@@ -1,15 +1,26 @@
 """What docs/brain-comparison.md is about: the rows of its CSVs, by brain."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Team:
-    """Results of a team size: means, each with its standard error."""
+class Brain:
+    """A brain, alone or with radio."""
 
     brain: str
     radio: str
+
+    @property
+    def label(self) -> str:
+        """Return what the page calls it."""
+        return f"{self.brain}, radio" if self.radio == "radio" else self.brain
+
+
+@dataclass(frozen=True)
+class Team(Brain):
+    """Results of a team size: means, each with its standard error."""
+
     robots: int
     runs: int
     time_s: float
@@ -38,11 +49,9 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Answered:
+class Answered(Brain):
     """The answer of a study of a brain's team size."""
 
-    brain: str
-    radio: str
     seed: int
     robots: int
     time_s: float
@@ -62,9 +71,9 @@ class Measurements:
         studies: Answers of each brain's studies.
     """
 
-    teams: Mapping[str, Mapping[int, Team]]
-    steps: Mapping[str, Mapping[int, Step]]
-    studies: Mapping[str, tuple[Answered, ...]]
+    teams: dict[str, dict[int, Team]]
+    steps: dict[str, dict[int, Step]]
+    studies: dict[str, list[Answered]]
 
     @property
     def sizes(self) -> list[int]:
