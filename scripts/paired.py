@@ -1,8 +1,8 @@
 """Comparison of two searches in the same worlds, for docs/validation.md."""
 
-import csv
-import math
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+
+from scipy import stats
 
 Z99 = 2.576
 """Standard errors on either side of a 99% interval."""
@@ -22,14 +22,19 @@ HEADER = [
 ]
 
 
-def compared(file: Path) -> list[list[str]]:
-    """Return a line per camera, from the times of all worlds."""
-    return [line(file, percent, time_limit_s) for percent, time_limit_s in CAMERAS]
+Worlds = Sequence[Mapping[str, float]]
+"""The times of each world, by column."""
 
 
-def line(file: Path, percent: int, time_limit_s: float) -> list[str]:
+def compared(worlds: Worlds) -> list[list[str]]:
+    """Return a line per camera."""
+    return [line(worlds, percent, time_limit_s) for percent, time_limit_s in CAMERAS]
+
+
+def line(worlds: Worlds, percent: int, time_limit_s: float) -> list[str]:
     """Return the times of both searches with a camera."""
-    both = [times(file, f"{percent}_{search}_s") for search in ("lawnmower", "bayesian_search")]
+    searches = ("lawnmower", "bayesian_search")
+    both = [[world[f"{percent}_{search}_s"] for world in worlds] for search in searches]
     low, ratio, high = interval(*both)
     means = [f"{sum(each) / len(each):.1f}" for each in both]
     capped = [str(sum(time >= time_limit_s for time in each)) for each in both]
@@ -38,16 +43,9 @@ def line(file: Path, percent: int, time_limit_s: float) -> list[str]:
     return [camera, *means, with_interval, f"{' and '.join(capped)} after {time_limit_s:,} s"]
 
 
-def times(file: Path, column: str) -> list[float]:
-    """Return the times of one search in all worlds."""
-    with file.open(encoding="utf-8", newline="") as rows:
-        return [float(row[column]) for row in csv.DictReader(rows)]
-
-
 def interval(slow: list[float], fast: list[float]) -> tuple[float, float, float]:
     """Return the ratio of the means of paired values, between the bounds of its 99% interval."""
     ratio = sum(fast) / sum(slow)
     off = [after - ratio * before for before, after in zip(slow, fast, strict=True)]
-    count = len(off)
-    error = math.sqrt(sum(each * each for each in off) * count / (count - 1)) / sum(slow)
+    error = stats.sem(off) * len(off) / sum(slow)
     return ratio - Z99 * error, ratio, ratio + Z99 * error

@@ -140,11 +140,6 @@ def lines(data: list[dict[str, Any]], **mark: str) -> Spec:
     return line
 
 
-def line() -> Spec:
-    """Return a thin line for each series, without its data."""
-    return {key: part for key, part in lines([]).items() if key != "data"}
-
-
 def path(places: list[dict[str, Any]], **mark: Any) -> Spec:
     """Return a line through places."""
     return {

@@ -7,7 +7,6 @@ The measurements are docs/validation/*.csv, which the simulator's tests write an
     python scripts/validation.py --check    exit with status 1 if they are out of date
 """
 
-import csv
 import math
 from functools import cache
 from itertools import groupby
@@ -23,14 +22,15 @@ from plots import (
     Axes,
     Row,
     Spec,
+    connected,
     curves,
-    line,
+    interval,
     page_of,
     panel,
+    path,
     plain,
     points,
     side_by_side,
-    values,
 )
 
 PAGE = Page("validation")
@@ -51,19 +51,9 @@ def made(name: str) -> str:
 
 
 @cache
-def rows(name: str) -> tuple[Row, ...]:
+def rows(name: str) -> list[Row]:
     """Return the measurements of a check."""
-    with (PAGE.folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
-        return tuple(
-            Row(
-                series=line["series"],
-                x=float(line["x"]),
-                measured=float(line["measured"]),
-                standard_error=float(line["standard_error"]),
-                expected=float(line["expected"]) if line["expected"] else None,
-            )
-            for line in csv.DictReader(file)
-        )
+    return PAGE.read(name, Row)
 
 
 # Tables.
@@ -84,15 +74,14 @@ def series_line(series: list[Row]) -> list[str]:
         series[0].series,
         str(len(series)),
         f"{best.x:g}",
-        interval(best),
+        with_interval(best),
         number(best.expected) if best.expected is not None else "none",
-        largest_deviation(series),
+        largest_deviation(compared),
     ]
 
 
-def largest_deviation(series: list[Row]) -> str:
-    """Return the largest deviation of a series from the closed form."""
-    compared = [row for row in series if row.expected is not None]
+def largest_deviation(compared: list[Row]) -> str:
+    """Return the largest deviation from the closed form."""
     if not compared:
         return ""
     if any(row.standard_error > 0 for row in compared):
@@ -100,13 +89,12 @@ def largest_deviation(series: list[Row]) -> str:
     return number(max(abs(row.measured - (row.expected or 0.0)) for row in compared))
 
 
-def interval(row: Row) -> str:
+def with_interval(row: Row) -> str:
     """Return a value with its 95% interval."""
     if row.standard_error == 0:
         return number(row.measured)
-    half = Z95 * row.standard_error
-    digits = max(0, 1 - math.floor(math.log10(half)))
-    return f"{row.measured:.{digits}f} ± {half:.{digits}f}"
+    digits = max(0, 1 - math.floor(math.log10(Z95 * row.standard_error)))
+    return interval(row.measured, row.standard_error, digits)
 
 
 def number(value: float) -> str:
@@ -159,18 +147,15 @@ def poses() -> str:
 
 def belief_search() -> str:
     """Return the times of both searches, over all worlds."""
-    return table(HEADER, compared(PAGE.folder / "belief-search.csv"))
+    return table(HEADER, compared(PAGE.read("belief-search", dict[str, float])))
 
 
 def deviation(name: str) -> tuple[str, str]:
     """Return the best precision of a check, and its largest deviation in standard errors."""
     compared = [row for row in rows(name) if row.expected is not None and row.standard_error > 0]
     best = min(row.precision for row in compared)
-    worst = max(abs(row.sigmas) for row in compared)
-    return (
-        f"{len(compared)} values, the most precise to {max(Z95 * best, 0.001):.1%}",
-        f"{worst:.1f} standard errors",
-    )
+    precision = f"{len(compared)} values, the most precise to {max(Z95 * best, 0.001):.1%}"
+    return precision, largest_deviation(compared)
 
 
 def largest(name: str) -> float:
@@ -226,17 +211,18 @@ def random_search() -> Spec:
     swept = [step / 50 for step in range(101)]
     law = [{"x": x, "y": 1 - math.exp(-x)} for x in swept]
     measured = [row for row in rows("random-search") if row.series != "all"]
-    label = {"x": 0.72, "y": 0.62, "text": "1 - exp(-n w v t / A)"}
-    layers = [
-        {"data": {"values": law}, "mark": {"type": "line", "color": INK}, "encoding": plain()},
-        {
-            "data": {"values": [label]},
-            "mark": {"type": "text", "align": "right", "color": INK},
-            "encoding": {**plain(), "text": {"field": "text"}},
-        },
-        *points(measured),
-    ]
+    label = text(0.72, 0.62, "1 - exp(-n w v t / A)", INK)
+    layers = [path(law), label, *points(measured)]
     return page_of(panel(layers, "swept area n w v t / A", "fraction of items found"))
+
+
+def text(x: float, y: float, words: str, colour: str) -> Spec:
+    """Return words that end at a place."""
+    return {
+        "data": {"values": [{"x": x, "y": y, "text": words}]},
+        "mark": {"type": "text", "align": "right", "color": colour},
+        "encoding": {**plain(), "text": {"field": "text"}},
+    }
 
 
 def simple(name: str, x: str, y: str, axes: Axes = LINEAR) -> Spec:
@@ -249,19 +235,15 @@ def simple(name: str, x: str, y: str, axes: Axes = LINEAR) -> Spec:
 def arcs() -> Spec:
     """Return the distance of bodies from their circles."""
     shown = [row for row in rows("arcs") if row.measured > 0]
-    layers = [{**line(), "data": {"values": [values(row) for row in shown]}}, *points(shown)]
     decades = Axes("log", "log", x_ticks=(1, 10, 100, 1000, 10_000, 100_000), y_format=".0e")
-    return page_of(panel(layers, "steps", "distance from the circle, m", axes=decades))
+    return page_of(panel(connected(shown), "steps", "distance from the circle, m", axes=decades))
 
 
 def stopping() -> Spec:
     """Return stopping distances, and the speed of a robot that drives towards a wall."""
     left = [*curves(rows("stopping"), "monotone"), *points(rows("stopping"))]
     bound = [{"x": row.x, "y": row.expected} for row in rows("sight")]
-    right = [
-        {"data": {"values": bound}, "mark": {"type": "line", "color": INK}, "encoding": plain()},
-        *points(rows("sight"), legend=False),
-    ]
+    right = [path(bound), *points(rows("sight"), legend=False)]
     return page_of(
         side_by_side(
             panel(left, "speed, m/s", "stopping distance, m", width=WIDTH // 2),
@@ -320,8 +302,7 @@ def staircase() -> list[Spec]:
     delays = [number / 100 for number in range(101)]
     ages = [max(1, math.ceil(delay * 10 - 1e-9)) / 10 for delay in delays]
     stairs = [{"x": x, "y": y} for x, y in zip(delays, ages, strict=True)]
-    mark = {"type": "line", "color": INK, "strokeWidth": 1, "interpolate": "step-before"}
-    return [{"data": {"values": stairs}, "mark": mark, "encoding": plain()}]
+    return [path(stairs, strokeWidth=1, interpolate="step-before")]
 
 
 def placement() -> Spec:
@@ -358,17 +339,12 @@ def calibration() -> Spec:
 
 def uncertain_kinds() -> Spec:
     """Return the fraction of true beliefs in uncertain kinds by confidence."""
-    return page_of(reliability(list(rows("uncertain-kinds")), "confidence"))
+    return page_of(reliability(rows("uncertain-kinds"), "confidence"))
 
 
 def reliability(some: list[Row], x: str, width: int = WIDTH) -> Spec:
     """Return the fraction of true beliefs by confidence, and the diagonal."""
-    right = [{"x": 0, "y": 0}, {"x": 1, "y": 1}]
-    diagonal = {
-        "data": {"values": right},
-        "mark": {"type": "line", "color": INK, "strokeWidth": 1},
-        "encoding": plain(),
-    }
+    diagonal = path([{"x": 0, "y": 0}, {"x": 1, "y": 1}], strokeWidth=1)
     axes = Axes(x_ticks=(0, 0.2, 0.4, 0.6, 0.8, 1), y_domain=(0, 1))
     return panel([diagonal, *points(some)], x, "fraction true", width=width, axes=axes)
 
@@ -378,15 +354,9 @@ def mines_left() -> Spec:
     left = [row for row in rows("mines-left") if row.series != MEAN_LEFT]
     mean = [row for row in rows("mines-left") if row.series == MEAN_LEFT]
     flat = [{"x": row.x, "y": (row.x + 1) * (1 - CLEARANCE) / CLEARANCE} for row in mean]
-    label = {"x": 7.5, "y": 4.7, "text": "flat prior"}
-    dashed = {"type": "line", "color": GREY, "strokeDash": [4, 4]}
     right = [
-        {"data": {"values": flat}, "mark": dashed, "encoding": plain()},
-        {
-            "data": {"values": [label]},
-            "mark": {"type": "text", "align": "right", "color": GREY},
-            "encoding": {**plain(), "text": {"field": "text"}},
-        },
+        path(flat, color=GREY, strokeDash=[4, 4]),
+        text(7.5, 4.7, "flat prior", GREY),
         *curves(mean),
         *points(mean, legend=False),
     ]
@@ -424,10 +394,7 @@ def sense() -> Spec:
     )
     for series, x, ticks in kinds:
         some = [row for row in rows("sense") if row.series == series]
-        layers = [
-            {**line(), "data": {"values": [values(row) for row in some]}},
-            *points(some, legend=False),
-        ]
+        layers = connected(some, legend=False)
         y = "mean time until all items are found, s"
         times = (50.0, 2000.0)
         axes = Axes("log", "log", x_ticks=ticks, y_ticks=(50, 100, 200, 500, 1000), y_domain=times)
