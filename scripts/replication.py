@@ -158,7 +158,6 @@ def capped(paints: Counted, rate: float) -> tuple[float, float]:
 
 def teams() -> str:
     """Return our times and failures with the published ones, at the constant of the scenario."""
-    answer = study_answer()
     published_by_size = {team.robots: team for team in theirs.results(SCENARIO)}
 
     def row(team: ae.study.Result) -> list[str]:
@@ -174,7 +173,7 @@ def teams() -> str:
         ]
 
     header = ["robots", "mean s", "thesis", "failed", "thesis", "merit", "thesis"]
-    return table(header, map(row, answer.results))
+    return table(header, map(row, studied(SCENARIO)[0].results))
 
 
 def claims() -> str:
@@ -182,7 +181,7 @@ def claims() -> str:
     one, two = (np.array(published()[robots]) for robots in (1, 2))
     student = stats.ttest_ind(one, two).pvalue
     rank = stats.mannwhitneyu(one, two).pvalue
-    by_size = {size(team): team for team in study_answer().results}
+    by_size = {size(team): team for team in studied(SCENARIO)[0].results}
     behind = by_size[3].standing.behind
     assert behind is not None  # noqa: S101  (the study's answer is 4)
     times = ", ".join(f"{by_size[robots].time_s.value:.1f}" for robots in (5, 6, 7, 8))
@@ -209,7 +208,8 @@ def claims() -> str:
 def three_look_best(merit: str) -> str:
     """Return how often 3 robots are best when each team of 1 to 8 has ten runs."""
     rng = np.random.default_rng(2003)
-    merits = [team.columns["merit"] for team in studied(scenario(merit))[1].samples]
+    _, evidence = studied(SCENARIO.replace("merit", merit))
+    merits = [team.columns["merit"] for team in evidence.samples]
     means = [rng.choice(each, (20_000, 10)).mean(axis=1) for each in merits]
     return f"{np.mean(np.argmax(means, axis=0) + 1 == 3):.0%}"  # noqa: PLR2004
 
@@ -270,12 +270,7 @@ def slips() -> str:
 
 def scored(merit: str) -> list[float]:
     """Return the figures of merit of the published teams, by the name of a definition."""
-    return [team.merit.value for team in theirs.results(scenario(merit))]
-
-
-def scenario(merit: str) -> ae.Scenario:
-    """Return the scenario with another figure of merit."""
-    return SCENARIO.replace("merit", merit)
+    return [team.merit.value for team in theirs.results(SCENARIO.replace("merit", merit))]
 
 
 def published() -> dict[int, list[float]]:
@@ -284,17 +279,10 @@ def published() -> dict[int, list[float]]:
     return SCENARIO.published.times_s
 
 
-def study_answer() -> ae.study.Answer:
-    """Return the answer of the study of the scenario with a number of runs per team."""
-    return studied(SCENARIO)[0]
-
-
 def paints_of(contact: str, robots: int, runs: int) -> NDArray[np.float64]:
     """Return paints to completion, infinite if it never completes."""
     column = ae.classic.replicate(robots, runs, contact=contact)["paints"]
-    never_done = column.is_null().to_numpy()
-    paints: NDArray[np.float64] = column.fill_null(0).to_numpy().astype(float)
-    paints[never_done] = np.inf
+    paints: NDArray[np.float64] = column.cast("double").fill_null(np.inf).to_numpy()
     return paints
 
 
