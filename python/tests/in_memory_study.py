@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from agent_economy import Scenario, _core
 from agent_economy.study.answer import published
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.best import Answer
 from agent_economy.study.answer.effort import efforts
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.results import Ending, results

@@ -22,9 +22,9 @@ from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.answer.clearance import Clearance, clearance, in_words, percent
 from agent_economy.study.answer.evidence import Sample
 from agent_economy.study.report.clearance_section import front
+from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.tables import Table
-from agent_economy.study.report.view import View
 
 HEADING = "Lanes declared clear"
 NEVER: Lanes = {(0, 1): (0.0, 0.0), (1, 1): (0.95, 0.05), (0, 2): (0.5, 0.4), (1, 2): (1.0, 0.0)}
@@ -202,7 +202,7 @@ def test_few_declarations_without_an_error_do_not_bring_a_team_to_the_front(
     _, evidence = study.load_answer(tmp_path)
     found = [known(each.clearance) for each in answer.results]
     assert all(each.risk is not None for each in found)
-    on_front = front(View(expect_best(answer), evidence))
+    on_front = front(MeritView(expect_best(answer), evidence))
     assert [answer.results[index].label for index in on_front] == ["0 oavs, 1 ugv"]
 
 

@@ -13,13 +13,14 @@ from in_memory_study import WANDERERS, Columns, Floats, Values
 
 from agent_economy import InputError, Scenario, study
 from agent_economy.study import files, report
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.best import Answer
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.goal_time import PARTS, goal_time, in_words
 from agent_economy.study.answer.labels import label, recommendation
 from agent_economy.study.report import charts
+from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.sections import sections
-from agent_economy.study.report.view import View
+from agent_economy.study.teams import costs
 
 HEADING = "Where the time of a goal goes"
 ROVERS, BASES = "robots.rover.count", "controllers.base.count"
@@ -93,7 +94,7 @@ def test_the_sentence_has_the_share_of_each_part() -> None:
 
 
 def test_the_parts_of_a_bar_add_up_to_its_number(teams: tuple[Answer, Evidence]) -> None:
-    spec = charts.specifications(*teams)["goal-time"]
+    spec = charts.specifications(MeritView(*teams))["goal-time"]
     bars, numbers = spec["data"]["values"], spec["layer"][1]["data"]["values"]
     assert len(bars) == 4 * len(numbers)
     for number in numbers:
@@ -102,8 +103,8 @@ def test_the_parts_of_a_bar_add_up_to_its_number(teams: tuple[Answer, Evidence])
 
 
 def test_the_table_has_the_numbers_of_the_chart(teams: tuple[Answer, Evidence]) -> None:
-    bars = charts.specifications(*teams)["goal-time"]["data"]["values"]
-    section = next(each for each in sections(View(*teams)) if each.heading == HEADING)
+    bars = charts.specifications(MeritView(*teams))["goal-time"]["data"]["values"]
+    section = next(each for each in sections(MeritView(*teams)) if each.heading == HEADING)
     (table,) = section.tables
     drawn = [bar["time"] for bar in bars]
     written = [float(cell.text) for row in table.rows for cell in row.cells[1:5]]
@@ -113,7 +114,7 @@ def test_the_table_has_the_numbers_of_the_chart(teams: tuple[Answer, Evidence]) 
 
 
 def test_the_chart_is_valid_and_can_be_drawn(teams: tuple[Answer, Evidence]) -> None:
-    spec = charts.specifications(*teams)["goal-time"]
+    spec = charts.specifications(MeritView(*teams))["goal-time"]
     alt.LayerChart.from_dict(spec)
     svg = vl_convert.vegalite_to_svg(spec | {"width": 600})
     for part in ("waiting", "travel", "blocked", "service"):
@@ -123,7 +124,7 @@ def test_the_chart_is_valid_and_can_be_drawn(teams: tuple[Answer, Evidence]) -> 
 def test_a_study_without_goals_has_no_trace_of_them() -> None:
     given: list[Values] = [{WANDERERS: robots} for robots in (2, 3)]
     answer, evidence = in_memory_study.study(given, in_memory_study.classic, runs=10)
-    assert "goal-time" not in charts.specifications(answer, evidence)
+    assert "goal-time" not in charts.specifications(MeritView(answer, evidence))
     assert HEADING not in report.html(answer, evidence, "")
     assert "goal_time" not in files.as_json(answer)
 
@@ -171,10 +172,10 @@ def test_the_cost_of_a_team_can_count_controllers(waypoints: Scenario) -> None:
     required: Any = {"all": ["served >= 8"]}
     scenario = waypoints.replace("require", required)
     counted = study.make_plan(scenario.replace("study.minimize", "rover + 0.5 * base"))
-    assert counted.costs.tolist() == [2, 4, 2.5, 4.5]
+    assert costs(counted.engine, counted.scenario.cost).tolist() == [2, 4, 2.5, 4.5]
     priced = study.make_plan(scenario.replace("study.minimize", "price"))
-    assert priced.costs.tolist() == [20_000, 40_000, 22_000, 42_000]
+    assert costs(priced.engine, priced.scenario.cost).tolist() == [20_000, 40_000, 22_000, 42_000]
     robots = study.make_plan(scenario.replace("study.minimize", "robots"))
-    assert robots.costs.tolist() == [2, 4, 2, 4]
+    assert costs(robots.engine, robots.scenario.cost).tolist() == [2, 4, 2, 4]
     with pytest.raises(InputError, match="'bas' is unknown.*did you mean 'base'"):
         study.make_plan(scenario.replace("study.minimize", "rover + bas"))

@@ -14,15 +14,15 @@ import vl_convert
 from in_memory_study import WANDERERS
 
 from agent_economy.study import files, report
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.best import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.errors import StudyError
 from agent_economy.study.report import charts
 from agent_economy.study.report import script as chart_script
 from agent_economy.study.report.formatting import MINUS
+from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.sections import saturation_in_words, sections
-from agent_economy.study.report.view import View
 from agent_economy.study.selection import Elimination
 
 Study = tuple[Answer, Evidence]
@@ -110,7 +110,7 @@ def test_the_answer_is_first_then_the_guarantee_and_the_number_of_runs(
 
 
 def test_sections_are_in_order_of_importance(teams: Study) -> None:
-    assert [section.heading for section in sections(View(*teams))] == [
+    assert [section.heading for section in sections(MeritView(*teams))] == [
         "Figure of merit",
         "Failures",
         "Price, time and failures",
@@ -133,7 +133,7 @@ def test_markup_in_names_and_summaries_stays_text(teams: Study, script: str) -> 
 
 
 def test_every_chart_is_a_valid_specification_and_can_be_drawn(any_study: Study) -> None:
-    for name, chart in charts.specifications(*any_study).items():
+    for name, chart in charts.specifications(MeritView(*any_study)).items():
         alt.LayerChart.from_dict(chart)
         svg = vl_convert.vegalite_to_svg(chart | {"width": 600})
         assert "<path" in svg, name
@@ -142,15 +142,15 @@ def test_every_chart_is_a_valid_specification_and_can_be_drawn(any_study: Study)
 
 def test_every_chart_has_an_element_and_a_table(any_study: Study, script: str) -> None:
     page = body(report.html(*any_study, script))
-    made = charts.specifications(*any_study)
+    made = charts.specifications(MeritView(*any_study))
     assert sorted(re.findall(r'class="chart" id="([^"]+)"', page)) == sorted(made)
-    for section in sections(View(*any_study)):
+    for section in sections(MeritView(*any_study)):
         assert section.tables
 
 
 def test_a_table_contains_the_data_of_its_chart(teams: Study) -> None:
-    drawn = charts.specifications(*teams)["merit"]["data"]["values"]
-    table = next(sections(View(*teams))).tables[0]
+    drawn = charts.specifications(MeritView(*teams))["merit"]["data"]["values"]
+    table = next(sections(MeritView(*teams))).tables[0]
     assert [row.cells[0].text for row in table.rows] == [row["label"] for row in drawn]
     assert [row.cells[1].text for row in table.rows] == [row["verdict"] for row in drawn]
     written = [float(row.cells[2].text.replace(MINUS, "-")) for row in table.rows]
@@ -158,8 +158,8 @@ def test_a_table_contains_the_data_of_its_chart(teams: Study) -> None:
 
 
 def test_a_single_configuration_has_no_comparisons(alone: Study) -> None:
-    assert list(charts.specifications(*alone)) == ["times"]
-    headings = [section.heading for section in sections(View(*alone))]
+    assert list(charts.specifications(MeritView(*alone))) == ["times"]
+    headings = [section.heading for section in sections(MeritView(*alone))]
     assert "Eliminations" not in headings
     assert "Price, time and failures" not in headings
 
@@ -170,7 +170,7 @@ def test_the_best_fifty_of_a_thousand_configurations_are_shown_with_a_note(
     answer, _ = thousand
     page = body(report.html(*thousand, script))
     assert "50 of 1,000 configurations are shown" in page
-    rows = charts.specifications(*thousand)["merit"]["data"]["values"]
+    rows = charts.specifications(MeritView(*thousand))["merit"]["data"]["values"]
     best = sorted((result.merit.value for result in answer.results), reverse=True)[:50]
     assert [row["value"] for row in rows] == pytest.approx(best, rel=1e-5)
 
@@ -178,21 +178,21 @@ def test_the_best_fifty_of_a_thousand_configurations_are_shown_with_a_note(
 def test_a_full_grid_of_two_factors_has_a_map_and_other_designs_have_none(
     words: Study, thousand: Study, teams: Study
 ) -> None:
-    assert len(charts.specifications(*words)["heat"]["data"]["values"]) == 9
-    assert len(charts.specifications(*thousand)["heat"]["data"]["values"]) == 1000
-    assert "heat" not in charts.specifications(*teams)
+    assert len(charts.specifications(MeritView(*words))["heat"]["data"]["values"]) == 9
+    assert len(charts.specifications(MeritView(*thousand))["heat"]["data"]["values"]) == 1000
+    assert "heat" not in charts.specifications(MeritView(*teams))
     answer, evidence = words
     gap = replace(answer, results=answer.results[:-1])
-    assert not View(gap, evidence).is_grid
+    assert not MeritView(gap, evidence).is_grid
 
 
 def test_a_single_number_is_an_axis_and_several_factors_are_ranked_names(
     teams: Study, words: Study
 ) -> None:
-    points = charts.specifications(*teams)["merit"]
+    points = charts.specifications(MeritView(*teams))["merit"]
     assert points["layer"][0]["encoding"]["x"]["field"] == "at"
     answer, _ = words
-    rows = charts.specifications(*words)["merit"]["data"]["values"]
+    rows = charts.specifications(MeritView(*words))["merit"]["data"]["values"]
     assert rows[0]["label"] == answer.results[answer.best].label
     assert [row["value"] for row in rows[1:]] == sorted(
         (row["value"] for row in rows[1:]), reverse=True
@@ -203,7 +203,7 @@ def test_two_configurations_of_the_same_name_stay_separate(teams: Study) -> None
     answer, evidence = teams
     twins = tuple(replace(result, label="twin") for result in answer.results[:2])
     twinned = replace(answer, results=(*twins, *answer.results[2:]))
-    rows = charts.specifications(twinned, evidence)["merit"]["data"]["values"]
+    rows = charts.specifications(MeritView(twinned, evidence))["merit"]["data"]["values"]
     assert len({row["label"] for row in rows}) == 8
 
 
@@ -259,7 +259,7 @@ def test_proved_comparisons_are_stated(script: str) -> None:
 
 
 def test_a_largest_team_that_is_best_is_not_called_enough(teams: Study) -> None:
-    view = View(*teams)
+    view = MeritView(*teams)
     beaten = replace(view.saturations[0], proved=8, possible=8)
     assert saturation_in_words(view, beaten).startswith("Not reached")
 
@@ -270,7 +270,7 @@ def test_without_published_results_none_are_shown(teams: Study, script: str) -> 
     bare = replace(answer, published=(), scenario=scenario)
     page = body(report.html(bare, evidence, script))
     assert "Williams" not in page
-    assert "published" not in charts.specifications(bare, evidence)
+    assert "published" not in charts.specifications(MeritView(bare, evidence))
 
 
 def test_influential_factors_are_shown_with_the_share_of_noise(
@@ -281,7 +281,7 @@ def test_influential_factors_are_shown_with_the_share_of_noise(
     found = in_memory_study.study(given, in_memory_study.synthetic, runs=20)
     page = body(report.html(*found, script))
     assert "of that variance is noise of means" in page
-    rows = charts.specifications(*found)["sensitivity"]["data"]["values"]
+    rows = charts.specifications(MeritView(*found))["sensitivity"]["data"]["values"]
     assert {row["label"] for row in rows} == {"mix", "rovers"}
 
 

@@ -10,10 +10,10 @@ import vl_convert
 from in_memory_study import WANDERERS
 
 from agent_economy.study import report
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.best import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.report import charts
-from agent_economy.study.report.contenders import contenders
+from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.scale import SWITCH, ValueAxis, scaled
 
 Study = tuple[Answer, Evidence]
@@ -43,19 +43,19 @@ def drawn(chart: dict[str, Any], *, everything: bool) -> str:
 
 def test_a_configuration_far_behind_does_not_squeeze_the_contenders(teams: Study) -> None:
     answer, _ = teams
-    chart = charts.specifications(*teams)["merit"]
+    chart = charts.specifications(MeritView(*teams))["merit"]
     everything, near = domains(chart, "y")
     far = answer.results[0].merit
     assert far.value < near[0]
     assert everything[0] <= far.low
-    for index in contenders(answer):
+    for index in answer.contenders:
         merit = answer.results[index].merit
         assert near[0] <= merit.low
         assert merit.high <= near[1]
 
 
 def test_the_switch_shows_the_configuration_far_behind_again(teams: Study) -> None:
-    chart = charts.specifications(*teams)["merit"]
+    chart = charts.specifications(MeritView(*teams))["merit"]
     alt.LayerChart.from_dict(chart)
     assert "↓" in drawn(chart, everything=False)
     assert "↓" not in drawn(chart, everything=True)
@@ -63,11 +63,11 @@ def test_the_switch_shows_the_configuration_far_behind_again(teams: Study) -> No
 
 def test_contenders_are_those_that_are_not_proved_to_be_worse(teams: Study) -> None:
     answer, _ = teams
-    near = {answer.results[index].standing.verdict for index in contenders(answer)}
+    near = {answer.results[index].standing.verdict for index in answer.contenders}
     others = {
         each.standing.verdict
         for index, each in enumerate(answer.results)
-        if index not in contenders(answer)
+        if index not in answer.contenders
     }
     assert "best" in near
     assert others == {"worse"}

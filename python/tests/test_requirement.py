@@ -20,7 +20,6 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Condition, Override, Requirement
 from agent_economy.study import RequirementAnswer, report
 from agent_economy.study.plan import Plan
-from agent_economy.study.report.contenders import contenders
 
 
 def test_the_smallest_team_that_meets_the_requirement_is_selected(
@@ -156,7 +155,7 @@ def test_a_hopeless_team_does_not_squeeze_the_shares_of_the_contenders(
 ) -> None:
     shares = {**RISING, 1: 0.02, 3: 0.88}
     answer = answered(study.make_plan(required(classic_toml)), shares, tmp_path)
-    assert sorted(contenders(answer))[:2] == [2, 3]
+    assert sorted(answer.contenders)[:2] == [2, 3]
     _, evidence = study.load_answer(tmp_path)
     chart = report.parts(answer, evidence).charts["share"]
     lowest = chart["layer"][0]["encoding"]["x"]["scale"]["domainMin"]["expr"]

@@ -118,7 +118,7 @@ def test_a_stopped_study_is_answered_from_its_stored_runs(
     with pytest.raises(KeyboardInterrupt):
         study.run_plan(plan, tmp_path, compute=compute, on_progress=stop)
     answer = answer_so_far(tmp_path)
-    assert answer is not None
+    assert isinstance(answer, RequirementAnswer)
     assert [each.status for each in answer.results] == ["open", "selected"]
     assert not answer.is_guaranteed
     assert not (tmp_path / "answer.json").exists()
@@ -129,7 +129,7 @@ def test_a_stopped_study_is_answered_from_its_stored_runs(
     assert [each.confidence for each in more.questions] == [0.95, 0.6]
 
 
-def answer_so_far_of(plan: Plan, folder: Path) -> RequirementAnswer | None:
+def answer_so_far_of(plan: Plan, folder: Path) -> study.AnyAnswer | None:
     """Stop a study before its first run, and return its answer."""
 
     def stop(_: RunBlock) -> Any:

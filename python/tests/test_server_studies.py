@@ -22,12 +22,13 @@ from study_client import Folder, Response, served
 from agent_economy import Scenario, study
 from agent_economy.server.studies import job
 from agent_economy.server.studies.factors import factors
-from agent_economy.study import report
 from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
 from agent_economy.study.progress import Leader
-from agent_economy.study.report import View
+from agent_economy.study.report import charts
+from agent_economy.study.report import sections as report_sections
+from agent_economy.study.report.merit_view import MeritView
 
 TEAM = "robots.wanderer.count"
 QUICK = {"scenario": "classic", "vary": {TEAM: "1..5"}, "delta": 0.3}
@@ -96,9 +97,10 @@ def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Fold
     loaded, evidence = study.load_answer(answered.path / "studies" / "classic")
     found = expect_best(loaded)
     shown = answered.get("/api/study", id="studies/classic")["answer"]
-    sections = list(report.sections(View(found, evidence)))
+    view = MeritView(found, evidence)
+    sections = list(report_sections.sections(view))
     assert [each["title"] for each in shown["sections"]] == [each.heading for each in sections]
-    assert shown["charts"] == json.loads(json.dumps(report.specifications(found, evidence)))
+    assert shown["charts"] == json.loads(json.dumps(charts.specifications(view)))
     assert {name for each in shown["sections"] for name in each["charts"]} == set(shown["charts"])
     for section in shown["sections"]:
         for table in section["tables"]:

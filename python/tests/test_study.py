@@ -16,7 +16,7 @@ from agent_economy.build import own_build
 from agent_economy.study import files, race
 from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.chunks import MIN_ROWS, in_chunks
-from agent_economy.study.question import Best
+from agent_economy.study.questions.best import Best
 from agent_economy.study.run_block import RunBlock
 
 TEAM = "robots.wanderer.count"

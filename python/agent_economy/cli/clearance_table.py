@@ -6,16 +6,15 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
+from agent_economy.study.answer.any_answer import AnyResult
 from agent_economy.study.answer.clearance import Clearance, percent
 from agent_economy.study.answer.evidence import Interval
-from agent_economy.study.answer.requirement_results import RequirementResult
-from agent_economy.study.answer.results import Result
 
 NAME = 12
 """Minimum width of the name of a configuration."""
 
 
-def clearance_table(results: Sequence[Result | RequirementResult], *, ranges: bool) -> Table | None:
+def clearance_table(results: Sequence[AnyResult], *, ranges: bool) -> Table | None:
     """Return a table of the given configurations; None if none of them has a lane."""
     known = [(result.label, result.clearance) for result in results if result.clearance]
     if not known:

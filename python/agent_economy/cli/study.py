@@ -3,7 +3,6 @@
 import signal
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
 from typing import Annotated, Any, Literal, NoReturn
@@ -22,54 +21,11 @@ from agent_economy.study.api import answer_so_far
 from agent_economy.study.description import Description, usual_folder
 from agent_economy.study.engine import Engine
 from agent_economy.study.plan import Plan, with_confidence
-from agent_economy.study.question import Cheapest
 from agent_economy.study.run_block import Compute
 from agent_economy.study.store.folder import REPORT
 
 QUESTION, PRECISION, COMPUTING = "Question", "Precision", "Computing"
 """Panels of options in the help."""
-
-
-@dataclass(frozen=True)
-class NewStudy:
-    """A study of a scenario; its folder may already have runs of the same question.
-
-    Attributes:
-        scenario: The scenario file, or the name of a bundled one.
-        changes: Values that replace the scenario's.
-        settings: Arguments of `make_plan` that were given.
-        out: Folder of the study; None for the usual one.
-    """
-
-    scenario: Path
-    changes: tuple[Override, ...]
-    settings: dict[str, Any]
-    out: Path | None
-
-    def plan(self) -> tuple[Plan, Path]:
-        """Return what to compute, and the folder of the study."""
-        plan = studies.make_plan(Scenario.load(self.scenario, self.changes), **self.settings)
-        return plan, self.out or usual_folder(plan)
-
-
-@dataclass(frozen=True)
-class ResumeStudy:
-    """A study whose folder already has its question.
-
-    Attributes:
-        folder: Folder of the study.
-        confidence: A higher confidence, which reuses all runs; None to keep the confidence.
-    """
-
-    folder: Path
-    confidence: float | None
-
-    def plan(self) -> tuple[Plan, Path]:
-        """Return what to compute, and the folder of the study."""
-        plan = studies.load_plan(self.folder)
-        return plan if self.confidence is None else with_confidence(
-            plan, self.confidence
-        ), self.folder
 
 
 def study(  # noqa: PLR0913  (typer's options are arguments)
@@ -249,28 +205,29 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             "require.tolerance": tolerance,
         }
         changes = overrides(sets, vary, only_vary=only_vary, options=options)
-        settings = {
+        precision: dict[str, Any] = {
             "seed": seed,
             "delta": delta,
             "guarantee": guarantee,
             "runs": runs,
             "max_runs": max_runs,
         }
-        settings = {name: value for name, value in settings.items() if value is not None}
+        settings = {name: value for name, value in precision.items() if value is not None}
         refuse_two_executors(workers, dask)
         if require:
             refuse_with_requirement({"--merit": merit, **merit_options(settings)})
-        request: NewStudy | ResumeStudy
         if resume is None:
             if confidence is not None:
                 settings["confidence"] = confidence
-            request = NewStudy(required(scenario), changes, settings, out)
+            plan = studies.make_plan(Scenario.load(required(scenario), changes), **settings)
+            folder = out or usual_folder(plan)
         else:
             others = {"SCENARIO": scenario, "--out": out} | settings
             refuse_with_resume(others, changes)
-            request = ResumeStudy(resume, confidence)
-        plan, folder = request.plan()
-        if minimize is not None and not isinstance(plan.question, Cheapest):
+            plan, folder = studies.load_plan(resume), resume
+            if confidence is not None:
+                plan = with_confidence(plan, confidence)
+        if minimize is not None and plan.question.requirement is None:
             message = "--minimize: needs a requirement: --require, or [require] of the scenario"
             raise InputError(message)
         print_warnings(plan.warnings)

@@ -1,12 +1,12 @@
 """A study: configurations are run until its question is answered.
 
-The data flows one way: `api` -> `plan` (the question; `design`, `engine`) -> `race` (the loop: the
+The data flows one way: `api` -> `plan` (`check`, `questions`, `engine`) -> `race` (the loop: the
 procedure of `selection` requests runs, `store` reads them, `engine` or `workers` compute missing
 ones) -> `answer` (what the runs prove) -> `report` and `files`.
 """
 
 from agent_economy.study.answer.any_answer import AnyAnswer
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.best import Answer
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.answer.results import Result

@@ -17,12 +17,10 @@ from agent_economy.study import plan as plans
 from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import word
-from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.arguments import Guarantee
 from agent_economy.study.errors import NoMoreRunsError
 from agent_economy.study.plan import Plan
 from agent_economy.study.progress import OnProgress
-from agent_economy.study.question import Cheapest
 from agent_economy.study.race import answer_of, run_race
 from agent_economy.study.report.script import ChartScript
 from agent_economy.study.run_block import Compute, RunBlock
@@ -181,7 +179,7 @@ def load_answer(folder: str | Path) -> tuple[AnyAnswer, Evidence]:
     return answer_of(load_plan(folder), read(folder).stored(), refuse(folder))
 
 
-def answer_so_far(folder: str | Path) -> RequirementAnswer | None:
+def answer_so_far(folder: str | Path) -> AnyAnswer | None:
     """Return what the stored runs of a study of a requirement prove, whether it is finished or not.
 
     Nothing is computed or written.
@@ -197,10 +195,10 @@ def answer_so_far(folder: str | Path) -> RequirementAnswer | None:
         raise NoMoreRunsError
 
     plan = load_plan(folder)
-    if not isinstance(plan.question, Cheapest):
+    if not plan.question.certifies:
         return None
     answer, _ = answer_of(plan, read(folder).stored(), compute)
-    return answer if isinstance(answer, RequirementAnswer) and answer.runs else None
+    return answer if answer.runs else None
 
 
 def run_plan(

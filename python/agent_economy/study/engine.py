@@ -87,6 +87,12 @@ class Engine:
             for name, _, lowest, highest in self._compiled(configuration).columns
         }
 
+    @cached_property
+    def costs(self) -> dict[str, Floats]:
+        """The costs of all configurations that are known already, by their expression."""
+        return {}
+
+    @cached_property
     def merit_limits(self) -> Floats:
         """Return the range of the merit of each configuration, shape (configurations, 2)."""
         limits = [self.limits(index) for index in range(len(self.configurations))]

@@ -8,7 +8,6 @@ from typing import Any
 
 from agent_economy.study import report
 from agent_economy.study.answer.any_answer import AnyAnswer
-from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.errors import StudyError
 from agent_economy.study.store.folder import ANSWER, REPORT, read_bytes, write_whole
@@ -61,7 +60,7 @@ def as_dict(answer: AnyAnswer) -> dict[str, Any]:
     values = asdict(answer, dict_factory=with_names_of_infinity)
     scenario = values.pop("scenario")
     del scenario["source"]
-    if isinstance(answer, Answer) and not answer.omissions:
+    if not values.get("omissions", True):
         del values["omissions"]
     if len(answer.questions) <= 1:
         del values["questions"]

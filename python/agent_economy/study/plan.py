@@ -1,4 +1,4 @@
-"""The plan of a study: the configurations that it compares, and the guarantee that it must reach.
+"""The plan of a study: the configurations that it compares, and the question about them.
 
 A plan is stored as `study.toml` in the study's folder, with the scenario's text and its overrides,
 so that the study can be resumed from the folder alone.
@@ -13,39 +13,25 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import tomli_w
 
 from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
 from agent_economy.scenario import Override, Scenario, ScenarioWarning, Source, warnings
-from agent_economy.scenario.origin import with_origin
-from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
-from agent_economy.study import design, teams
-from agent_economy.study.arguments import (
-    FIRST_ANALYSIS_RUNS,
-    MIN_CONFIDENCE,
-    Floats,
-    Guarantee,
-    confidence_errors,
-    question_errors,
-)
+from agent_economy.scenario.validation import of_type, whole
+from agent_economy.study.arguments import Guarantee, confidence_errors
+from agent_economy.study.check.arguments import raise_all
+from agent_economy.study.check.request import StudyRequest
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
 from agent_economy.study.errors import StoreError
-from agent_economy.study.question import Best, Cheapest, Question
-from agent_economy.study.teams import compared
+from agent_economy.study.questions.best import Best
+from agent_economy.study.questions.cheapest import Cheapest
+
+Question = Best | Cheapest
 
 FORMAT = 1
 """Format version of study.toml."""
-
-PART_OF_RANGE = 0.02
-"""Default delta, as a part of the merit's range."""
-
-MAX_RUNS = 10_000_000
-"""Maximum fixed number of runs per configuration."""
-
-MAX_SEED = 2**64 - 1
 
 WITHOUT_RUNS = {"merit", "published", "require", "study", "summary"}
 """Keys of a scenario that do not affect runs; configurations are compared separately."""
@@ -119,27 +105,6 @@ class Plan:
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
 
     @cached_property
-    def limits(self) -> Floats:
-        """The range of what is recorded of each configuration; shape (configurations, 2).
-
-        Raises:
-            InputError: If a configuration is invalid.
-        """
-        if isinstance(self.question, Best):
-            return self.engine.merit_limits()
-        return np.tile([0.0, 1.0], (len(self.configurations), 1))
-
-    @cached_property
-    def costs(self) -> Floats:
-        """The cost of each configuration, if the question is about the cheapest.
-
-        Raises:
-            InputError: If a configuration is invalid, or what is minimised.
-        """
-        cost = self.question.cost if isinstance(self.question, Cheapest) else "robots"
-        return teams.costs(self.engine, cost)
-
-    @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:
         """Warnings about the configurations, such as teams without room; one for similar ones."""
         if not self.scenario.factors:
@@ -191,172 +156,35 @@ def make(  # noqa: PLR0913  (keywords with defaults)
         InputError: If an argument or a configuration is invalid.
     """
     of_type("scenario", scenario, Scenario, "a Scenario")
-    question: dict[str, Any] = {"confidence": confidence, "max_runs": max_runs}
-    is_about_merit = (delta, guarantee, runs) != (None, None, None)
-    if scenario.requirement is None or is_about_merit:
-        question |= {"delta": delta, "guarantee": guarantee or "indifference"}
-    plan = draft(scenario, seed=seed, runs=runs, **question)
-    limits = plan.limits
-    if isinstance(plan.question, Cheapest):
-        check_requirement(plan)
-    elif delta is None and scenario.delta is None:
-        return replace(plan, question=replace(plan.question, delta=default_delta(limits)))
-    return plan
-
-
-def check_requirement(plan: Plan) -> None:
-    """Check that every configuration of a plan can be compiled and has a cost, and all conditions.
-
-    Raises:
-        InputError: If not; or if a condition always or never holds in all configurations.
-    """
-    if not isinstance(plan.question, Cheapest):
-        return
-    found = error_of(lambda: plan.costs)
-    found += error_of(lambda: check_conditions(plan.scenario, plan.engine))
-    if found:
-        raise InputError("\n".join(found))
-
-
-def check_conditions(scenario: Scenario, engine: Engine) -> None:
-    """Check that each condition of a requirement decides something, and any two of them together.
-
-    Raises:
-        InputError: If one does not; it lists all.
-    """
-    requirement = scenario.requirement
-    if requirement is None:
-        return
-    kinds = {column.name: column.kind for column in engine.columns}
-    limits = [engine.limits(each) for each in range(len(engine.configurations))]
-    found = []
-    for number, condition in enumerate(requirement.conditions):
-        of_column = [each[condition.column] for each in limits]
-        if fault := condition.triviality(of_column, kinds[condition.column]):
-            found.append((number, f"{fault}: must be a condition that can hold and can fail"))
-    for first, second in requirement.contradictions:
-        other = requirement.conditions[first].text
-        found.append((second, f"never holds together with {other!r}: change one of them"))
-    texts = [condition.text for condition in requirement.conditions]
-    lines = [
-        f"{with_origin(scenario.source, 'require', 'all', number)} = {texts[number]!r}: {fault}"
-        for number, fault in found
-    ]
-    if lines:
-        raise InputError("\n".join(lines))
-
-
-def check_expressions(scenario: Scenario, question: list[str], seed: int) -> None:
-    """Check a question and the expressions of a scenario, before its configurations.
-
-    Args:
-        scenario: The scenario.
-        question: The errors of the question.
-        seed: Seed of the design.
-
-    Raises:
-        InputError: If there are errors; it lists all, also those of the conditions.
-    """
-    where, requirement = scenario.where, scenario.requirement
-    found = [*question]
-    found += error_of(lambda: where is None or teams.allowed_by(scenario, where))
-    if requirement is not None:
-        found += error_of(lambda: teams.cost_of(scenario, scenario.cost))
-    if found and requirement is not None and is_whole(seed, 0, MAX_SEED):
-        configurations = design.points(scenario.factors, scenario.design, seed)
-        found += error_of(
-            lambda: check_conditions(scenario, Engine(scenario, configurations, seed))
-        )
-    if found:
-        raise InputError("\n".join(found))
-
-
-def error_of(check: Callable[[], object]) -> list[str]:
-    """Return the message of the error that a check finds, if it finds one."""
-    try:
-        check()
-    except InputError as error:
-        return [str(error)]
-    return []
-
-
-def default_delta(limits: Floats) -> float:
-    """Return the default delta of a study."""
-    return PART_OF_RANGE * float(limits[:, 1].max() - limits[:, 0].min()) or 1.0
-
-
-def draft(  # noqa: PLR0913  (as in make)
-    scenario: Scenario,
-    *,
-    seed: int,
-    confidence: float | None,
-    runs: int | None,
-    max_runs: int | None,
-    delta: float | None = None,
-    guarantee: Guarantee | None = None,
-) -> Plan:
-    """Return a plan whose configurations are not checked; without `guarantee`, of a requirement.
-
-    Raises:
-        InputError: If an argument is invalid.
-    """
-    confidence = confidence if confidence is not None else scenario.confidence
-    wanted = guarantee or "indifference"
-
-    def question_check() -> None:
-        check_question(seed=seed, delta=delta, confidence=confidence, guarantee=wanted, runs=runs)
-
-    check_expressions(scenario, error_of(question_check), seed)
-    configurations = compared(scenario, design.points(scenario.factors, scenario.design, seed))
-    question: Question
-    if guarantee is None and scenario.requirement is not None:
-        question = Cheapest(scenario.requirement, scenario.cost)
-        min_runs = FIRST_ANALYSIS_RUNS
-    else:
-        delta = delta if delta is not None else scenario.delta
-        question = Best(float(delta if delta is not None else 1.0), wanted)
-        min_runs = FIRST_ANALYSIS_RUNS * len(configurations)
-    check_max_runs(max_runs, runs, min_runs)
-    return Plan(
-        scenario=scenario,
-        seed=int(seed),
-        question=question,
-        confidence=float(confidence),
-        runs=None if runs is None else int(runs),
-        max_runs=None if max_runs is None else int(max_runs),
-        configurations=configurations,
-        engine=Engine(scenario, configurations, seed),
+    return planned(
+        StudyRequest(scenario, seed, delta, confidence, guarantee, runs, max_runs), is_new=True
     )
 
 
-def check_question(
-    *, seed: int, delta: float | None, confidence: float | None, guarantee: str, runs: int | None
-) -> None:
-    """Check the question of a study; None selects the scenario's value.
+def planned(request: StudyRequest, *, is_new: bool) -> Plan:
+    """Return the plan of a request.
 
     Raises:
-        InputError: If an argument is invalid; it lists all errors.
+        InputError: As `StudyRequest.checked`.
     """
-    confidence = MIN_CONFIDENCE if confidence is None else confidence
-    errors = question_errors(1.0 if delta is None else delta, confidence, guarantee)
-    errors += errors_unless(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
-    is_allowed = runs is None or is_whole(runs, 2, MAX_RUNS)
-    errors += errors_unless(is_allowed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
-    if errors:
-        raise InputError("\n".join(errors))
-
-
-def check_max_runs(max_runs: int | None, runs: int | None, min_runs: int) -> None:
-    """Check a run budget: it must allow the first round, and excludes a fixed number of runs.
-
-    Raises:
-        InputError: If it is invalid.
-    """
-    if max_runs is None:
-        return
-    check(runs is None, "max_runs", max_runs, "left out if runs are given")
-    allowed = f"a whole number of {min_runs} or more, the runs of the first round"
-    check(is_whole(max_runs, min_runs, 2**62), "max_runs", max_runs, allowed)
+    scenario, engine = request.scenario, request.checked(is_new=is_new)
+    question: Question
+    if scenario.requirement is not None and not request.is_about_merit:
+        question = Cheapest(scenario.requirement, scenario.cost)
+    else:
+        question = Best(
+            request.delta_of(engine, is_new=is_new), request.guarantee or "indifference"
+        )
+    return Plan(
+        scenario=scenario,
+        seed=int(request.seed),
+        question=question,
+        confidence=float(request.used_confidence),
+        runs=None if request.runs is None else int(request.runs),
+        max_runs=None if request.max_runs is None else int(request.max_runs),
+        configurations=tuple(engine.configurations),
+        engine=engine,
+    )
 
 
 def with_confidence(plan: Plan, confidence: float) -> Plan:
@@ -368,8 +196,7 @@ def with_confidence(plan: Plan, confidence: float) -> Plan:
     errors = confidence_errors(confidence)
     if not errors and confidence < plan.confidence:
         errors = [f"confidence = {confidence:g}: must be above the study's {plan.confidence:g}"]
-    if errors:
-        raise InputError("\n".join(errors))
+    raise_all(errors)
     return replace(plan, confidence=float(confidence))
 
 
@@ -423,15 +250,16 @@ def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) ->
         Override(tuple(each["path"]), each["value"], "study.toml") for each in data["changes"]
     )
     files = {name: content(known) for name, known in data.get("files", {}).items()}
-    best = {key: question[key] for key in ("delta", "guarantee") if key in question}
-    return draft(
+    request = StudyRequest(
         Scenario.of(Source(data["name"], data["scenario"], overrides, files)),
         seed=int(data["seed"]),
+        delta=question.get("delta"),
         confidence=question["confidence"],
+        guarantee=question.get("guarantee"),
         runs=data.get("runs"),
         max_runs=question.get("max_runs"),
-        **best,
     )
+    return planned(request, is_new=False)
 
 
 def build_of(text: str) -> Build:

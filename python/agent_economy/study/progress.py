@@ -8,6 +8,12 @@ from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.requirement_results import Status
 from agent_economy.study.selection import Elimination
 
+MAX_LEADERS = 50
+"""Maximum number of configurations with intervals in a progress report."""
+
+MAX_SHOWN = 10
+"""Maximum number of its leaders."""
+
 
 @dataclass(frozen=True)
 class Leader:

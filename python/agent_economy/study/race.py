@@ -13,38 +13,23 @@ from pathlib import Path
 
 import numpy as np
 
-from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.runs import quarantine
 from agent_economy.scenario.validation import check
 from agent_economy.study.answer.any_answer import AnyAnswer
-from agent_economy.study.answer.conclude import conclude
-from agent_economy.study.answer.effort import MIN_ROUNDS, remaining_range, remaining_runs
+from agent_economy.study.answer.clearance import CLEARANCE_COLUMNS
+from agent_economy.study.answer.effort import MIN_ROUNDS, remaining_range
 from agent_economy.study.answer.evidence import Evidence, Sample
-from agent_economy.study.answer.requirement import conclude_requirement
-from agent_economy.study.answer.requirement_results import RequirementEnding
-from agent_economy.study.answer.results import Ending
+from agent_economy.study.answer.goal_time import GOAL_COLUMNS
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
 from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
-from agent_economy.study.leaders import leaders
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
-from agent_economy.study.question import CLEARANCE_COLUMNS, GOAL_COLUMNS, Best, Cheapest
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
-from agent_economy.study.selection import (
-    Elimination,
-    Integers,
-    drive,
-    guarantee_text,
-    leading,
-    within,
-)
+from agent_economy.study.selection import Integers, drive, eliminations, within
 from agent_economy.study.store import Store, StoredRuns
 from agent_economy.study.store.ledger import Answered
-
-LEADERS = 10
-"""Leaders in a progress report."""
 
 ROUND_S = 0.5
 """Interval of progress reports during a round."""
@@ -81,7 +66,7 @@ def run_race(
         try:
             answer, evidence = Race(plan, store, compute, on_progress).run()
         except KeyboardInterrupt:
-            if isinstance(plan.question, Cheapest):
+            if plan.question.certifies:
                 # What its runs prove already can be read: a promise, too.
                 store.answered(answered(plan))
             raise
@@ -113,7 +98,8 @@ class Race:
         self._compute = Partwise(self._parts)
         self._on_progress = on_progress
         self._start = self._reported_at = time.monotonic()
-        self._procedure = procedure_of(plan)
+        self._procedure = plan.question.procedure(plan.engine, plan.confidence, plan.runs)
+        self._value_limits = plan.question.limits(plan.engine)
         self._rounds = 0
         self._eliminated: set[int] = set()
         count = len(plan.configurations)
@@ -138,15 +124,13 @@ class Race:
             raise InputError(message) from None
         except NoMoreRunsError:
             pass  # It is concluded as it is, as if its run budget were reached.
-        if len(self._impossible()) == len(self._runs):
+        impossible = self._impossible()
+        if len(impossible) == len(self._runs):
             message = f"no configuration can be run: all runs are quarantined ({self._obstacle(0)})"
             raise InputError(message)
         plan, evidence = self._plan, self.evidence()
-        answer: AnyAnswer
-        if isinstance(plan.question, Cheapest):
-            answer = conclude_requirement(plan, evidence, self._requirement_ending())
-        else:
-            answer = conclude(plan, evidence, self._ending())
+        obstacle = self._obstacle(impossible[0]) if impossible else ""
+        answer = plan.question.conclude(plan.engine, evidence, self._procedure, plan.runs, obstacle)
         return replace(answer, questions=self._store.answered(answered(plan))), evidence
 
     def _rounds_until_over(self) -> None:
@@ -157,31 +141,6 @@ class Race:
             progress = self._progress()
             self._store.note(number, progress.facts())
             self._report(progress)
-
-    def _ending(self) -> Ending:
-        procedure = self._procedure
-        is_over = self._plan.runs is None and procedure.next() is None
-        impossible = self._impossible()
-        return Ending(
-            leading(procedure),
-            self._eliminations(),
-            plan_guarantee(self._plan, procedure, len(impossible)),
-            is_over,
-            self._obstacle(impossible[0]) if impossible else "",
-        )
-
-    def _requirement_ending(self) -> RequirementEnding:
-        procedure, impossible = self._procedure, self._impossible()
-        return RequirementEnding(
-            selected=procedure.selected,
-            certified=frozenset(procedure.certified.tolist()),
-            eliminations=self._eliminations(),
-            is_over=procedure.next() is None,
-            obstacle=self._obstacle(impossible[0]) if impossible else "",
-        )
-
-    def _eliminations(self) -> tuple[Elimination, ...]:
-        return tuple(Elimination(*each) for each in self._procedure.eliminations)
 
     def _impossible(self) -> list[int]:
         """Return the configurations of which all runs are quarantined."""
@@ -214,33 +173,34 @@ class Race:
     ) -> tuple[Floats, Integers]:
         block = RunBlock(tuple(configurations.tolist()), first_run, runs)
         columns = self._store.block(block, self._compute)
-        found = self._plan.question.values(self._plan.scenario, columns)
-        values, quarantined = within(self._plan.limits, configurations, found)
+        question = self._plan.question
+        found = question.sample(self._plan.scenario, columns)
+        values, quarantined = within(self._value_limits, configurations, found)
         self._quarantined[configurations] += quarantined
         self._runs[configurations] += runs
         for row, configuration in enumerate(block.configurations):
             limits = self._limits[configuration]
             for name, parts in self._columns[configuration].items():
-                if name == self._plan.question.quantity:
+                if name == question.quantity:
                     parts.append(values[row])
                     continue
                 if name == "quarantined":
                     parts.append(np.isnan(found[row]).astype(np.float64))
                     continue
                 given = columns[name][row]
-                if name not in self._plan.question.columns:
+                if name not in question.columns:
                     parts.append(given)
                     continue
                 # A quarantined run counts as the worst possible: late, failed, and with its cost.
                 parts.append(np.where(np.isnan(given), limits[name][1], given))
             self._sums[configuration] += values[row].sum()
-        if isinstance(self._plan.question, Cheapest):
+        if question.counts_quarantined:
             # They count as not met, and exclude no configuration: its share of missions decides.
             return values, np.zeros_like(quarantined)
         return values, quarantined
 
     def _sample(self, index: int) -> Sample:
-        lowest, highest = self._plan.limits[index].tolist()
+        lowest, highest = self._value_limits[index].tolist()
         return Sample(
             values=self._plan.configurations[index],
             columns={
@@ -253,9 +213,12 @@ class Race:
 
     def _progress(self) -> Progress:
         procedure = self._procedure
-        is_cheapest = isinstance(self._plan.question, Cheapest)
-        best = leaders(self._plan, procedure, self._sums)
-        eliminated = tuple(Elimination(*each) for each in procedure.eliminations)
+        question, runs = self._plan.question, procedure.runs
+        best = tuple(
+            Leader(each, int(runs[each]), float(self._sums[each] / runs[each]), status)
+            for each, status in question.leaders(self._plan.engine, procedure, self._sums).items()
+        )
+        eliminated = eliminations(procedure)
         new = tuple(each for each in eliminated if each.configuration not in self._eliminated)
         self._eliminated = {each.configuration for each in eliminated}
         return Progress(
@@ -264,9 +227,9 @@ class Race:
             computed=self._store.computed,
             seconds=time.monotonic() - self._start,
             survivors=len(procedure.survivors),
-            leaders=best[-LEADERS:] if is_cheapest else best[:LEADERS],
+            leaders=best[question.foremost],
             eliminated=new,
-            certified=tuple(procedure.certified.tolist()) if is_cheapest else None,
+            certified=tuple(procedure.certified.tolist()) if question.certifies else None,
             is_over=self._is_over(),
             estimate_remaining=self._estimate_remaining,
             intervals=lambda: self._intervals(best),
@@ -292,12 +255,11 @@ class Race:
             missing = float(plan.runs * len(procedure.survivors) - procedure.runs.sum())
             return missing - pending, missing - pending
         request = procedure.next()
-        if self._rounds < MIN_ROUNDS or request is None or not isinstance(plan.question, Best):
+        if self._rounds < MIN_ROUNDS or request is None:
             return None
-        survivors = procedure.survivors.tolist()
-        evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
-        best, rivals = survivors.index(leading(procedure)), len(plan.configurations) - 1
-        expected = remaining_runs(evidence, best, plan.question.delta, rivals)
+        expected = plan.question.remaining(procedure, self._sample, plan.confidence)
+        if expected is None:
+            return None
         configurations, _, runs = request
         low, high = remaining_range(max(expected, float(len(configurations) * runs)))
         return max(0.0, low - pending), max(0.0, high - pending)
@@ -305,57 +267,15 @@ class Race:
 
 def answered(plan: Plan) -> Answered:
     """Return the question of a plan; other questions about the same runs have other words."""
-    question = plan.question.as_dict(plan.confidence)
-    if isinstance(plan.question, Best):
-        question["merit"] = plan.scenario.merit.name
-    words = ", ".join(f"{key} {value}" for key, value in question.items())
-    return Answered(words, plan.confidence)
+    words = plan.question.words(plan.scenario, plan.confidence)
+    return Answered(", ".join(f"{key} {value}" for key, value in words.items()), plan.confidence)
 
 
 def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
     """Yield the columns that an answer uses, of those that the simulator has, and its own."""
     question = plan.question
     yield question.quantity
-    if isinstance(question, Cheapest):
+    if question.counts_quarantined:
         yield "quarantined"
     names = dict.fromkeys((*question.columns, *GOAL_COLUMNS, *CLEARANCE_COLUMNS))
     yield from (name for name in names if name in limits)
-
-
-def procedure_of(plan: Plan) -> _core.Procedure:
-    """Return the procedure that decides which runs a study needs next."""
-    if plan.runs is not None:
-        return _core.equal_allocation(len(plan.configurations), plan.runs)
-    if isinstance(plan.question, Cheapest):
-        return _core.requirement(
-            plan.costs,
-            probability=plan.question.requirement.probability,
-            tolerance=plan.question.requirement.tolerance,
-            confidence=plan.confidence,
-        )
-    return _core.selection(
-        plan.limits,
-        delta=plan.question.delta,
-        confidence=plan.confidence,
-        guarantee=plan.question.guarantee,
-    )
-
-
-def plan_guarantee(plan: Plan, procedure: _core.Procedure, impossible: int) -> str:
-    """Return the guarantee of an answer in words, with the number of impossible configurations."""
-    if len(plan.configurations) == 1:
-        return "There is only one configuration, so nothing was selected; the intervals are valid."
-    if len(plan.configurations) - impossible == 1:
-        return (
-            "Only one configuration can be run, so nothing was selected; the intervals are valid."
-        )
-    if plan.runs is None and isinstance(plan.question, Best):
-        delta, kind = plan.question.delta, plan.question.guarantee
-        guarantee = guarantee_text(procedure, delta, plan.confidence, kind)
-    else:
-        guarantee = (
-            "The selection carries no guarantee, because the number of runs was fixed beforehand; "
-            "the intervals are valid."
-        )
-    left_out = " Configurations that cannot be run were not compared." if impossible else ""
-    return guarantee + left_out

@@ -224,7 +224,7 @@ class Samples:
             mean=np.array([row.mean() if len(row) else math.nan for row in merits]),
             lower=lower,
             upper=upper,
-            eliminations=tuple(Elimination(*each) for each in procedure.eliminations),
+            eliminations=eliminations(procedure),
             survivors=tuple(procedure.survivors.tolist()),
             quarantined=self._quarantined,
             stopped=stopped,
@@ -268,6 +268,11 @@ def within(limits: Floats, configurations: Integers, merits: Floats) -> tuple[Fl
         )
         raise InputError(message)
     return np.clip(merits, lowest, highest), bad.sum(axis=1)
+
+
+def eliminations(procedure: _core.Procedure) -> tuple[Elimination, ...]:
+    """Return the eliminations of a procedure, in their order."""
+    return tuple(Elimination(*each) for each in procedure.eliminations)
 
 
 def leading(procedure: _core.Procedure) -> int:

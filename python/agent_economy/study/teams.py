@@ -38,11 +38,13 @@ def costs(engine: Engine, cost: str) -> Floats:
     Raises:
         InputError: If the expression is invalid.
     """
-    expression = cost_of(engine.scenario, cost)
-    found = evaluated(expression, engine)
-    if not np.isfinite(found).all():
-        raise expression.error(NOT_FINITE)
-    return found
+    if cost not in engine.costs:
+        expression = cost_of(engine.scenario, cost)
+        found = evaluated(expression, engine)
+        if not np.isfinite(found).all():
+            raise expression.error(NOT_FINITE)
+        engine.costs[cost] = found
+    return engine.costs[cost]
 
 
 def allowed_by(scenario: Scenario, where: str) -> Expression:

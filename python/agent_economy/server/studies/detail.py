@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from agent_economy import study
-from agent_economy.study import AnyAnswer, RequirementResult, Result, report
+from agent_economy.study import AnyAnswer, report
+from agent_economy.study.answer.any_answer import AnyResult
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.report import Section, Table
 from agent_economy.study.store.folder import ANSWER, read_bytes
@@ -48,7 +49,7 @@ class AnswerCache:
 
 def detail(answer: AnyAnswer, evidence: Evidence) -> page.StudyAnswer:
     """Return an answer with the sections and charts of the report."""
-    results: Sequence[Result | RequirementResult] = answer.results
+    results: Sequence[AnyResult] = answer.results
     shown = report.parts(answer, evidence)
     return {
         "verdict": answer.verdict,
@@ -88,19 +89,13 @@ def table(given: Table) -> page.StudyTable:
     }
 
 
-def result(index: int, given: Result | RequirementResult) -> page.StudyResult:
+def result(index: int, given: AnyResult) -> page.StudyResult:
     """Return the result of a configuration."""
-    if isinstance(given, RequirementResult):
-        verdict: page.StudyVerdict = "best" if given.status == "selected" else given.status
-        met = (given.met.value, given.met.low, given.met.high) if given.met else None
-        is_out = given.status == "refuted"
-    else:
-        verdict, met, is_out = given.standing.verdict, None, given.eliminated is not None
     return {
         "configuration": index,
         "label": given.label,
         "runs": given.runs,
-        "verdict": verdict,
-        "eliminated": is_out,
-        "met": met,
+        "verdict": given.verdict,
+        "eliminated": given.is_eliminated,
+        "met": (given.met.value, given.met.low, given.met.high) if given.met else None,
     }

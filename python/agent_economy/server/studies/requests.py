@@ -13,10 +13,9 @@ from agent_economy.server.studies.factors import required
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
+from agent_economy.study.check.arguments import check_question
 from agent_economy.study.description import Description
 from agent_economy.study.expression import Expression
-from agent_economy.study.plan import check_question
-from agent_economy.study.question import Best
 from agent_economy.study.teams import names
 from agent_economy.types import page
 
@@ -206,12 +205,12 @@ def planned(plan: Plan, name: str, state: page.StudyState | None) -> page.StudyP
         "configurations": len(plan.configurations),
         "labels": [label(values) for values in plan.configurations[:MAX_LABELS]],
         "words": str(Description.of(plan)),
-        "delta": question.delta if isinstance(question, Best) else None,
+        "delta": question.delta,
         "confidence": plan.confidence,
-        "guarantee": question.guarantee if isinstance(question, Best) else None,
-        "requirement": None
-        if isinstance(question, Best)
-        else {**required(question.requirement), "minimize": question.cost},
+        "guarantee": question.guarantee,
+        "requirement": {**required(question.requirement), "minimize": plan.scenario.cost}
+        if question.requirement
+        else None,
         "merit": plan.scenario.merit.name,
         "factors": [
             {"path": each.path, "values": each.values, "range": each.range}

@@ -12,7 +12,6 @@ from agent_economy.scenario.merit import Merit
 from agent_economy.scenario.validation import whole
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
-from agent_economy.study.question import Cheapest
 
 MAX_ROWS = 1000
 """Maximum number of runs in a response."""
@@ -56,14 +55,15 @@ def sampled(plan: Plan, folder: Path, configuration: int, count: int) -> dict[st
 
 
 def median(plan: Plan, folder: Path, configuration: int) -> dict[str, Any]:
-    """Return the median run of a configuration: by merit, or with a requirement by time.
+    """Return the median run of a configuration, by what is typical of the study's question.
 
     Raises:
         InputError: If an argument is not allowed, or the study is damaged.
     """
     found = rows(plan, folder, configuration).order("run").to_arrow_table()
-    if isinstance(plan.question, Cheapest) and found.num_rows:
-        values = floats(found["time_s"], arrow.numbers(found["quarantined"]))
+    typical = plan.question.typical
+    if typical in found.column_names:
+        values = floats(found[typical], arrow.numbers(found["quarantined"]))
     else:
         values = scores(plan.scenario.merit, found)
     order = np.argsort(np.nan_to_num(values, nan=-np.inf), kind="stable")

@@ -1,10 +1,13 @@
 """The answer of a study of any question."""
 
 from agent_economy._core import InputError
-from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.best import Answer
 from agent_economy.study.answer.requirement import RequirementAnswer
+from agent_economy.study.answer.requirement_results import RequirementResult
+from agent_economy.study.answer.results import Result
 
 AnyAnswer = Answer | RequirementAnswer
+AnyResult = Result | RequirementResult
 
 
 def expect_best(answer: AnyAnswer) -> Answer:

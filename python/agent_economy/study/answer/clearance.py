@@ -7,7 +7,9 @@ import numpy as np
 from agent_economy.study.answer import estimate
 from agent_economy.study.answer.evidence import Interval, Sample
 from agent_economy.study.arguments import Floats
-from agent_economy.study.question import CLEARANCE_COLUMNS
+
+CLEARANCE_COLUMNS = ("declared", "declared_not_clear", "stated_risk", "declared_s")
+"""Columns that describe a lane, of those that the simulator has: NaN in a quarantined run."""
 
 MIN_SHARE = 1e-9
 """Shares below this are written as 0."""

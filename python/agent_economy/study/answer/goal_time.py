@@ -5,7 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from agent_economy.study.answer.evidence import Sample
-from agent_economy.study.question import GOAL_COLUMNS
+
+GOAL_COLUMNS = (
+    "served",
+    "served_twice",
+    "waiting_s",
+    "travel_s",
+    "blocked_s",
+    "service_s",
+)
+"""Columns that describe goals, of those that the simulator has: NaN in a quarantined run."""
 
 PARTS = ("waiting_s", "travel_s", "blocked_s", "service_s")
 """The columns of the parts, each a mean over the goals served in a run."""

@@ -78,6 +78,12 @@ def varied(configurations: Sequence[Values]) -> tuple[str, ...]:
     return tuple(path for path in paths if len({each[path] for each in configurations}) > 1)
 
 
+def first(labels: list[str], count: int, others: str) -> list[str]:
+    """Return the first of some labels, and how many `others` there are."""
+    more = len(labels) - count
+    return [*labels[:count], f"{more} {others}"] if more > 0 else labels
+
+
 def listed(words: list[str]) -> str:
     """Return "a", "a and b", "a, b and c"."""
     *others, last = words

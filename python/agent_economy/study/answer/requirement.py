@@ -3,25 +3,16 @@
 from dataclasses import dataclass
 
 from agent_economy.scenario import Requirement, Scenario
-from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.answer.requirement_results import (
-    RequirementEnding,
-    RequirementResult,
-    results,
-)
-from agent_economy.study.answer.requirement_words import (
-    guarantee,
-    requirement_verdict,
-    sentence,
-)
-from agent_economy.study.answer.verdict import Verdict, as_html
-from agent_economy.study.plan import Plan
-from agent_economy.study.question import Cheapest
+from agent_economy.study.answer.requirement_results import RequirementResult
+from agent_economy.study.answer.study_answer import Overview, StudyAnswer, Verdict
 from agent_economy.study.store.ledger import Answered
 
+STYLES = {"selected": "bold", "refuted": "dim", "not needed": "dim", "impossible": "dim"}
+"""The style of each status that has one, on a terminal."""
 
-@dataclass(frozen=True)
-class RequirementAnswer:
+
+@dataclass(frozen=True, repr=False)
+class RequirementAnswer(StudyAnswer):
     """The answer of a study of a requirement.
 
     Attributes:
@@ -53,47 +44,63 @@ class RequirementAnswer:
     results: tuple[RequirementResult, ...]
     questions: tuple[Answered, ...] = ()
 
-    def __repr__(self) -> str:
-        """Return the verdict and the number of runs."""
-        return f"RequirementAnswer({' '.join(self.verdict)!r}, {self.runs:,} runs)"
-
-    def _repr_html_(self) -> str:
-        """Return the verdict for notebooks."""
-        return as_html(self.verdict)
+    # The verdict contains all that they would state.
+    details = precision = ""
 
     @property
-    def runs(self) -> int:
-        """Number of runs of all configurations together."""
-        return sum(result.runs for result in self.results)
+    def chosen(self) -> RequirementResult | None:
+        """The result of the selected configuration, if one is certified."""
+        return None if self.selected is None else self.results[self.selected]
+
+    @property
+    def contenders(self) -> frozenset[int]:
+        """Those that are certified or open, and the next cheaper one than the selected one."""
+        known = [at for at, each in enumerate(self.results) if each.met and each.is_possible]
+        known.sort(key=lambda at: self.results[at].cost)
+        end = len(known) if self.selected is None else known.index(self.selected)
+        in_play = ("selected", "certified", "open")
+        near = (at for at in known if self.results[at].status in in_play)
+        return frozenset((*near, *known[:end][-1:]))
+
+    def foremost(self, count: int) -> list[RequirementResult]:
+        """Return the teams by their cost; of many, the selected one and those next to it."""
+        ordered = sorted(self.results, key=lambda result: result.cost)
+        if len(ordered) <= count:
+            return ordered
+        known = max((at for at, result in enumerate(ordered) if result.runs), default=0)
+        at = known if self.chosen is None else ordered.index(self.chosen)
+        last = min(len(ordered), max(count, at + count // 4))
+        return ordered[last - count : last]
+
+    def overview(self, count: int, *, ranges: bool) -> Overview:
+        """Return the table of the foremost teams."""
+        shown = self.foremost(count)
+        return Overview(
+            heads=(self.cost, "runs", "met", "most frequent failure", ""),
+            rows=[
+                (
+                    f"{each.cost:,.12g}",
+                    f"{each.runs:,}" if each.runs else "",
+                    met(each, ranges=ranges),
+                    self.failure(each),
+                    each.status,
+                )
+                for each in shown
+            ],
+            styles=[STYLES.get(each.status) for each in shown],
+        )
+
+    def failure(self, result: RequirementResult) -> str:
+        """Return the condition that fails most often, and in which share of missions."""
+        if not any(result.failing) or not result.is_possible:
+            return ""
+        worst, part = result.worst
+        return f"{self.requirement.conditions[worst].text}: {part:.1%}"
 
 
-def conclude_requirement(
-    plan: Plan, evidence: Evidence, ending: RequirementEnding
-) -> RequirementAnswer:
-    """Return the answer that follows from the runs of a study of a requirement.
-
-    Raises:
-        TypeError: If the plan has another question.
-    """
-    question = plan.question
-    if not isinstance(question, Cheapest):
-        message = "the question is not about a requirement"
-        raise TypeError(message)
-    found = results(plan, question.requirement, evidence, ending)
-    return RequirementAnswer(
-        scenario=plan.scenario,
-        seed=plan.seed,
-        verdict=requirement_verdict(
-            question, found, plan.confidence, ending.obstacle, is_over=ending.is_over
-        ),
-        sentence=sentence(
-            question, found, plan.confidence, ending.obstacle, is_over=ending.is_over
-        ),
-        guarantee=guarantee(question, found, plan.confidence, is_over=ending.is_over),
-        is_guaranteed=ending.is_over,
-        confidence=plan.confidence,
-        requirement=question.requirement,
-        cost=question.cost,
-        selected=ending.selected,
-        results=found,
-    )
+def met(result: RequirementResult, *, ranges: bool) -> str:
+    """Return the share of missions that meet the requirement."""
+    if result.met is None or not result.is_possible:
+        return ""
+    value, low, high = result.met.value, result.met.low, result.met.high
+    return f"{value:.1%} ({low:.1%}..{high:.1%})" if ranges else f"{value:.1%}"

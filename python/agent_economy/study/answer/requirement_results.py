@@ -1,44 +1,63 @@
 """The results of each configuration of a study of a requirement."""
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Literal
+from typing import Literal, Self
 
+from agent_economy import _core
 from agent_economy.scenario import Requirement, Value
 from agent_economy.study.answer.clearance import Clearance, clearance
 from agent_economy.study.answer.evidence import Evidence, Interval, Sample
 from agent_economy.study.answer.goal_time import GoalTime, goal_time
 from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
-from agent_economy.study.plan import Plan
-from agent_economy.study.selection import Elimination
+from agent_economy.study.answer.ties import Verdict
+from agent_economy.study.arguments import Floats
 from agent_economy.study.teams import rounded
 
-Status = Literal["selected", "certified", "refuted", "open", "not needed", "impossible"]
+Known = Literal["certified", "refuted", "open", "not needed", "impossible"]
+Status = Literal["selected"] | Known
 
 
 @dataclass(frozen=True)
 class RequirementEnding:
-    """The end of a study of a requirement.
+    """The state of a study of a requirement, at its end or before.
 
     Attributes:
+        costs: The cost of each configuration.
         selected: Index of the cheapest certified configuration; None if none is certified.
         certified: The certified configurations.
-        eliminations: The refuted configurations, in the order of their refutation.
+        refuted: The refuted configurations.
         is_over: Whether it ended by itself, so that its promise holds.
         obstacle: Why some configurations cannot be run; empty if all can.
     """
 
+    costs: Floats
     selected: int | None
     certified: frozenset[int]
-    eliminations: tuple[Elimination, ...]
+    refuted: frozenset[int]
     is_over: bool
     obstacle: str = ""
 
-    @cached_property
-    def refuted(self) -> frozenset[int]:
-        """The refuted configurations."""
-        return frozenset(each.configuration for each in self.eliminations)
+    @classmethod
+    def of(cls, procedure: _core.Procedure, costs: Floats, obstacle: str = "") -> Self:
+        """Return the state of a procedure."""
+        return cls(
+            costs=costs,
+            selected=procedure.selected,
+            certified=frozenset(procedure.certified.tolist()),
+            refuted=frozenset(each for each, _, _ in procedure.eliminations),
+            is_over=procedure.next() is None,
+            obstacle=obstacle,
+        )
+
+    def status(self, index: int) -> Known:
+        """Return what is known of a configuration, which is not selected before the end."""
+        if index in self.certified:
+            return "certified"
+        if index in self.refuted:
+            return "refuted"
+        is_cheaper = self.selected is None or self.costs[index] < self.costs[self.selected]
+        return "open" if is_cheaper else "not needed"
 
 
 @dataclass(frozen=True)
@@ -83,20 +102,35 @@ class RequirementResult:
         """Whether it can be run."""
         return self.status != "impossible"
 
+    @property
+    def verdict(self) -> Verdict | Known:
+        """Its status, in the word for a selected configuration of any study."""
+        return "best" if self.status == "selected" else self.status
+
+    @property
+    def worst(self) -> tuple[int, float]:
+        """The number of the condition that fails most often, and its share of runs."""
+        return max(enumerate(self.failing), key=lambda pair: pair[1])
+
+    @property
+    def is_eliminated(self) -> bool:
+        """Whether it is refuted."""
+        return self.status == "refuted"
+
 
 def results(
-    plan: Plan, requirement: Requirement, evidence: Evidence, ending: RequirementEnding
+    requirement: Requirement, evidence: Evidence, ending: RequirementEnding
 ) -> tuple[RequirementResult, ...]:
     """Return the result of each configuration."""
     return tuple(
         RequirementResult(
             values=dict(sample.values),
             label=label(sample.values),
-            cost=float(plan.costs[index]),
+            cost=float(ending.costs[index]),
             price=price(sample),
             runs=sample.runs,
             quarantined=sample.quarantined,
-            status=status(plan, evidence, ending, index),
+            status=status(sample, ending, index),
             met=evidence.interval(index, "met") if sample.runs else None,
             failing=failing(sample, requirement),
             quantiles=quantiles_of(evidence, sample, quantile_columns(requirement)),
@@ -107,19 +141,13 @@ def results(
     )
 
 
-def status(plan: Plan, evidence: Evidence, ending: RequirementEnding, index: int) -> Status:
-    """Return what is known of a configuration."""
-    sample = evidence.samples[index]
+def status(sample: Sample, ending: RequirementEnding, index: int) -> Status:
+    """Return what is known of a configuration at the end."""
     if index == ending.selected:
         return "selected"
-    if index in ending.certified:
-        return "certified"
-    if sample.runs and not sample.is_possible:
-        return "impossible"
-    if index in ending.refuted:
-        return "refuted"
-    is_cheaper = ending.selected is None or plan.costs[index] < plan.costs[ending.selected]
-    return "open" if is_cheaper else "not needed"
+    known = ending.status(index)
+    is_impossible = sample.runs and not sample.is_possible
+    return "impossible" if is_impossible and known != "certified" else known
 
 
 def quantile_columns(requirement: Requirement) -> tuple[str, ...]:

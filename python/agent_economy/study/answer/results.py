@@ -9,7 +9,7 @@ from agent_economy.study.answer.front import Place, front
 from agent_economy.study.answer.goal_time import GoalTime, goal_time
 from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.quantiles import Quantiles, quantiles_of
-from agent_economy.study.answer.ties import Standing, standings
+from agent_economy.study.answer.ties import Standing, Verdict, standings
 from agent_economy.study.selection import Elimination
 
 
@@ -66,10 +66,22 @@ class Result:
     goal_time: GoalTime | None = None
     clearance: Clearance | None = None
 
+    met = None
+
+    @property
+    def verdict(self) -> Verdict:
+        """What the comparison with the selected configuration proves."""
+        return self.standing.verdict
+
     @property
     def is_possible(self) -> bool:
         """Whether it can be run, and was compared."""
-        return self.standing.verdict != "impossible"
+        return self.verdict != "impossible"
+
+    @property
+    def is_eliminated(self) -> bool:
+        """Whether the race eliminated it."""
+        return self.eliminated is not None
 
 
 def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, ...]:

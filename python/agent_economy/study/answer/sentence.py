@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer import clearance
-from agent_economy.study.answer.labels import listed, recommendation
+from agent_economy.study.answer.labels import first, listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
 from agent_economy.study.answer.ties import Verdict
 from agent_economy.study.answer.verdict import upper
@@ -52,13 +52,8 @@ def performance(result: Result) -> str:
 def impossible(results: Sequence[Result], obstacle: str) -> list[str]:
     """Return a sentence about the configurations that cannot be run, if any, with the reason."""
     labels = [each.label for each in results if not each.is_possible]
-    return [f"Cannot be run: {some(labels)} ({obstacle})"] if labels else []
-
-
-def some(labels: list[str]) -> str:
-    """Return the first of some labels, and how many more there are."""
-    more = len(labels) - MAX_NAMED
-    return listed([*labels[:MAX_NAMED], f"{more} more"] if more > 0 else labels)
+    some = first(labels, MAX_NAMED, "more")
+    return [f"Cannot be run: {listed(some)} ({obstacle})"] if labels else []
 
 
 def named(
@@ -72,7 +67,8 @@ def named(
         and each.standing.behind
         and each.standing.behind.value < max_behind
     ]
-    return [f"{words.capitalize()}: {some(labels)}"] if labels else []
+    some = first(labels, MAX_NAMED, "more")
+    return [f"{words.capitalize()}: {listed(some)}"] if labels else []
 
 
 def published_choice(scenario: Scenario, chosen: Result, results: Sequence[Result]) -> list[str]:

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from html import escape
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer import clearance
-from agent_economy.study.answer.labels import alternatives, listed, recommendation
+from agent_economy.study.answer.labels import alternatives, first, listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
+from agent_economy.study.answer.study_answer import Verdict
 from agent_economy.study.selection import percentage
 from agent_economy.study.store.ledger import Answered
 
@@ -19,9 +19,6 @@ OFTEN = 0.1
 
 MAX_IN_RUNS = 10**9
 """Failures are counted in at most this many runs."""
-
-Verdict = tuple[str, str, str, str]
-"""What to send, how it does, what does as well, and what was not looked for."""
 
 
 def verdict(
@@ -51,7 +48,11 @@ def declarations(of: clearance.Clearance | None) -> list[str]:
 def impossible(results: Sequence[Result], obstacle: str) -> list[str]:
     """Return a sentence about the configurations that cannot be run, if any, with the reason."""
     labels = [each.label for each in results if not each.is_possible]
-    return [f"Cannot be run: {listed(named(labels))} ({obstacle})."] if labels else []
+    return (
+        [f"Cannot be run: {listed(first(labels, MAX_NAMED, 'others'))} ({obstacle})."]
+        if labels
+        else []
+    )
 
 
 def fails_often(share: float) -> bool:
@@ -109,17 +110,11 @@ def others(chosen: Result, results: Sequence[Result]) -> str:
     tied = [each.label for _, each in behind if each.standing.verdict == "tied"]
     if tied:
         verb = "does" if len(tied) == 1 else "do"
-        return f"{upper(alternatives(named(tied)))} {verb} about as well."
+        return f"{upper(alternatives(first(tied, MAX_NAMED, 'others')))} {verb} about as well."
     value, nearest = min(behind, key=lambda pair: pair[0])
     if nearest.standing.verdict == "worse":
         return f"Next: {nearest.label}, worse by {value:.2g} merit."
     return f"Next: {nearest.label}, by {value:.2g} merit; which is better is not decided."
-
-
-def named(labels: list[str]) -> list[str]:
-    """Return the first of some labels, and how many more there are."""
-    more = len(labels) - MAX_NAMED
-    return [*labels[:MAX_NAMED], f"{more} others"] if more > 0 else labels
 
 
 def precision(scenario: Scenario, delta: float, confidence: float) -> str:
@@ -155,9 +150,3 @@ def repeated(questions: Sequence[Answered]) -> str:
         "promise, it holds with its own confidence; all promises together hold with a probability "
         f"of at least {together} only."
     )
-
-
-def as_html(verdict: Verdict) -> str:
-    """Return a verdict for notebooks."""
-    first, second, third, fourth = map(escape, verdict)
-    return f"<b>{first}</b><br>{second}<br>{third}<br><small>{fourth}</small>"

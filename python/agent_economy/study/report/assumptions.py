@@ -3,43 +3,24 @@
 from collections.abc import Iterator
 
 from agent_economy.study.answer.any_answer import AnyAnswer
-from agent_economy.study.answer.labels import varied
 from agent_economy.study.answer.verdict import repeated
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.formatting import brief
-from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.tables import written
-from agent_economy.study.report.view import View
 from agent_economy.study.versions import versions
 
 MAX_LISTED = 12
 """Maximum number of values of a factor that are listed."""
 
 
-def assumptions(view: View) -> Iterator[tuple[str, str]]:
+def assumptions(view: AnyView) -> Iterator[tuple[str, str]]:
     """Return the assumptions of an answer, each with its name."""
     answer = view.answer
     yield from scenario(answer)
     for path in view.varied:
         yield path, values(answer, path)
     yield "seed", f"{answer.seed}; a run number means the same random numbers in all configurations"
-    yield "bounds", "the merit of a run has known bounds; no distribution is assumed"
-    yield (
-        "quarantine",
-        "a run without a finite merit counts as the worst merit and is never omitted",
-    )
-    yield from questions(answer)
-    yield from versions().items()
-
-
-def requirement_assumptions(view: RequirementView) -> Iterator[tuple[str, str]]:
-    """Return the assumptions of an answer about a requirement, each with its name."""
-    answer = view.answer
-    yield from scenario(answer)
-    for path in varied([result.values for result in answer.results]):
-        yield path, values(answer, path)
-    yield "seed", f"{answer.seed}; a run number means the same random numbers in all configurations"
-    yield "order", "that more robots are better is not assumed; each configuration is judged alone"
-    yield "quarantine", "a run without an outcome counts as not met and is never omitted"
+    yield from view.principles
     yield from questions(answer)
     yield from versions().items()
 

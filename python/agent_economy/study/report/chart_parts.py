@@ -3,9 +3,9 @@
 from typing import Any
 
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.formatting import finite
-from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.view import View, factor_name
+from agent_economy.study.report.view import factor_name
 
 Spec = dict[str, Any]
 Rows = list[dict[str, Any]]
@@ -131,12 +131,12 @@ def around(value: float, error: float) -> Interval:
     return Interval(value, value - error, value + error)
 
 
-def row_of(view: View | RequirementView, index: int) -> dict[str, Any]:
+def row_of(view: AnyView, index: int) -> dict[str, Any]:
     """Return the number and name of a configuration, the same in all of its rows."""
     return {"label": view.names[index], "configuration": index}
 
 
-def place_of(view: View, index: int) -> dict[str, Any]:
+def place_of(view: AnyView, index: int) -> dict[str, Any]:
     """Return the configuration of a row, with its position on the axis."""
     row = row_of(view, index)
     if view.numeric_factor:
@@ -144,7 +144,7 @@ def place_of(view: View, index: int) -> dict[str, Any]:
     return row
 
 
-def axis_of(view: View, rows: Rows) -> tuple[str, Spec, str]:
+def axis_of(view: AnyView, rows: Rows) -> tuple[str, Spec, str]:
     """Return the channel along which configurations lie, its encoding, and the other channel."""
     if view.numeric_factor is None:
         return "y", by_name(rows), "x"
@@ -155,12 +155,12 @@ def axis_of(view: View, rows: Rows) -> tuple[str, Spec, str]:
     return "x", field("at", title=title, axis=ticks, scale=scale), "y"
 
 
-def value_channel(view: View) -> str:
+def value_channel(view: AnyView) -> str:
     """Return the channel of values: that along which configurations do not lie."""
     return "x" if view.numeric_factor is None else "y"
 
 
-def intervals(view: View, rows: Rows, title: Spec, style: Spec) -> Spec:
+def intervals(view: AnyView, rows: Rows, title: Spec, style: Spec) -> Spec:
     """Return a chart of points with intervals along the axis of configurations."""
     channel, place, value = axis_of(view, rows)
     layers = with_bounds(value, {"scale": {"zero": False}, **title}, {channel: place}, style)

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from agent_economy.study.answer.conclude import Answer
-from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.ties import VERDICT_TEXT
 from agent_economy.study.report import factor_charts, goal_chart
 from agent_economy.study.report.chart_parts import (
@@ -40,10 +39,9 @@ from agent_economy.study.report.chart_parts import (
     value_channel,
     with_bounds,
 )
-from agent_economy.study.report.contenders import contenders
 from agent_economy.study.report.formatting import finite
+from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.scale import ValueAxis, scaled
-from agent_economy.study.report.view import View
 
 PLACES: Codes = {
     "selected": (BLUE, "circle"),
@@ -56,9 +54,8 @@ FRONT_HEIGHT = 300
 QUANTILES = {"p5": 0.05, "p25": 0.25, "p50": 0.5, "p75": 0.75, "p95": 0.95}
 
 
-def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
+def specifications(view: MeritView) -> dict[str, Spec]:
     """Return the Vega-Lite specification of each chart that the answer has data for, by name."""
-    view = View(answer, evidence)
     made = {"times": times(view)}
     if view.compares:
         compared = (merit, behind, failed, front, runs)
@@ -66,15 +63,15 @@ def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
     return made | factor_charts.specifications(view) | goal_chart.specifications(view)
 
 
-def merit(view: View) -> Spec:
+def merit(view: MeritView) -> Spec:
     """Return the chart of the figure of merit of each configuration."""
     rows = [judged(view, index, view.result(index).merit) for index in view.shown]
     style = coded("verdict", VERDICTS, rows)
     made = intervals(view, rows, {"title": "figure of merit (higher is better)"}, style)
-    return scaled(made, ValueAxis(value_channel(view)), contenders(view.answer))
+    return scaled(made, ValueAxis(value_channel(view)), view.answer.contenders)
 
 
-def failed(view: View) -> Spec:
+def failed(view: MeritView) -> Spec:
     """Return the chart of the share of failed runs per configuration."""
     rows = [judged(view, index, view.result(index).failed) for index in view.shown]
     title = {
@@ -84,10 +81,10 @@ def failed(view: View) -> Spec:
     }
     made = intervals(view, rows, title, coded("verdict", VERDICTS, rows))
     axis = ValueAxis(value_channel(view), include=(0.0,), within=(0.0, 1.0))
-    return scaled(made, axis, contenders(view.answer))
+    return scaled(made, axis, view.answer.contenders)
 
 
-def behind(view: View) -> Spec:
+def behind(view: MeritView) -> Spec:
     """Return the chart of differences from the selected one; a band marks delta on both sides."""
     rows = [
         judged(view, index, interval)
@@ -102,21 +99,21 @@ def behind(view: View) -> Spec:
     title = {"title": "difference of merit from the selected one"}
     points = with_bounds("x", title, {"y": by_name(rows)}, coded("verdict", VERDICTS, rows))
     made = chart([band, line_at("x", 0.0), *points], rows, heights(rows))
-    return scaled(made, ValueAxis("x", include=(-delta, delta)), contenders(view.answer))
+    return scaled(made, ValueAxis("x", include=(-delta, delta)), view.answer.contenders)
 
 
-def judged(view: View, index: int, interval: Interval) -> dict[str, Any]:
+def judged(view: MeritView, index: int, interval: Interval) -> dict[str, Any]:
     """Return the row of a configuration's interval, with its verdict."""
     verdict = verdict_of(view, index)
     return {**place_of(view, index), **bounds(interval), "verdict": verdict}
 
 
-def verdict_of(view: View, index: int) -> str:
+def verdict_of(view: MeritView, index: int) -> str:
     """Return the verdict on a configuration in words."""
     return VERDICT_TEXT[view.result(index).standing.verdict]
 
 
-def front(view: View) -> Spec:
+def front(view: MeritView) -> Spec:
     """Return the chart of price, time and failures."""
     # The selected one is drawn last, on top of the others.
     rows = [front_row(view, index) for index in reversed(view.on_front)]
@@ -140,10 +137,10 @@ def front(view: View) -> Spec:
         {"mark": {"type": "rule", "color": GREY, "opacity": 0.7}, "encoding": spans},
         {"mark": {"type": "point", "filled": True, "opacity": 0.85}, "encoding": dots},
     ]
-    return scaled(chart(layers, rows, FRONT_HEIGHT), ValueAxis("y"), contenders(view.answer))
+    return scaled(chart(layers, rows, FRONT_HEIGHT), ValueAxis("y"), view.answer.contenders)
 
 
-def front_row(view: View, index: int) -> dict[str, Any]:
+def front_row(view: MeritView, index: int) -> dict[str, Any]:
     """Return the row of a configuration's price, time and failures."""
     result = view.result(index)
     return {
@@ -155,7 +152,7 @@ def front_row(view: View, index: int) -> dict[str, Any]:
     }
 
 
-def place_on_front(view: View, index: int) -> str:
+def place_on_front(view: MeritView, index: int) -> str:
     """Return whether a configuration is on the Pareto front, in words."""
     is_efficient = view.result(index).place.dominated_by is None
     if index != view.answer.best:
@@ -163,7 +160,7 @@ def place_on_front(view: View, index: int) -> str:
     return "selected" if is_efficient else "selected, dominated"
 
 
-def runs(view: View) -> Spec:
+def runs(view: MeritView) -> Spec:
     """Return the chart of the number of runs per configuration."""
     rows: Rows = [
         {**row_of(view, index), "runs": view.result(index).runs, "state": state(view, index)}
@@ -181,14 +178,14 @@ def runs(view: View) -> Spec:
     return chart(layers, rows, heights(rows))
 
 
-def state(view: View, index: int) -> str:
+def state(view: MeritView, index: int) -> str:
     """Return whether a configuration was selected or eliminated, or remains."""
     if index == view.answer.best:
         return "selected"
     return "eliminated" if view.result(index).eliminated else "remaining"
 
 
-def times(view: View) -> Spec:
+def times(view: MeritView) -> Spec:
     """Return the chart of the times: middle 90%, middle 50%, and median."""
     rows = [row for index in view.shown if (row := quantile_row(view, index))]
     channel, place, value = axis_of(view, rows)
@@ -209,10 +206,10 @@ def times(view: View) -> Spec:
     ]
     made = chart(layers, rows, HEIGHT if channel == "x" else heights(rows))
     axis = ValueAxis(value, value="p50", ends=("p5", "p95"))
-    return scaled(made, axis, contenders(view.answer))
+    return scaled(made, axis, view.answer.contenders)
 
 
-def quantile_row(view: View, index: int) -> dict[str, Any] | None:
+def quantile_row(view: MeritView, index: int) -> dict[str, Any] | None:
     """Return the row of quantiles of a configuration's times; None if it has none."""
     times_s = view.evidence.samples[index].columns["time_s"]
     known = times_s[np.isfinite(times_s)]

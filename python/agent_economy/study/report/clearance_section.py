@@ -3,14 +3,12 @@
 from agent_economy.study.answer.clearance import Clearance, in_words, percent
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.verdict import upper
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.formatting import NOTHING, decimal
-from agent_economy.study.report.requirement_view import RequirementView
 from agent_economy.study.report.section import Section
-from agent_economy.study.report.tables import Cell, Row, Table, words
-from agent_economy.study.report.view import MAX_SHOWN, View
+from agent_economy.study.report.tables import Cell, Table, marking, styled
+from agent_economy.study.report.view import MAX_SHOWN
 from agent_economy.study.selection import percentage
-
-AnyView = View | RequirementView
 
 HEADS = ("lanes", "declared clear", "risk", "stated risk", "mean time until declared, s")
 FRONT_HEADS = ("price", "declared clear", "risk", "mean time of all lanes, s")
@@ -47,42 +45,39 @@ def clearance(view: AnyView) -> Section:
 
 def table(view: AnyView) -> Table:
     """Return the table of all shown configurations."""
-
-    def row(index: int, of: Clearance) -> Row:
-        cells = (
+    rows = {
+        index: (
             Cell(f"{of.lanes:,}"),
             share(of.declared_share),
             risk(of),
             Cell(NOTHING if of.stated_risk is None else percent(of.stated_risk)),
             seconds(of.declared_s),
         )
-        return Row((words(view.names[index]), *cells), style(view, index), index)
-
+        for index, of in view.with_clearance.items()
+    }
     caption = "Lanes declared clear, and the share of these that were not clear"
-    rows = tuple(row(index, of) for index, of in view.with_clearance.items())
-    return Table(caption, ("configuration", *HEADS), rows)
+    return styled(view, caption, ("configuration", *HEADS), rows, marking(view))
 
 
 def front_table(view: AnyView) -> Table:
     """Return the table of the configurations on the front, the cheapest first."""
-
-    def row(index: int, of: Clearance) -> Row:
-        cells = (
-            Cell(f"{price(view, index):,.12g}"),
+    rows = {
+        index: (
+            Cell(f"{view.price(index):,.12g}"),
             share(of.declared_share),
             risk(of),
             seconds(of.cleared_s),
         )
-        return Row((words(view.names[index]), *cells), style(view, index), index)
-
-    rows = tuple(row(index, of) for index, of in front(view).items())
-    return Table("Front of price, time and risk", ("configuration", *FRONT_HEADS), rows)
+        for index, of in front(view).items()
+    }
+    caption = "Front of price, time and risk"
+    return styled(view, caption, ("configuration", *FRONT_HEADS), rows, marking(view))
 
 
 def front(view: AnyView) -> dict[int, Clearance]:
     """Return the configurations that no other one dominates, the cheapest first; none of one."""
     points = {
-        index: (price(view, index), of.cleared_s, of.risk.high)
+        index: (view.price(index), of.cleared_s, of.risk.high)
         for index, of in view.with_clearance.items()
         if of.risk is not None and of.cleared_s is not None
     }
@@ -101,13 +96,6 @@ def dominates(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
     return one != other and all(low <= high for low, high in zip(one, other, strict=True))
 
 
-def price(view: AnyView, index: int) -> float:
-    """Return the price of a configuration; without prices, its number of robots."""
-    if isinstance(view, RequirementView):
-        return view.result(index).price
-    return view.result(index).place.price
-
-
 def share(interval: Interval) -> Cell:
     """Return the cell of a share and its bounds."""
     bounds = f"{percent(interval.low)} to {percent(interval.high)}"
@@ -122,8 +110,3 @@ def risk(of: Clearance) -> Cell:
 def seconds(time_s: float | None) -> Cell:
     """Return the cell of a time."""
     return Cell(NOTHING if time_s is None else decimal(time_s, 0))
-
-
-def style(view: AnyView, index: int) -> str:
-    """Return the CSS class of a row."""
-    return "best" if index == view.selected else ""

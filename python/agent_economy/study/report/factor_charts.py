@@ -25,7 +25,8 @@ from agent_economy.study.report.chart_parts import (
 )
 from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.heat_map import heat_map
-from agent_economy.study.report.view import View, factor_name
+from agent_economy.study.report.merit_view import MeritView
+from agent_economy.study.report.view import factor_name
 
 MARKS: Codes = {name: code for name, code in VERDICTS.items() if name != "worse"}
 """The verdicts that mark cells of a heat map; most cells of a finished study are worse."""
@@ -37,7 +38,7 @@ MEASURES: Codes = {
 OURS = "this study"
 
 
-def specifications(view: View) -> dict[str, Spec]:
+def specifications(view: MeritView) -> dict[str, Spec]:
     """Return the specification of each chart that the answer has data for, by name."""
     made: dict[str, Spec] = {}
     if view.is_grid:
@@ -52,12 +53,12 @@ def specifications(view: View) -> dict[str, Spec]:
     return made
 
 
-def heat(view: View) -> Spec:
+def heat(view: MeritView) -> Spec:
     """Return the heat map of the mean merit over two factors, those not decided marked."""
     rows: Rows = [
         {
             **row_of(view, index),
-            "value": finite(result.merit.value) if view.is_possible(index) else None,
+            "value": finite(result.merit.value) if result.is_possible else None,
             "mark": mark_of(view, index),
         }
         for index, result in enumerate(view.answer.results)
@@ -65,13 +66,13 @@ def heat(view: View) -> Spec:
     return heat_map(view, rows, {"title": "mean merit"}, MARKS)
 
 
-def mark_of(view: View, index: int) -> str | None:
+def mark_of(view: MeritView, index: int) -> str | None:
     """Return the verdict that marks a cell of a heat map; None for those that are decided."""
     text = VERDICT_TEXT[view.result(index).standing.verdict]
     return text if text in MARKS else None
 
 
-def saturation(view: View, found: Saturation) -> Spec:
+def saturation(view: MeritView, found: Saturation) -> Spec:
     """Return the chart of the gains of larger teams, with lines at zero and at delta."""
     rows: Rows = [
         {
@@ -90,7 +91,7 @@ def saturation(view: View, found: Saturation) -> Spec:
     return chart([*lines, *with_bounds("x", title, place, style)], rows, heights(rows))
 
 
-def sensitivity(view: View) -> Spec:
+def sensitivity(view: MeritView) -> Spec:
     """Return the chart of the influence of each factor."""
     found = view.answer.sensitivity
     rows: Rows = []
@@ -110,7 +111,7 @@ def sensitivity(view: View) -> Spec:
     return chart([line_at("x", 0.0), *layers], rows, {"step": 17})
 
 
-def published(view: View, path: str) -> Spec:
+def published(view: MeritView, path: str) -> Spec:
     """Return the chart of the figures of merit of this study and published ones, by team size."""
     scenario = view.answer.scenario
     theirs = scenario.published.source if scenario.published else ""

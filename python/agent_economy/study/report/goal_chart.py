@@ -1,5 +1,6 @@
 """The chart of where the time of a goal goes, as a stacked bar per configuration."""
 
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.chart_parts import (
     BLUE,
     GREY,
@@ -15,19 +16,17 @@ from agent_economy.study.report.chart_parts import (
     row_of,
 )
 from agent_economy.study.report.formatting import finite
-from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.view import View
 
 COLORS = {"waiting": GREY, "travel": BLUE, "blocked": ORANGE, "service": TEAL}
 """The colour of each part, in the order in which a goal passes them."""
 
 
-def specifications(view: View | RequirementView) -> dict[str, Spec]:
+def specifications(view: AnyView) -> dict[str, Spec]:
     """Return the specification of the chart by its name; empty if no goal was served."""
     return {"goal-time": goal_time(view)} if view.with_goal_time else {}
 
 
-def goal_time(view: View | RequirementView) -> Spec:
+def goal_time(view: AnyView) -> Spec:
     """Return the chart of the parts of the time of a goal, with their sum."""
     times = view.with_goal_time
     rows = [

@@ -1,5 +1,6 @@
 """A heat map over two factors, whose cells have marks that are readable without colour."""
 
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.chart_parts import (
     ORANGE,
     Codes,
@@ -10,8 +11,7 @@ from agent_economy.study.report.chart_parts import (
     field,
     fixed,
 )
-from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.view import View, factor_name
+from agent_economy.study.report.view import factor_name
 
 TALLEST = 480
 """Height of a heat map in pixels, unless its rows become too thin."""
@@ -20,7 +20,7 @@ MARK = {"type": "point", "filled": True, "fill": "#000", "stroke": "#fff", "opac
 """Black with a white edge, which is visible on every colour and on dark pages."""
 
 
-def heat_map(view: View | RequirementView, rows: Rows, title: Spec, codes: Codes) -> Spec:
+def heat_map(view: AnyView, rows: Rows, title: Spec, codes: Codes) -> Spec:
     """Return a heat map of a row per configuration; the selected one is framed.
 
     Args:

@@ -5,7 +5,6 @@ from functools import cache
 import jinja2
 
 from agent_economy.study.answer.any_answer import AnyAnswer
-from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.report.parts import parts
 
@@ -23,8 +22,7 @@ def html(answer: AnyAnswer, evidence: Evidence, javascript: str) -> str:
     return template().render(
         answer=answer,
         verdict=answer.verdict,
-        # The verdict on a requirement contains all of its sentence.
-        details=answer.sentence if isinstance(answer, Answer) else "",
+        details=answer.details,
         facts=shown.facts,
         quarantined=shown.quarantined,
         sections=shown.sections,

@@ -4,9 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from agent_economy.study.answer.evidence import Sample
 from agent_economy.study.answer.quantiles import observed
 from agent_economy.study.report import goal_chart
 from agent_economy.study.report.chart_parts import (
@@ -26,9 +24,9 @@ from agent_economy.study.report.chart_parts import (
     fixed,
     heights,
     line_at,
+    row_of,
     with_bounds,
 )
-from agent_economy.study.report.contenders import contenders
 from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.heat_map import heat_map
 from agent_economy.study.report.requirement_view import RequirementView
@@ -77,7 +75,7 @@ def share(view: RequirementView) -> Spec:
     points = with_bounds("x", title, {"y": by_name(rows)}, style)
     layers = [band, line_at("x", requirement.probability), *points]
     axis = ValueAxis("x", include=(requirement.probability, spare), within=(0.0, 1.0))
-    return scaled(chart(layers, rows, heights(rows)), axis, contenders(view.answer))
+    return scaled(chart(layers, rows, heights(rows)), axis, view.answer.contenders)
 
 
 def share_row(view: RequirementView, index: int) -> dict[str, Any]:
@@ -85,15 +83,14 @@ def share_row(view: RequirementView, index: int) -> dict[str, Any]:
     result = view.result(index)
     met = result.met
     known = bounds(met) if met else {"value": None, "low": None, "high": None}
-    return {"label": view.names[index], "configuration": index, **known, "status": result.status}
+    return {**row_of(view, index), **known, "status": result.status}
 
 
 def heat(view: RequirementView) -> Spec:
     """Return the heat map of the share over two factors, with the status of each team."""
     rows: Rows = [
         {
-            "label": view.names[index],
-            "configuration": index,
+            **row_of(view, index),
             "value": finite(result.met.value) if result.met and result.is_possible else None,
             "mark": result.status,
         }
@@ -108,8 +105,7 @@ def failing(view: RequirementView) -> Spec:
     conditions = [each.text for each in view.answer.requirement.conditions]
     rows: Rows = [
         {
-            "label": view.names[index],
-            "configuration": index,
+            **row_of(view, index),
             "condition": text,
             "share": finite(part),
         }
@@ -140,7 +136,7 @@ def price(view: RequirementView) -> Spec:
     points = with_bounds("y", title, place, coded("status", STATUSES, rows))
     axis = ValueAxis("y", include=(required,), within=(0.0, 1.0))
     made = chart([line_at("y", required), *points], rows, HEIGHT)
-    return scaled(made, axis, contenders(view.answer))
+    return scaled(made, axis, view.answer.contenders)
 
 
 def distribution(view: RequirementView) -> Spec:
@@ -170,7 +166,7 @@ def distribution(view: RequirementView) -> Spec:
 
 def distribution_rows(view: RequirementView, index: int) -> Rows:
     """Return the rows of the empirical distribution of a team, with its band."""
-    values = ordered_values(view.evidence.samples[index], view.deciding_condition.column)
+    values = observed(view.evidence.samples[index], view.deciding_condition.column)
     runs, known = len(values), values[np.isfinite(values)]
     if not len(known):
         return []
@@ -178,8 +174,7 @@ def distribution_rows(view: RequirementView, index: int) -> Rows:
     picked = np.unique(np.linspace(0, len(known) - 1, MAX_POINTS).astype(int))
     return [
         {
-            "label": view.names[index],
-            "configuration": index,
+            **row_of(view, index),
             "at": finite(float(known[place])),
             "value": finite(part := float(place + 1) / runs),
             "low": finite(max(0.0, part - width)),
@@ -187,11 +182,6 @@ def distribution_rows(view: RequirementView, index: int) -> Rows:
         }
         for place in picked.tolist()
     ]
-
-
-def ordered_values(sample: Sample, column: str) -> NDArray[np.float64]:
-    """Return the values of a column in ascending order; without success, a time is infinite."""
-    return observed(sample, column)
 
 
 def band_half_width(runs: int, alpha: float) -> float:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from agent_economy.study.answer.requirement_results import RequirementResult
+from agent_economy.study.answer.requirement_words import spare_of
 from agent_economy.study.report import tables
 from agent_economy.study.report.clearance_section import clearance
 from agent_economy.study.report.formatting import NOTHING, percent, places
@@ -12,10 +13,10 @@ from agent_economy.study.report.sections import goal_time
 from agent_economy.study.report.tables import (
     QUANTILE_HEADS,
     Cell,
-    Row,
     Table,
     quantile_cells,
     shares,
+    styled,
     words,
 )
 from agent_economy.study.report.view import MAX_SHOWN, factor_name
@@ -41,7 +42,7 @@ def requirement_sections(view: RequirementView) -> Iterator[Section]:
 def share(view: RequirementView) -> Section:
     """Return the section on the share of missions that meet the requirement."""
     requirement = view.answer.requirement
-    low, high = percentage(requirement.probability), spare(view)
+    low, high = percentage(requirement.probability), spare_of(requirement)
     confidently = f"with {percentage(view.answer.confidence)} confidence"
     lines = (
         f"The line is the required share, {low}; the band above it is the tolerance, up to {high}. "
@@ -88,29 +89,18 @@ def heat_cell(result: RequirementResult) -> Cell:
     return Cell(percent(result.met.value, 1), result.status)
 
 
-def spare(view: RequirementView) -> str:
-    """Return the required share with the tolerance."""
-    requirement = view.answer.requirement
-    return percentage(round(requirement.probability + requirement.tolerance, 12))
-
-
 def table(view: RequirementView) -> Table:
     """Return the table of all shown teams, and of those of the same cost as the selected one."""
 
-    def row(index: int) -> Row:
+    def row(index: int) -> tuple[Cell, ...]:
         result = view.result(index)
         met = shares(result.met, 1) if result.met else Cell(NOTHING)
-        cells = (Cell(f"{result.cost:,.12g}"), words(result.status), met, Cell(f"{result.runs:,}"))
-        return Row((words(view.names[index]), *cells), row_style(result.status), index)
+        cost = Cell(f"{result.cost:,.12g}")
+        return cost, words(result.status), met, Cell(f"{result.runs:,}")
 
-    shown = dict.fromkeys((*view.shown, *others(view)))
+    rows = {index: row(index) for index in (*view.shown, *others(view))}
     heads = ("team", view.answer.cost, "status", "share that meets it", "runs")
-    return Table("Share of missions that meet the requirement", heads, tuple(map(row, shown)))
-
-
-def row_style(status: str) -> str:
-    """Return the CSS class of a row."""
-    return {"selected": "best", "refuted": "worse", "impossible": "impossible"}.get(status, "")
+    return styled(view, "Share of missions that meet the requirement", heads, rows, view.style)
 
 
 def others(view: RequirementView) -> tuple[int, ...]:
@@ -126,15 +116,14 @@ def failing(view: RequirementView) -> Section:
     """Return the section on why missions did not meet the requirement."""
     conditions = [each.text for each in view.answer.requirement.conditions]
 
-    def row(index: int) -> Row:
-        parts = (Cell(percent(each, 1)) for each in view.result(index).failing)
-        return Row((words(view.names[index]), *parts), "", index)
-
-    rows = tuple(map(row, view.shown))
+    rows = {
+        index: tuple(Cell(percent(each, 1)) for each in failing)
+        for index in view.shown
+        for failing in [view.result(index).failing]
+    }
     note = "A mission may fail several conditions. A time of a mission without success is infinite."
-    found = Table(
-        "Share of missions in which a condition does not hold", ("team", *conditions), rows
-    )
+    caption = "Share of missions in which a condition does not hold"
+    found = styled(view, caption, ("team", *conditions), rows, lambda _: "")
     picture = Picture("failing", "Share of missions in which each condition does not hold")
     return Section("Why missions failed", (note,), (picture,), (found,))
 
@@ -155,12 +144,12 @@ def distribution(view: RequirementView) -> Section:
 def quantiles(view: RequirementView) -> Table:
     """Return the table of quantiles of the column of the deciding condition."""
     column = view.deciding_condition.column
-
-    def row(index: int) -> Row:
-        result = view.result(index)
-        found = next(each for each in result.quantiles if each.column == column)
-        cells = tuple(quantile_cells(found, places(view.deciding_condition.value / 50)))
-        return Row((words(view.names[index]), *cells), row_style(result.status), index)
-
+    decimals = places(view.deciding_condition.value / 50)
+    rows = {
+        index: tuple(quantile_cells(each, decimals))
+        for index in view.shown
+        for each in view.result(index).quantiles
+        if each.column == column
+    }
     caption = f"Quantiles of {column}, with their intervals"
-    return Table(caption, ("team", *QUANTILE_HEADS), tuple(map(row, view.shown)))
+    return styled(view, caption, ("team", *QUANTILE_HEADS), rows, view.style)

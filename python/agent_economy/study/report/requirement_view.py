@@ -1,50 +1,59 @@
-"""The selection, order and names of what a report about a requirement shows."""
+"""The selection and order of what a report about a requirement shows."""
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 
-from agent_economy.scenario import Condition, Value
-from agent_economy.study.answer.clearance import Clearance
+from agent_economy.scenario import Condition
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.answer.goal_time import GoalTime
-from agent_economy.study.answer.labels import varied
 from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.answer.requirement_results import RequirementResult
-from agent_economy.study.report.view import MAX_SHOWN, are_grid
+from agent_economy.study.report.view import MAX_SHOWN, View
+from agent_economy.study.selection import percentage
+
+STYLES = {"selected": "best", "refuted": "worse", "impossible": "impossible"}
+"""The CSS class of the row of each status that has one."""
 
 
 @dataclass(frozen=True)
-class RequirementView:
-    """An answer about a requirement and its evidence, as a report shows them."""
+class RequirementView(View):
+    """An answer about a requirement and its evidence."""
 
     answer: RequirementAnswer
     evidence: Evidence
 
-    @cached_property
-    def names(self) -> tuple[str, ...]:
-        """The name of each configuration; all are different."""
-        labels = [result.label for result in self.answer.results]
-        times = Counter(labels)
-        return tuple(
-            f"{index + 1}: {label}" if times[label] > 1 else label
-            for index, label in enumerate(labels)
+    quarantine = "without an outcome: quarantined, each counts as not met"
+    principles = (
+        (
+            "order",
+            "that more robots are better is not assumed; each configuration is judged alone",
+        ),
+        ("quarantine", "a run without an outcome counts as not met and is never omitted"),
+    )
+
+    @property
+    def facts(self) -> tuple[tuple[str, str], ...]:
+        """The required share and the tolerance."""
+        requirement = self.answer.requirement
+        return (
+            (percentage(requirement.probability), "required share of missions"),
+            (percentage(requirement.tolerance), "tolerance"),
         )
 
-    @cached_property
-    def by_cost(self) -> tuple[int, ...]:
-        """All configurations, the cheapest first."""
-        results = self.answer.results
-        return tuple(sorted(range(len(results)), key=lambda index: results[index].cost))
+    def price(self, index: int) -> float:
+        """Return the price of a configuration; without prices, its number of robots."""
+        return self.result(index).price
+
+    def style(self, index: int) -> str:
+        """Return the CSS class of the row of a configuration."""
+        return STYLES.get(self.result(index).status, "")
 
     @cached_property
     def known(self) -> tuple[int, ...]:
         """The configurations that have runs, the cheapest first."""
-        return tuple(
-            index
-            for index in self.by_cost
-            if self.result(index).runs and self.result(index).is_possible
+        found = (
+            at for at, each in enumerate(self.answer.results) if each.runs and each.is_possible
         )
+        return tuple(sorted(found, key=lambda index: self.result(index).cost))
 
     @cached_property
     def shown(self) -> tuple[int, ...]:
@@ -60,33 +69,6 @@ class RequirementView:
     def selected(self) -> int | None:
         """The selected configuration; None if none is certified."""
         return self.answer.selected
-
-    @cached_property
-    def configurations(self) -> list[dict[str, Value]]:
-        """The values of the varied factors of each configuration."""
-        return [result.values for result in self.answer.results]
-
-    @cached_property
-    def varied(self) -> tuple[str, ...]:
-        """Paths that have more than one value."""
-        return varied(self.configurations)
-
-    @cached_property
-    def is_grid(self) -> bool:
-        """Whether two factors are varied in a full grid."""
-        return are_grid(self.configurations, self.varied)
-
-    @cached_property
-    def with_goal_time(self) -> dict[int, GoalTime]:
-        """Where the time of a goal goes in those that are shown, in the order of the design."""
-        times = {index: self.result(index).goal_time for index in sorted(self.shown)}
-        return {index: time for index, time in times.items() if time is not None}
-
-    @cached_property
-    def with_clearance(self) -> dict[int, Clearance]:
-        """The lanes declared clear by those that are shown, in their order."""
-        lanes = {index: self.result(index).clearance for index in self.shown}
-        return {index: of for index, of in lanes.items() if of is not None}
 
     @cached_property
     def compared_distributions(self) -> tuple[int, ...]:
@@ -115,17 +97,10 @@ class RequirementView:
 
     @cached_property
     def has_prices(self) -> bool:
-        """Whether the prices of the configurations that are shown differ."""
-        return (
-            len({self.result(index).price for index in self.shown}) > 1 and self.evidence_has_prices
-        )
-
-    @cached_property
-    def evidence_has_prices(self) -> bool:
-        """Whether robots have prices."""
-        return any(
-            sample.limits.get("price", (0.0, 0.0))[1] != 0 for sample in self.evidence.samples
-        )
+        """Whether robots have prices, which differ in the configurations that are shown."""
+        prices = {self.result(index).price for index in self.shown}
+        limits = (sample.limits.get("price", (0.0, 0.0)) for sample in self.evidence.samples)
+        return len(prices) > 1 and any(high != 0 for _, high in limits)
 
     def result(self, index: int) -> RequirementResult:
         """Return the result of a configuration."""

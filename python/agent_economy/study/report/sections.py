@@ -6,15 +6,16 @@ from agent_economy.study.answer.goal_time import in_words
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.paths import robot_kind
 from agent_economy.study.report import goal_table, tables
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.clearance_section import clearance
 from agent_economy.study.report.formatting import MINUS, TIMES, brief, count
-from agent_economy.study.report.requirement_view import RequirementView
+from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.section import Picture, Section
-from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
+from agent_economy.study.report.view import MAX_SHOWN, factor_name
 from agent_economy.study.selection import percentage
 
 
-def sections(view: View) -> Iterator[Section]:
+def sections(view: MeritView) -> Iterator[Section]:
     """Return the sections that the answer has data for."""
     yield merit(view)
     if view.is_grid:
@@ -39,7 +40,7 @@ def sections(view: View) -> Iterator[Section]:
         yield omissions(view)
 
 
-def merit(view: View) -> Section:
+def merit(view: MeritView) -> Section:
     """Return the section on the figure of merit."""
     notes = [formula(view), f"{together(view)} {cut(view, 'the best by merit')}".strip()]
     pictures = []
@@ -63,7 +64,7 @@ def merit(view: View) -> Section:
     return Section("Figure of merit", tuple(notes), tuple(pictures), found, is_folded=False)
 
 
-def heat(view: View) -> Section:
+def heat(view: MeritView) -> Section:
     """Return the section on the merit over two factors."""
     across, down = map(factor_name, view.varied)
     shows = "Mean merit of every combination; the selected one is framed, those not decided marked"
@@ -72,7 +73,7 @@ def heat(view: View) -> Section:
     return Section(heading, (note,), (Picture("heat", shows),), tables.heat(view))
 
 
-def formula(view: View) -> str:
+def formula(view: MeritView) -> str:
     """Return the formula of the merit."""
     merit = view.answer.scenario.merit
     parts = ((brief(term.weight), weighed(term.column, term.max)) for term in merit.terms)
@@ -85,7 +86,7 @@ def weighed(column: str, limit: float | None) -> str:
     return column if limit is None else f"min({column}, {brief(limit)})"
 
 
-def together(view: View) -> str:
+def together(view: MeritView) -> str:
     """Return the meaning of intervals and verdicts."""
     return (
         "All intervals and verdicts hold simultaneously, for all configurations and quantities, "
@@ -93,15 +94,15 @@ def together(view: View) -> str:
     )
 
 
-def cut(view: View, which: str) -> str:
+def cut(view: MeritView, which: str) -> str:
     """Return which configurations are shown if these are not all."""
-    total = len(view.ranked)
+    total = len(view.known)
     if total <= MAX_SHOWN:
         return ""
     return f"{MAX_SHOWN} of {total:,} configurations are shown, {which}; answer.json contains all."
 
 
-def failed(view: View) -> Section:
+def failed(view: MeritView) -> Section:
     """Return the section on failed runs."""
     notes = [f"Intervals as above. {cut(view, 'the best by merit')}".strip()]
     if view.with_goal_time:
@@ -119,7 +120,7 @@ def failed(view: View) -> Section:
     )
 
 
-def goal_time(view: View | RequirementView) -> Section:
+def goal_time(view: AnyView) -> Section:
     """Return the section on where the time of a goal goes."""
     own = [
         f"{view.names[index]}: {in_words(time)}"
@@ -141,10 +142,10 @@ def goal_time(view: View | RequirementView) -> Section:
     )
 
 
-def front(view: View) -> Section:
+def front(view: MeritView) -> Section:
     """Return the section on the Pareto front of price, time and failures."""
-    total = len(view.ranked)
-    out = sum(view.result(index).place.dominated_by is not None for index in view.ranked)
+    total = len(view.known)
+    out = sum(view.result(index).place.dominated_by is not None for index in view.known)
     note = (
         "A configuration is dominated if another of no higher price is proved to be faster and to "
         f"fail less often: {out:,} of {total:,}. The others are possibly efficient. "
@@ -156,7 +157,7 @@ def front(view: View) -> Section:
     return Section("Price, time and failures", (note.strip(),), (picture,), (tables.front(view),))
 
 
-def saturation(view: View, found: Saturation) -> Section:
+def saturation(view: MeritView, found: Saturation) -> Section:
     """Return the section on whether a larger team is worth its price."""
     number = view.saturations.index(found)
     shows = f"Gain of more than {found.base:,} {factor_name(found.path)} (dashed: delta)"
@@ -168,7 +169,7 @@ def saturation(view: View, found: Saturation) -> Section:
     )
 
 
-def saturation_in_words(view: View, found: Saturation) -> str:
+def saturation_in_words(view: MeritView, found: Saturation) -> str:
     """Return how many robots are enough, as far as it is decided."""
     proved, possible = found.proved, found.possible
     largest = found.sizes[-1]
@@ -192,7 +193,7 @@ def saturation_in_words(view: View, found: Saturation) -> str:
     return f"Decided: {proved:,} are enough; no smaller number is proved to be. {enough}{little}"
 
 
-def history(view: View) -> Section:
+def history(view: MeritView) -> Section:
     """Return the section on eliminations."""
     outs = sorted(each.eliminated.runs for each in view.answer.results if each.eliminated)
     note = "No configuration was eliminated."
@@ -209,7 +210,7 @@ def history(view: View) -> Section:
     return Section("Eliminations", notes, (picture,), (tables.history(view),))
 
 
-def sensitivity(view: View) -> Section:
+def sensitivity(view: MeritView) -> Section:
     """Return the section on the influence of factors."""
     found = view.answer.sensitivity
     note = (
@@ -221,7 +222,7 @@ def sensitivity(view: View) -> Section:
     return Section("Influence of factors", (note, chance), (picture,), (tables.sensitivity(view),))
 
 
-def efforts(view: View) -> Section:
+def efforts(view: MeritView) -> Section:
     """Return the section on smaller deltas."""
     note = (
         f"This study had a delta of {brief(view.answer.delta)} and took "
@@ -231,7 +232,7 @@ def efforts(view: View) -> Section:
     return Section(heading, (note,), tables=found, is_folded=False)
 
 
-def times(view: View) -> Section:
+def times(view: MeritView) -> Section:
     """Return the section on the times of runs."""
     note = f"Failed runs count with the time at which they ended. {cut(view, 'the best by merit')}"
     shows = "Median (diamond), middle 50% (box) and middle 90% (line) of the runs"
@@ -244,7 +245,7 @@ def times(view: View) -> Section:
     return Section("Times", (note.strip(), tail), (Picture("times", shows),), found)
 
 
-def published(view: View) -> Section:
+def published(view: MeritView) -> Section:
     """Return the section on published results."""
     theirs = view.answer.scenario.published
     source, time_limit_s = (theirs.source, brief(theirs.time_limit_s)) if theirs else ("", "")
@@ -257,7 +258,7 @@ def published(view: View) -> Section:
     return Section(source, (note,), pictures, (tables.published(view),))
 
 
-def omissions(view: View) -> Section:
+def omissions(view: MeritView) -> Section:
     """Return the section on side statements that could not be made."""
     notes = (f"{each.statement}: {each.reason}." for each in view.answer.omissions)
     return Section("Left out", tuple(notes))

@@ -1,13 +1,14 @@
 """The tables of a report: the numbers of its charts, as text."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.labels import word
 from agent_economy.study.answer.quantiles import Quantile, Quantiles
 from agent_economy.study.answer.saturation import Saturation
+from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
 from agent_economy.study.report.factor_charts import mark_of
@@ -19,8 +20,8 @@ from agent_economy.study.report.formatting import (
     decimal,
     percent,
 )
-from agent_economy.study.report.requirement_view import RequirementView
-from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
+from agent_economy.study.report.merit_view import MeritView
+from agent_economy.study.report.view import MAX_SHOWN, factor_name
 
 WIDEST = 10
 """Maximum number of columns of a heat map's table."""
@@ -79,22 +80,36 @@ def table(caption: str, heads: tuple[str, ...], rows: Iterable[tuple[Cell, ...]]
 
 
 def by_configuration(
-    view: View,
+    view: MeritView,
     caption: str,
     heads: tuple[str, ...],
     shown: Iterable[int],
     cells: Callable[[int], Iterable[Cell]],
 ) -> Table:
     """Return a table with a row per configuration; `cells` returns those after its name."""
-
-    def row(index: int) -> Row:
-        style = "best" if index == view.answer.best else view.result(index).standing.verdict
-        return Row((words(view.names[index]), *cells(index)), style, index)
-
-    return Table(caption, ("configuration", *heads), tuple(map(row, shown)))
+    rows = {index: tuple(cells(index)) for index in shown}
+    all_heads = ("configuration", *heads)
+    return styled(view, caption, all_heads, rows, lambda at: view.result(at).verdict)
 
 
-def merit(view: View) -> Table:
+def styled(
+    view: AnyView,
+    caption: str,
+    heads: tuple[str, ...],
+    cells: Mapping[int, tuple[Cell, ...]],
+    style: Callable[[int], str],
+) -> Table:
+    """Return a table with a row per configuration: its name, its cells, and its style."""
+    rows = (Row((words(view.names[at]), *each), style(at), at) for at, each in cells.items())
+    return Table(caption, heads, tuple(rows))
+
+
+def marking(view: AnyView) -> Callable[[int], str]:
+    """Return the styles of rows of which only the selected one is marked."""
+    return lambda index: "best" if index == view.selected else ""
+
+
+def merit(view: MeritView) -> Table:
     """Return the table of merit, difference from the selected one, verdict and runs."""
     has_quarantined = any(result.quarantined for result in view.answer.results)
 
@@ -115,14 +130,14 @@ def merit(view: View) -> Table:
     return by_configuration(view, caption, shown_heads, shown, cells)
 
 
-def merit_cell(view: View, index: int) -> Cell:
+def merit_cell(view: MeritView, index: int) -> Cell:
     """Return the cell of a configuration's merit; it has none if it cannot be run."""
-    if not view.is_possible(index):
+    if not view.result(index).is_possible:
         return Cell(NOTHING)
     return measured(view.result(index).merit, view.merit_places)
 
 
-def heat(view: View) -> tuple[Table, ...]:
+def heat(view: MeritView) -> tuple[Table, ...]:
     """Return the mean merit over two factors; the cells of a heat map's marks have its words."""
     cells = [
         Cell(merit_cell(view, index).text, mark_of(view, index) or "")
@@ -131,7 +146,7 @@ def heat(view: View) -> tuple[Table, ...]:
     return grid(view, "Mean merit", cells)
 
 
-def grid(view: View | RequirementView, quantity: str, cells: Iterable[Cell]) -> tuple[Table, ...]:
+def grid(view: AnyView, quantity: str, cells: Iterable[Cell]) -> tuple[Table, ...]:
     """Return a cell per configuration over two factors, in tables that fit on a printed page."""
     across, down = view.varied
     placed = {
@@ -156,7 +171,7 @@ def written(value: float | str) -> str:
     return word(value) if isinstance(value, str | bool) else brief(value)
 
 
-def failed(view: View) -> Table:
+def failed(view: MeritView) -> Table:
     """Return the table of failed runs."""
 
     def cells(index: int) -> Iterable[Cell]:
@@ -167,7 +182,7 @@ def failed(view: View) -> Table:
     return by_configuration(view, "Share of runs that failed", heads, view.shown, cells)
 
 
-def front(view: View) -> Table:
+def front(view: MeritView) -> Table:
     """Return the table of price, time, failures and dominance."""
 
     def cells(index: int) -> Iterable[Cell]:
@@ -186,7 +201,7 @@ def front(view: View) -> Table:
     return by_configuration(view, caption, heads, view.on_front, cells)
 
 
-def gains(view: View, found: Saturation) -> Table:
+def gains(view: MeritView, found: Saturation) -> Table:
     """Return the table of gains of larger teams."""
     kind = factor_name(found.path)
     rows = (
@@ -195,7 +210,7 @@ def gains(view: View, found: Saturation) -> Table:
     return table(f"Gain of more than {found.base:,} {kind}", (kind, "gain of merit"), rows)
 
 
-def history(view: View) -> Table:
+def history(view: MeritView) -> Table:
     """Return the table of runs and eliminations."""
 
     def cells(index: int) -> Iterable[Cell]:
@@ -212,7 +227,7 @@ def history(view: View) -> Table:
     return by_configuration(view, caption, ("runs", "status", "eliminated by"), view.by_runs, cells)
 
 
-def sensitivity(view: View) -> Table:
+def sensitivity(view: MeritView) -> Table:
     """Return the table of the influence of each factor."""
     found = view.answer.sensitivity
     influences = found.influences if found else ()
@@ -228,7 +243,7 @@ def sensitivity(view: View) -> Table:
     return table(caption, ("factor", "alone", "with interactions"), rows)
 
 
-def efforts(view: View) -> Table:
+def efforts(view: MeritView) -> Table:
     """Return the table of predicted runs for smaller deltas."""
     rows = (
         (
@@ -242,7 +257,7 @@ def efforts(view: View) -> Table:
     return table("Predicted runs for smaller deltas", heads, rows)
 
 
-def times(view: View) -> Table:
+def times(view: MeritView) -> Table:
     """Return the table of quantiles of times."""
 
     def cells(index: int) -> Iterable[Cell]:
@@ -255,7 +270,7 @@ def times(view: View) -> Table:
     return by_configuration(view, "Quantiles of the time of a run, s", heads, view.shown, cells)
 
 
-def success_times(view: View) -> Table:
+def success_times(view: MeritView) -> Table:
     """Return the table of quantiles of the time of success, and of runs without success."""
 
     def cells(index: int) -> Iterable[Cell]:
@@ -292,7 +307,7 @@ def number_or_never(number: float, decimals: int) -> str:
     return INFINITE if number == math.inf else decimal(number, decimals)
 
 
-def published(view: View) -> Table:
+def published(view: MeritView) -> Table:
     """Return the table of published results."""
     rows = (
         (

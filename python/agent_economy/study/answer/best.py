@@ -1,0 +1,126 @@
+"""The answer to the question of the best configuration by merit."""
+
+from dataclasses import dataclass
+
+from agent_economy.scenario import Scenario
+from agent_economy.study.answer.effort import Effort
+from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.published import PublishedResult
+from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.saturation import Saturation
+from agent_economy.study.answer.sensitivity import Sensitivity
+from agent_economy.study.answer.side_statements import Omission
+from agent_economy.study.answer.study_answer import Overview, StudyAnswer, Verdict
+from agent_economy.study.store.ledger import Answered
+
+
+@dataclass(frozen=True, repr=False)
+class Answer(StudyAnswer):
+    """The answer of a study: the selected configuration, and the results of all.
+
+    Attributes:
+        scenario: The scenario of the study.
+        seed: Seed of all random numbers.
+        verdict: The answer in four lines.
+        sentence: The answer in words.
+        guarantee: The guarantee of the selection in words.
+        is_guaranteed: Whether there is a guarantee.
+        delta: Indifference zone, in units of merit.
+        confidence: Confidence of the guarantee, and of all intervals together.
+        best: Index of the selected configuration.
+        results: Result of each configuration.
+        saturations: The saturation of each varied team size.
+        sensitivity: Influence of each factor; None if there are too few configurations.
+        efforts: Predicted runs for smaller deltas.
+        published: Published results, scored with the same merit.
+        omissions: Those of the preceding four that could not be stated, each with the reason.
+        questions: The questions that were answered from the same runs, this one included.
+    """
+
+    scenario: Scenario
+    seed: int
+    verdict: Verdict
+    sentence: str
+    guarantee: str
+    is_guaranteed: bool
+    delta: float
+    confidence: float
+    best: int
+    results: tuple[Result, ...]
+    saturations: tuple[Saturation, ...]
+    sensitivity: Sensitivity | None
+    efforts: tuple[Effort, ...]
+    published: tuple[PublishedResult, ...]
+    omissions: tuple[Omission, ...] = ()
+    questions: tuple[Answered, ...] = ()
+
+    @property
+    def chosen(self) -> Result:
+        """The result of the selected configuration."""
+        return self.results[self.best]
+
+    @property
+    def details(self) -> str:
+        """What the verdict does not contain."""
+        return self.sentence
+
+    @property
+    def precision(self) -> str:
+        """The indifference zone."""
+        return f"delta {self.delta:g}, "
+
+    @property
+    def contenders(self) -> frozenset[int]:
+        """The selected one and those that are not proved to be worse, or the next best one."""
+        possible = [index for index, each in enumerate(self.results) if each.is_possible]
+        near = [index for index in possible if self.results[index].verdict != "worse"]
+        if len(near) > 1:
+            return frozenset(near)
+        others = sorted(set(possible) - set(near), key=lambda at: -self.results[at].merit.value)
+        return frozenset((*near, *others[:1]))
+
+    def foremost(self, count: int) -> list[Result]:
+        """Return all results in the configurations' order if they fit, else the best ones first."""
+        if len(self.results) <= count:
+            return list(self.results)
+        others = [result for result in self.results if result is not self.chosen]
+
+        def rank(result: Result) -> tuple[bool, float]:
+            return not result.is_possible, -result.merit.value
+
+        return [self.chosen, *sorted(others, key=rank)][:count]
+
+    def overview(self, count: int, *, ranges: bool) -> Overview:
+        """Return the table of the foremost results."""
+        shown = self.foremost(count)
+        has_quarantined = any(result.quarantined for result in self.results)
+        counts = ("runs", "quarantined") if has_quarantined else ("runs",)
+        return Overview(
+            heads=(*counts, "time, s", "failed", "merit", "behind", ""),
+            rows=[
+                (*(f"{getattr(each, name):,}" for name in counts), *cells(each, ranges=ranges))
+                for each in shown
+            ],
+            styles=["bold" if each is self.chosen else None for each in shown],
+        )
+
+
+def cells(result: Result, *, ranges: bool) -> tuple[str, ...]:
+    """Return the cells of a result after its numbers of runs."""
+
+    def cell(given: Interval, style: str) -> str:
+        if not result.is_possible:
+            return ""
+        value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
+        return f"{value} ({low}..{high})" if ranges else value
+
+    failed, behind = result.failed, result.standing.behind
+    is_none = result.is_possible and failed.value == 0
+    none = f"none (..{failed.high:.2%})" if ranges else "none"
+    return (
+        cell(result.time_s, "z.1f"),
+        none if is_none else cell(failed, "z.2%"),
+        cell(result.merit, "z.2f"),
+        f"{behind.value:z.3f}" if behind else "",
+        result.verdict,
+    )

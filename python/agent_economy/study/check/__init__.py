@@ -1,0 +1,1 @@
+"""Checks of a study that is requested: `request` enters them once, and states their order."""
