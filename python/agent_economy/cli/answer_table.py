@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import typer
 from rich import box
@@ -12,7 +13,7 @@ from rich.text import Text
 from agent_economy.cli.clearance_table import clearance_table
 from agent_economy.cli.whole_table import print_whole
 from agent_economy.study import files
-from agent_economy.study.answer.any_answer import AnyAnswer, AnyResult
+from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.goal_time import in_words
 from agent_economy.study.answer.verdict import repeated, upper
 
@@ -62,8 +63,7 @@ def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
 
 def results_table(answer: AnyAnswer, *, ranges: bool) -> Table:
     """Return a table of the foremost configurations, with ranges or without."""
-    shown: Sequence[AnyResult] = answer.foremost(MAX_ROWS)
-    overview = answer.overview(MAX_ROWS, ranges=ranges)
+    shown: Sequence[Any] = answer.foremost(MAX_ROWS)
     left_out = len(answer.results) - len(shown)
     table = Table(
         title=Text(answer.scenario.summary),
@@ -73,8 +73,9 @@ def results_table(answer: AnyAnswer, *, ranges: bool) -> Table:
         box=box.SIMPLE_HEAD,
     )
     table.add_column("configuration", overflow="fold", min_width=NAME)
-    for name in overview.heads:
+    for name in answer.heads:
         table.add_column(name, justify="right", no_wrap=name != WRAPPED)
-    for result, row, style in zip(shown, overview.rows, overview.styles, strict=True):
-        table.add_row(*map(Text, (result.label, *row)), style=style)
+    for result in shown:
+        cells = (result.label, *answer.cells(result, ranges=ranges))
+        table.add_row(*map(Text, cells), style=answer.style(result))
     return table

@@ -177,7 +177,7 @@ def planned(request: StudyRequest, *, is_new: bool) -> Plan:
         )
     return Plan(
         scenario=scenario,
-        seed=int(request.seed),
+        seed=engine.seed,
         question=question,
         confidence=float(request.used_confidence),
         runs=None if request.runs is None else int(request.runs),

@@ -1,5 +1,6 @@
 """The answer to the question of the best configuration by merit."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from agent_economy.scenario import Scenario
@@ -10,7 +11,7 @@ from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.answer.sensitivity import Sensitivity
 from agent_economy.study.answer.side_statements import Omission
-from agent_economy.study.answer.study_answer import Overview, StudyAnswer, Verdict
+from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
 from agent_economy.study.store.ledger import Answered
 
 
@@ -90,37 +91,34 @@ class Answer(StudyAnswer):
 
         return [self.chosen, *sorted(others, key=rank)][:count]
 
-    def overview(self, count: int, *, ranges: bool) -> Overview:
-        """Return the table of the foremost results."""
-        shown = self.foremost(count)
+    @property
+    def heads(self) -> tuple[str, ...]:
+        """The heads of `cells`."""
         has_quarantined = any(result.quarantined for result in self.results)
         counts = ("runs", "quarantined") if has_quarantined else ("runs",)
-        return Overview(
-            heads=(*counts, "time, s", "failed", "merit", "behind", ""),
-            rows=[
-                (*(f"{getattr(each, name):,}" for name in counts), *cells(each, ranges=ranges))
-                for each in shown
-            ],
-            styles=["bold" if each is self.chosen else None for each in shown],
-        )
+        return (*counts, "time, s", "failed", "merit", "behind", "")
 
+    def cells(self, result: Result, *, ranges: bool) -> Iterator[str]:
+        """Yield the cells of a result for a terminal, with ranges or without."""
 
-def cells(result: Result, *, ranges: bool) -> tuple[str, ...]:
-    """Return the cells of a result after its numbers of runs."""
+        def cell(given: Interval, style: str) -> str:
+            if not result.is_possible:
+                return ""
+            value, *ends = (format(each, style) for each in (given.value, given.low, given.high))
+            return f"{value} ({'..'.join(ends)})" if ranges else value
 
-    def cell(given: Interval, style: str) -> str:
-        if not result.is_possible:
-            return ""
-        value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
-        return f"{value} ({low}..{high})" if ranges else value
+        yield f"{result.runs:,}"
+        if "quarantined" in self.heads:
+            yield f"{result.quarantined:,}"
+        yield cell(result.time_s, "z.1f")
+        if result.is_possible and result.failed.value == 0:
+            yield f"none (..{result.failed.high:.2%})" if ranges else "none"
+        else:
+            yield cell(result.failed, "z.2%")
+        yield cell(result.merit, "z.2f")
+        yield f"{result.standing.behind.value:z.3f}" if result.standing.behind else ""
+        yield result.verdict
 
-    failed, behind = result.failed, result.standing.behind
-    is_none = result.is_possible and failed.value == 0
-    none = f"none (..{failed.high:.2%})" if ranges else "none"
-    return (
-        cell(result.time_s, "z.1f"),
-        none if is_none else cell(failed, "z.2%"),
-        cell(result.merit, "z.2f"),
-        f"{behind.value:z.3f}" if behind else "",
-        result.verdict,
-    )
+    def style(self, result: Result) -> str | None:
+        """Return the style of the row of a result on a terminal."""
+        return "bold" if result is self.chosen else None

@@ -1,10 +1,11 @@
 """The answer to the question of the cheapest configuration that meets a requirement."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from agent_economy.scenario import Requirement, Scenario
 from agent_economy.study.answer.requirement_results import RequirementResult
-from agent_economy.study.answer.study_answer import Overview, StudyAnswer, Verdict
+from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
 from agent_economy.study.store.ledger import Answered
 
 STYLES = {"selected": "bold", "refuted": "dim", "not needed": "dim", "impossible": "dim"}
@@ -72,35 +73,23 @@ class RequirementAnswer(StudyAnswer):
         last = min(len(ordered), max(count, at + count // 4))
         return ordered[last - count : last]
 
-    def overview(self, count: int, *, ranges: bool) -> Overview:
-        """Return the table of the foremost teams."""
-        shown = self.foremost(count)
-        return Overview(
-            heads=(self.cost, "runs", "met", "most frequent failure", ""),
-            rows=[
-                (
-                    f"{each.cost:,.12g}",
-                    f"{each.runs:,}" if each.runs else "",
-                    met(each, ranges=ranges),
-                    self.failure(each),
-                    each.status,
-                )
-                for each in shown
-            ],
-            styles=[STYLES.get(each.status) for each in shown],
-        )
+    @property
+    def heads(self) -> tuple[str, ...]:
+        """The heads of `cells`."""
+        return (self.cost, "runs", "met", "most frequent failure", "")
 
-    def failure(self, result: RequirementResult) -> str:
-        """Return the condition that fails most often, and in which share of missions."""
-        if not any(result.failing) or not result.is_possible:
-            return ""
-        worst, part = result.worst
-        return f"{self.requirement.conditions[worst].text}: {part:.1%}"
+    def cells(self, result: RequirementResult, *, ranges: bool) -> Iterator[str]:
+        """Yield the cells of a result for a terminal, with ranges or without."""
+        yield f"{result.cost:,.12g}"
+        yield f"{result.runs:,}" if result.runs else ""
+        met = result.met if result.is_possible else None
+        between = f" ({met.low:.1%}..{met.high:.1%})" if met and ranges else ""
+        yield f"{met.value:.1%}{between}" if met else ""
+        worst, share = result.worst if any(result.failing) else (0, 0.0)
+        has_failed = share and result.is_possible
+        yield f"{self.requirement.conditions[worst].text}: {share:.1%}" if has_failed else ""
+        yield result.status
 
-
-def met(result: RequirementResult, *, ranges: bool) -> str:
-    """Return the share of missions that meet the requirement."""
-    if result.met is None or not result.is_possible:
-        return ""
-    value, low, high = result.met.value, result.met.low, result.met.high
-    return f"{value:.1%} ({low:.1%}..{high:.1%})" if ranges else f"{value:.1%}"
+    def style(self, result: RequirementResult) -> str | None:
+        """Return the style of the row of a result on a terminal."""
+        return STYLES.get(result.status)

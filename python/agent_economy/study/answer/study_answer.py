@@ -1,27 +1,11 @@
 """What an answer shows of itself, whatever its question."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 Verdict = tuple[str, str, str, str]
 """What to send, how it does, what does as well, and what was not looked for."""
-
-
-@dataclass(frozen=True)
-class Overview:
-    """A table for a terminal.
-
-    Attributes:
-        heads: The heads of the columns after the name of a configuration.
-        rows: The cells of each configuration after its name.
-        styles: The style of each row; None for the usual one.
-    """
-
-    heads: tuple[str, ...]
-    rows: list[tuple[str, ...]]
-    styles: list[str | None]
 
 
 class StudyAnswer:

@@ -56,9 +56,9 @@ class StudyRequest:
         Raises:
             InputError: If a check fails; it lists all errors of its step.
         """
-        scenario, seed = self.scenario, self.seed
+        scenario = self.scenario
         raise_all(self._first_errors())
-        engine = Engine(scenario, teams.compared(scenario, self._points()), seed)
+        engine = Engine(scenario, teams.compared(scenario, self._points()), int(self.seed))
         compared = len(engine.configurations) if self.is_about_merit else 1
         check_max_runs(self.max_runs, self.runs, FIRST_ANALYSIS_RUNS * compared)
         if is_new and self.is_about_merit:
