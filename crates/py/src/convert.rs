@@ -7,7 +7,7 @@ use base::document::path_of;
 use base::error::InputError;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PyString};
+use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -29,11 +29,15 @@ pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     at: &str,
     given: &Bound<PyAny>,
 ) -> Result<T, InputError> {
-    let json = json(at, given, MAX_DEPTH)?;
+    let json = json(given, MAX_DEPTH).map_err(|error| inside(at, error))?;
     // Serde would accept a list, by position.
     if !json.is_object() {
         return Err(mismatch(at, json.to_string(), "a dict"));
     }
+    if let Ok(read) = T::deserialize(&json) {
+        return Ok(read);
+    }
+    // A second time, for the path of the error.
     serde_path_to_error::deserialize(&json).map_err(|refusal| {
         let error = refused::<T>(at, &json, refusal.path());
         // Infinity is read as null, which is not allowed here.
@@ -88,36 +92,55 @@ fn is_infinite(given: &Bound<PyAny>, path: &Path) -> bool {
     number.is_ok_and(f64::is_infinite)
 }
 
-/// Converts a Python value to JSON; infinity becomes null. `deep` is the remaining depth.
-fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, InputError> {
-    let too_deep = || too_deep(at.to_owned());
+/// Converts a Python value to JSON; infinity becomes null. `deep` is the remaining depth. The path of an error
+/// begins at the value: most values have none.
+fn json(given: &Bound<PyAny>, deep: usize) -> Result<Json, InputError> {
+    let too_deep = || too_deep(String::new());
+    // The types of most values come first: what extracts another one makes an exception of Python if it fails.
     if given.is_none() {
         Ok(Json::Null)
+    } else if given.is_instance_of::<PyFloat>() {
+        number(given)
+    } else if let Some(whole) = given
+        .cast_exact::<PyInt>()
+        .ok()
+        .and_then(|whole| whole.extract::<i64>().ok())
+    {
+        Ok(Json::from(whole))
     } else if let Ok(truth) = given.extract::<bool>() {
         Ok(Json::Bool(truth))
     } else if let Ok(text) = given.cast::<PyString>() {
         let text = text.extract().map(Json::String);
-        text.map_err(|_| mismatch(at, given.to_string(), "a string of valid Unicode"))
+        text.map_err(|_| mismatch("", given.to_string(), "a string of valid Unicode"))
     } else if let Ok(dict) = given.cast::<PyDict>() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
             let key = text(&key);
-            Ok((key.clone(), json(&path_of(at, &key), &given, deep)?))
+            let value = json(&given, deep).map_err(|error| inside(&path_of("", &key), error))?;
+            Ok((key, value))
         };
         let entries: Result<Map<String, Json>, InputError> = dict.iter().map(entry).collect();
         entries.map(Json::Object)
     } else if let Ok(items) = given.try_iter() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let item = |(index, item): (usize, PyResult<Bound<PyAny>>)| {
-            let at = format!("{at}[{index}]");
-            let item = item.map_err(|error| mismatch(&at, error.to_string(), "there"))?;
-            json(&at, &item, deep)
+            let item = item.map_err(|error| mismatch("", error.to_string(), "there"));
+            let read = item.and_then(|item| json(&item, deep));
+            read.map_err(|error| inside(&format!("[{index}]"), error))
         };
         items.enumerate().map(item).collect()
     } else if let Ok(whole) = given.extract::<i64>() {
         Ok(Json::from(whole))
     } else {
-        number(at, given)
+        number(given)
+    }
+}
+
+/// An error of a value inside another one.
+fn inside(key: &str, error: InputError) -> InputError {
+    InputError {
+        path: below(key, &error.path),
+        ..error
     }
 }
 
@@ -128,7 +151,7 @@ pub(crate) fn text(given: &Bound<PyAny>) -> String {
     text.unwrap_or_else(|_| given.to_string())
 }
 
-fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, InputError> {
+fn number(given: &Bound<PyAny>) -> Result<Json, InputError> {
     let number = given.extract::<f64>().ok();
     if number == Some(f64::INFINITY) {
         return Ok(Json::Null);
@@ -139,7 +162,7 @@ fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, InputError> {
     } else {
         "a number, a string, True, False, None, or a list or dict of these"
     };
-    number.ok_or_else(|| mismatch(at, given.to_string(), allowed))
+    number.ok_or_else(|| mismatch("", given.to_string(), allowed))
 }
 
 fn mismatch(at: &str, given: String, allowed: &str) -> InputError {

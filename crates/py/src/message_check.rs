@@ -98,9 +98,11 @@ pub(crate) fn tools_of(scenario: &Scenario, kind: u8) -> &[Tool] {
 
 /// An error of more acts than are carried out.
 fn too_many(at: &str, acts: &[Act]) -> Option<InputError> {
-    let given = Some(format!("{} acts", acts.len()));
-    let allowed = format!("at most {MAX_ACTS} acts");
-    (acts.len() > MAX_ACTS).then(|| InputError::new(format!("{at}.acts"), given, allowed))
+    (acts.len() > MAX_ACTS).then(|| {
+        let given = Some(format!("{} acts", acts.len()));
+        let allowed = format!("at most {MAX_ACTS} acts");
+        InputError::new(format!("{at}.acts"), given, allowed)
+    })
 }
 
 /// An error of the first act for which there is no tool.

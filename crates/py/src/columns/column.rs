@@ -22,18 +22,25 @@ pub(super) enum Data {
 }
 
 impl Column {
-    pub(super) fn new(shape: &'static Shape) -> Self {
+    /// A column with room for a number of entries.
+    pub(super) fn new(shape: &'static Shape, entries: usize) -> Self {
         let data = match shape {
-            Shape::Number
-            | Shape::Vector {
-                is_whole: false, ..
-            } => Data::Numbers(Vec::new()),
-            Shape::Integer | Shape::Code(_) | Shape::Vector { .. } => Data::Integers(Vec::new()),
-            Shape::Flag => Data::Flags(Vec::new()),
-            Shape::Table(fields) => {
-                Data::Table(fields.iter().map(|field| Self::new(&field.shape)).collect())
+            Shape::Number => Data::Numbers(Vec::with_capacity(entries)),
+            Shape::Vector { length, is_whole } => {
+                let room = length * entries;
+                if *is_whole {
+                    Data::Integers(Vec::with_capacity(room))
+                } else {
+                    Data::Numbers(Vec::with_capacity(room))
+                }
             }
-            Shape::List(item) => Data::List(Vec::new(), Box::new(Self::new(item))),
+            Shape::Integer | Shape::Code(_) => Data::Integers(Vec::with_capacity(entries)),
+            Shape::Flag => Data::Flags(Vec::with_capacity(entries)),
+            Shape::Table(fields) => {
+                let columns = fields.iter().map(|field| Self::new(&field.shape, entries));
+                Data::Table(columns.collect())
+            }
+            Shape::List(item) => Data::List(Vec::new(), Box::new(Self::new(item, 0))),
             Shape::Omitted => Data::Omitted,
         };
         Self { shape, data }

@@ -271,22 +271,17 @@ impl Place<'_> {
 
     /// An array of floats, repeated to a shape if one is given.
     fn array(&self, given: &Bound<PyAny>, shape: Option<&[usize]>) -> PyResult<Vec<f64>> {
-        if let Some(numbers) = floats(given, shape) {
-            return Ok(numbers);
-        }
         let convert = || -> PyResult<Vec<f64>> {
+            if let Ok(array) = given.cast::<PyArrayDyn<f64>>() {
+                return repeated(array, shape);
+            }
             let numpy = given.py().import(intern!(given.py(), "numpy"))?;
             let array = numpy.call_method1(intern!(given.py(), "asarray"), (given,))?;
             if array.getattr("dtype")?.getattr("kind")?.eq("c")? {
                 return Err(PyTypeError::new_err("complex numbers"));
             }
             let array = numpy.call_method1(intern!(given.py(), "asarray"), (array, "float64"))?;
-            let array = match shape {
-                Some(shape) => numpy.call_method1("broadcast_to", (array, shape))?,
-                None => numpy.call_method1("atleast_1d", (array,))?,
-            };
-            let array = array.cast_into::<PyArrayDyn<f64>>()?;
-            Ok(array.readonly().as_array().iter().copied().collect())
+            repeated(array.cast()?, shape)
         };
         convert().map_err(|error| {
             let py = given.py();
@@ -310,15 +305,26 @@ impl Place<'_> {
     }
 }
 
-/// The numbers of a contiguous array of floats that has the shape already.
-fn floats(given: &Bound<PyAny>, shape: Option<&[usize]>) -> Option<Vec<f64>> {
-    let array = given.cast::<PyArrayDyn<f64>>().ok()?;
-    let has_shape = match shape {
-        Some(shape) => array.shape() == shape,
-        None => array.ndim() == 1,
+/// The numbers of an array, repeated to a shape if one is given, as numpy does.
+fn repeated(array: &Bound<PyArrayDyn<f64>>, shape: Option<&[usize]>) -> PyResult<Vec<f64>> {
+    let numbers = array.readonly();
+    let own = array.shape();
+    if shape.map_or(own.len() == 1, |shape| own == shape)
+        && let Ok(numbers) = numbers.as_slice()
+    {
+        return Ok(numbers.to_vec());
+    }
+    let count = shape.map_or(1, |shape| shape.iter().product());
+    if let ([], Ok([number])) = (own, numbers.as_slice()) {
+        return Ok(vec![*number; count]);
+    }
+    let numpy = array.py().import("numpy")?;
+    let array = match shape {
+        Some(shape) => numpy.call_method1("broadcast_to", (array, shape))?,
+        None => numpy.call_method1("atleast_1d", (array,))?,
     };
-    let array = has_shape.then(|| array.readonly())?;
-    array.as_slice().ok().map(<[f64]>::to_vec)
+    let array = array.cast_into::<PyArrayDyn<f64>>()?;
+    Ok(array.readonly().as_array().iter().copied().collect())
 }
 
 /// A number as it was given: `None` in place of a number is read as NaN.

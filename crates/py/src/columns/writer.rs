@@ -12,9 +12,9 @@ use std::slice;
 /// The column of some values.
 pub(crate) fn write<'v, T: Serialize + 'v>(
     shape: &'static Shape,
-    values: impl Iterator<Item = &'v T>,
+    values: impl ExactSizeIterator<Item = &'v T>,
 ) -> PyResult<Column> {
-    let mut column = Column::new(shape);
+    let mut column = Column::new(shape, values.len());
     for (entry, value) in (0..).zip(values) {
         let written = value.serialize(Writer::new(&mut column, entry));
         written.map_err(|Mismatch(what)| PyRuntimeError::new_err(what))?;
