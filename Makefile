@@ -30,7 +30,7 @@ test: ## Run every check, as CI does, and print the time of each
 quick: .venv/installed ## Run the checks that a change needs: make quick CRATE=brain
 	$(PYTHON) scripts/checks.py --quick $(addprefix --crate ,$(CRATE))
 
-lint: rust-lint python-lint ## Check format, lints, types, stubs, import layers and circles, generated types, paths and prose
+lint: rust-lint python-lint ## Check format, lints, types, stubs, import layers and circles, parameters, generated types, paths and prose
 
 rust-lint:
 	cargo fmt --all --check
@@ -44,6 +44,7 @@ python-lint: .venv/installed target/page.schema.json
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/check_tree.py
 	$(BIN)/python scripts/check_cycles.py
+	$(BIN)/python scripts/check_parameters.py
 	$(BIN)/python scripts/check_prose.py
 	$(BIN)/python scripts/generate_types.py --check
 
