@@ -204,18 +204,6 @@ def test_the_clock_of_a_classic_run_can_be_changed_while_it_plays(page: Page) ->
     assert response["time_s"] == pytest.approx(response["tick"] / 560)
 
 
-@pytest.mark.parametrize("engine", ["metric", "classic"])
-def test_each_engine_has_a_schema(client: TestClient, engine: str) -> None:
-    schema = client.get("/api/schema", params={"engine": engine}).json()
-    assert schema["properties"]["engine"]["const"] == engine
-
-
-def test_unknown_engines_have_no_schema(client: TestClient) -> None:
-    response = client.get("/api/schema", params={"engine": "../secret"})
-    assert response.status_code == 404
-    assert "metric, classic" in response.json()["errors"][0]["message"]
-
-
 def test_the_thumbnail_of_2003_contains_its_walls_and_items(client: TestClient) -> None:
     svg = client.get("/api/pictures", params={"scenario": "classic"}).text
     walls, items = (re.search(f'd="([^"]*)" fill="{colour}"', svg) for colour in (WALL, ITEM))

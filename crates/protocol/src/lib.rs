@@ -38,6 +38,6 @@ pub use study_answer::{
     StudyTable, StudyVerdict,
 };
 pub use study_form::{
-    Factor, FactorKind, FactorValue, Factors, Guarantee, PlannedFactor, PlannedRequirement,
-    Requirement, StudyPlan, StudyQuestion, StudyRequest,
+    Factor, Factors, Guarantee, PlannedFactor, PlannedRequirement, Requirement, StudyPlan,
+    StudyQuestion, StudyRequest,
 };

@@ -1,6 +1,7 @@
 //! The setting in which the frames of a run are drawn.
 
 use crate::page::{Json, LoggedChange};
+use base::document::schema::Parameter;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -17,6 +18,8 @@ pub struct Setting {
     pub step_s: f64,
     /// The scenario, with all defaults.
     pub document: BTreeMap<String, Json>,
+    /// The numbers, switches and choices of the scenario.
+    pub parameters: Vec<Parameter>,
     /// The names of the robots, in the order of frames.
     pub robots: Vec<String>,
     /// The names of the robots that had external bodies from the start, such as real robots.

@@ -2,33 +2,10 @@
 
 use crate::lists::Engine;
 use crate::study::StudyState;
+use base::document::schema::{ParameterKind, ParameterValue};
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// A value of a factor.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum FactorValue {
-    /// A number.
-    Number(f64),
-    /// A choice by name.
-    Text(String),
-    /// A switch.
-    Switch(bool),
-}
-
-/// The kind of a factor's values.
-#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum FactorKind {
-    /// Whole numbers.
-    Whole,
-    /// Numbers.
-    Real,
-    /// Names or switches.
-    Choice,
-}
 
 /// A number or choice of a scenario that a study can vary.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -36,15 +13,15 @@ pub struct Factor {
     /// Its keys from the root, separated by dots.
     pub path: String,
     /// Its value; null if the scenario does not set it.
-    pub value: Option<FactorValue>,
+    pub value: Option<ParameterValue>,
     /// The lower bound, if any.
     pub low: Option<f64>,
     /// The upper bound, if any.
     pub high: Option<f64>,
     /// The kind of its values.
-    pub kind: FactorKind,
+    pub kind: ParameterKind,
     /// The choices; null if it is a number.
-    pub values: Option<Vec<FactorValue>>,
+    pub values: Option<Vec<ParameterValue>>,
     /// The unit, if any.
     pub unit: Option<String>,
     /// The description.
@@ -164,7 +141,7 @@ pub struct PlannedFactor {
     /// Its keys from the root, separated by dots.
     pub path: String,
     /// Its values; empty if it has a range.
-    pub values: Vec<FactorValue>,
+    pub values: Vec<ParameterValue>,
     /// The ends of its range.
     pub range: Option<(f64, f64)>,
 }

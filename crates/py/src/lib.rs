@@ -86,7 +86,7 @@ mod _core {
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]
     use crate::scenario::{
-        derived_quantities, missing_files, read_document, read_filled, read_scenario,
+        derived_quantities, missing_files, parameters, read_document, read_filled, read_scenario,
     };
     #[pymodule_export]
     use crate::selection::{

@@ -1,12 +1,14 @@
 //! Scenarios of every engine.
 
-use crate::convert::{MAX_DEPTH, too_deep};
+use crate::convert::{MAX_DEPTH, too_deep, write};
 use crate::engines::ENGINES;
 use crate::error::input_error;
+use base::document::schema::Schema;
 use base::document::{Document, Node, Override, Table, Value};
 use base::error::{InputError, InputErrors};
 use base::scenario::{Factor, Merit, Published, Requirement, Scenario, Values};
 use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 use sim::scenario::ScenarioSpec;
@@ -78,6 +80,21 @@ pub(crate) fn read_filled<'py>(
     source: Source<'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
     whole(py, &ScenarioSpec::filled(&source.document()?))
+}
+
+/// The numbers, switches and choices of a valid source under a JSON Schema, as dicts.
+#[pyfunction]
+pub(crate) fn parameters<'py>(
+    py: Python<'py>,
+    source: Source<'py>,
+    schema: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let schema = serde_json::from_str(schema).map(Schema::for_editors);
+    let schema = schema.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    write(
+        py,
+        &schema.parameters(&ScenarioSpec::filled(&source.document()?)),
+    )
 }
 
 fn whole<'py>(py: Python<'py>, document: &Document) -> PyResult<Bound<'py, PyAny>> {

@@ -1,8 +1,7 @@
 """The addresses of the server.
 
 GET `/api/scenarios`: the gallery. `/api/pictures?scenario=`: a thumbnail, SVG.
-GET `/api/schema?engine=`: the JSON Schema of a scenario. POST `/api/check`: a scenario's text; its
-errors are the response, with status 422.
+POST `/api/check`: a scenario's text; its errors are the response, with status 422.
 GET `/api/recordings`: the recordings below the server's folder, the newest first.
 `/api/recordings/file?id=`: the file of one.
 `/drive`: where the page finds the warden of the server's drive, and what its map draws. Without a
@@ -33,18 +32,15 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
-from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, errors_response, text
 from agent_economy.server.runs.connection import PageConnection
-from agent_economy.server.runs.engines import ENGINES
 from agent_economy.server.runs.host import RunHost
 from agent_economy.server.runs.live_run import LiveRun
 from agent_economy.server.runs.thumbnail import thumbnail
-from agent_economy.server.studies.factors import schema
 from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.progress import send_progress
 from agent_economy.server.studies.routes import Routes
@@ -114,7 +110,6 @@ class Addresses:
             Route("/api/pictures", self.picture),
             Route("/api/recordings", self.recordings),
             Route("/api/recordings/file", self.recording),
-            Route("/api/schema", self.schema),
             Route("/api/check", self.check, methods=["POST"]),
             *Routes(self.studies, self.workspace).all(),
             WebSocketRoute("/ws", self.connect),
@@ -194,14 +189,6 @@ class Addresses:
         except InputError as error:
             return errors_response(errors_of(error), 404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
-
-    async def schema(self, request: Request) -> Response:
-        """Return the schema of an engine's scenarios."""
-        engine = request.query_params.get("engine", "metric")
-        if engine not in ENGINES:
-            known = f"one of {', '.join(ENGINES)}"
-            return errors_response(errors_of(_core.refusal("engine", engine, known)), 404)
-        return JSONResponse(schema(engine), media_type="application/schema+json")
 
     async def check(self, request: Request) -> Response:
         """Return what a scenario's text describes, or its errors."""

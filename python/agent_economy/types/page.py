@@ -160,12 +160,12 @@ class Exported(TypedDict):
     text: str
 
 
-FactorValue: TypeAlias = float | str | bool
-"""A value of a factor."""
+ParameterValue: TypeAlias = float | str | bool
+"""A value of a parameter."""
 
 
-FactorKind: TypeAlias = Literal["whole", "real", "choice"]
-"""The kind of a factor's values."""
+ParameterKind: TypeAlias = Literal["whole", "real", "choice"]
+"""The kind of a parameter's values."""
 
 
 class Factor(TypedDict):
@@ -184,11 +184,11 @@ class Factor(TypedDict):
     """
 
     path: str
-    value: FactorValue | None
+    value: ParameterValue | None
     low: float | None
     high: float | None
-    kind: FactorKind
-    values: Sequence[FactorValue] | None
+    kind: ParameterKind
+    values: Sequence[ParameterValue] | None
     unit: str | None
     help: str
     varied: str | None
@@ -601,6 +601,36 @@ Origin: TypeAlias = Literal["bundled", "folder"]
 """Where a scenario is."""
 
 
+PathStep: TypeAlias = str | int
+"""A key of a table, or a place in a list."""
+
+
+class Parameter(TypedDict):
+    """A number, switch or choice of a scenario.
+
+    Attributes:
+        steps: Its keys from the root; numbers are places in lists.
+        value: Its value; null if the scenario does not set it.
+        default: Its default, if any.
+        low: The lower bound, if any.
+        high: The upper bound, if any.
+        kind: The kind of its values.
+        values: The choices; null if it is a number.
+        unit: The unit, if any.
+        help: The description.
+    """
+
+    steps: Sequence[PathStep]
+    value: ParameterValue | None
+    default: ParameterValue | None
+    low: float | None
+    high: float | None
+    kind: ParameterKind
+    values: Sequence[ParameterValue] | None
+    unit: str | None
+    help: str
+
+
 class PlannedFactor(TypedDict):
     """A factor of a planned study; it has either values or a range.
 
@@ -611,7 +641,7 @@ class PlannedFactor(TypedDict):
     """
 
     path: str
-    values: Sequence[FactorValue]
+    values: Sequence[ParameterValue]
     range: tuple[float, float] | None
 
 
@@ -802,6 +832,7 @@ class Setting(TypedDict):
         generation: Frames name the generation of the setting that they are drawn in.
         step_s: The simulated duration of a step.
         document: The scenario, with all defaults.
+        parameters: The numbers, switches and choices of the scenario.
         robots: The names of the robots, in the order of frames.
         external: The names of the robots that had external bodies from the start, such as real
             robots.
@@ -819,6 +850,7 @@ class Setting(TypedDict):
     generation: int
     step_s: float
     document: Mapping[str, Any]
+    parameters: Sequence[Parameter]
     robots: Sequence[str]
     external: Sequence[str]
     changes: Sequence[LoggedChange]

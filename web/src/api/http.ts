@@ -1,4 +1,4 @@
-import type { ScenarioSummary, Engine, InputError, RecordingEntry, ScenarioEntry } from "./protocol";
+import type { ScenarioSummary, InputError, RecordingEntry, ScenarioEntry } from "./protocol";
 import { RequestError } from "./study";
 
 export async function scenarios(): Promise<ScenarioEntry[]> {
@@ -12,11 +12,6 @@ export async function recordings(): Promise<RecordingEntry[]> {
 /** The address of a recording's file. */
 export function recordingFile(id: string): string {
   return `api/recordings/file?id=${encodeURIComponent(id)}`;
-}
-
-/** The schema of an engine's scenarios. */
-export async function schema(engine: Engine): Promise<unknown> {
-  return (await request(`api/schema?engine=${engine}`)).json();
 }
 
 export function picture(scenario: string): string {

@@ -10,6 +10,7 @@ from typing import Any
 
 from agent_economy import _core
 from agent_economy.runs.stepped import Stepped
+from agent_economy.server.parameters import parameters
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.run import Run
 from agent_economy.types.page import Setting
@@ -40,6 +41,7 @@ def setting(run: Run, generation: int) -> Setting:
         "generation": generation,
         "step_s": simulation.step_s,
         "document": _core.read_filled(simulation.scenario.source),
+        "parameters": parameters(simulation.scenario),
         "robots": simulation.robots,
         "external": simulation.declared_external,
         "changes": simulation.changes,

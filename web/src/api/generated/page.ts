@@ -45,15 +45,15 @@ export interface Factor {
   /** Its keys from the root, separated by dots. */
   path: string;
   /** Its value; null if the scenario does not set it. */
-  value: FactorValue | null;
+  value: ParameterValue | null;
   /** The lower bound, if any. */
   low: number | null;
   /** The upper bound, if any. */
   high: number | null;
   /** The kind of its values. */
-  kind: FactorKind;
+  kind: ParameterKind;
   /** The choices; null if it is a number. */
-  values: FactorValue[] | null;
+  values: ParameterValue[] | null;
   /** The unit, if any. */
   unit: string | null;
   /** The description. */
@@ -61,12 +61,6 @@ export interface Factor {
   /** The scenario's own range, such as `1..8`. */
   varied: string | null;
 }
-
-/** The kind of a factor's values. */
-export type FactorKind = "whole" | "real" | "choice";
-
-/** A value of a factor. */
-export type FactorValue = number | string | boolean;
 
 /** What a study of a scenario can be about. */
 export interface Factors {
@@ -423,12 +417,43 @@ export interface Undo {
 
 export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Save | CancelSave | Export | Select | Layers | RequestSeries | Acknowledge;
 
+/** A number, switch or choice of a scenario. */
+export interface Parameter {
+  /** Its keys from the root; numbers are places in lists. */
+  steps: PathStep[];
+  /** Its value; null if the scenario does not set it. */
+  value: ParameterValue | null;
+  /** Its default, if any. */
+  default: ParameterValue | null;
+  /** The lower bound, if any. */
+  low: number | null;
+  /** The upper bound, if any. */
+  high: number | null;
+  /** The kind of its values. */
+  kind: ParameterKind;
+  /** The choices; null if it is a number. */
+  values: ParameterValue[] | null;
+  /** The unit, if any. */
+  unit: string | null;
+  /** The description. */
+  help: string;
+}
+
+/** The kind of a parameter's values. */
+export type ParameterKind = "whole" | "real" | "choice";
+
+/** A value of a parameter. */
+export type ParameterValue = number | string | boolean;
+
+/** A key of a table, or a place in a list. */
+export type PathStep = string | number;
+
 /** A factor of a planned study; it has either values or a range. */
 export interface PlannedFactor {
   /** Its keys from the root, separated by dots. */
   path: string;
   /** Its values; empty if it has a range. */
-  values: FactorValue[];
+  values: ParameterValue[];
   /** The ends of its range. */
   range: [number, number] | null;
 }
@@ -697,6 +722,8 @@ export interface Setting {
   step_s: number;
   /** The scenario, with all defaults. */
   document: Record<string, Json>;
+  /** The numbers, switches and choices of the scenario. */
+  parameters: Parameter[];
   /** The names of the robots, in the order of frames. */
   robots: string[];
   /** The names of the robots that had external bodies from the start, such as real robots. */

@@ -50,6 +50,7 @@ const setting: Setting = {
   ],
   maps: [],
   item_kinds: ["mine"],
+  parameters: [],
   external: [],
   changes: [],
   log: [],

@@ -21,15 +21,15 @@ impl Schema {
     }
 }
 
-struct Check<'s> {
-    schema: &'s Schema,
+pub(super) struct Check<'s> {
+    pub(super) schema: &'s Schema,
     /// The document.
     root: &'s Node,
     errors: Vec<InputError>,
 }
 
 impl<'s> Check<'s> {
-    fn new(schema: &'s Schema, root: &'s Node) -> Self {
+    pub(super) fn new(schema: &'s Schema, root: &'s Node) -> Self {
         Self {
             schema,
             root,
@@ -42,7 +42,7 @@ impl<'s> Check<'s> {
         let Some(keywords) = self.schema.keywords(schema) else {
             return;
         };
-        if let Some(names) = self.names(schema, keywords) {
+        if let Some(names) = self.names(schema) {
             return self.choice(&names, node, path);
         }
         if !alternatives(keywords).is_empty() {
@@ -58,7 +58,8 @@ impl<'s> Check<'s> {
     }
 
     /// The names that `schema` allows in this document, if it allows nothing else.
-    fn names(&self, schema: &'s Json, keywords: &'s Object) -> Option<Vec<&'s str>> {
+    pub(super) fn names(&self, schema: &'s Json) -> Option<Vec<&'s str>> {
+        let keywords = self.schema.keywords(schema)?;
         let Some((mut names, table)) = open_choices(self.schema, keywords) else {
             return choices(self.schema, schema);
         };
@@ -126,14 +127,9 @@ impl<'s> Check<'s> {
         if let (Value::Table(table), Some(tag)) = (&node.value, tag(self.schema, &forms)) {
             return self.tagged(&forms, (tag, table), (node, path));
         }
-        let errors_as = |form: &'s Json| {
-            let mut check = Check::new(self.schema, self.root);
-            check.value(form, node, path);
-            check.errors
-        };
         let alike = forms.into_iter().filter_map(|form| {
             let likeness = likeness(self.schema, form, node)?;
-            Some((likeness, errors_as(form)))
+            Some((likeness, self.errors_as(form, node, path)))
         });
         let meant = alike.min_by_key(|(likeness, errors)| {
             (!errors.is_empty(), Reverse(*likeness), errors.len())
@@ -144,6 +140,13 @@ impl<'s> Check<'s> {
             }
             _ => self.error(schema, node, path),
         }
+    }
+
+    /// The errors of `node` as a value of this `form`.
+    pub(super) fn errors_as(&self, form: &'s Json, node: &Node, path: &str) -> Vec<InputError> {
+        let mut check = Check::new(self.schema, self.root);
+        check.value(form, node, path);
+        check.errors
     }
 
     /// Checks a table whose key `tag` names its form.

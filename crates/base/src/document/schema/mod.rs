@@ -34,9 +34,11 @@ mod closed;
 mod expected;
 mod forms;
 mod keywords;
+mod parameters;
 mod simplified;
 pub mod units;
 
+pub use parameters::{Parameter, ParameterKind, ParameterValue, PathStep};
 pub use simplified::Schema;
 
 #[cfg(test)]

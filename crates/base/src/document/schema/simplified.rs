@@ -1,7 +1,7 @@
 //! A JSON Schema in a simplified form.
 
 use super::closed::closed;
-use super::keywords::{Object, alternatives};
+use super::keywords::{Object, alternatives, list};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value as Json;
@@ -28,6 +28,12 @@ impl Schema {
         Self {
             root: closed(schema),
         }
+    }
+
+    /// That of a file of `schemas`, whose parts with a description refer to others by `allOf`, as editors need it.
+    #[must_use]
+    pub fn for_editors(root: Json) -> Self {
+        Self { root }
     }
 
     /// The same, with any other keys allowed at the root.
@@ -75,11 +81,12 @@ impl Schema {
         let mut schema = schema.as_object()?;
         // A chain of references has at most as many links as there are definitions; cycles mean nothing.
         for _ in 0..100 {
-            let Some(Json::String(target)) = schema.get("$ref") else {
-                return Some(schema);
+            let next = match (schema.get("$ref"), list(schema, "allOf")) {
+                (Some(target), _) => self.root.pointer(target.as_str()?.strip_prefix('#')?)?,
+                (None, [only]) => only,
+                _ => return Some(schema),
             };
-            let target = target.strip_prefix('#')?;
-            schema = self.root.pointer(target)?.as_object()?;
+            schema = next.as_object()?;
         }
         None
     }

@@ -1,6 +1,5 @@
-import type { Json, Table } from "../../../api/protocol";
-import { type Step, valueAt } from "./list";
-import { isTable } from "./schema";
+import type { Json, PathStep, Table } from "../../../api/protocol";
+import { isTable, valueAt } from "./list";
 
 export interface Behaviour {
   kind: string;
@@ -64,7 +63,7 @@ export function usesGoals(document: Table, robotKind: string): boolean {
 }
 
 /** A value of a robot kind, or of the models of the scenario that it is based on. */
-function valueOfKind(document: Table, robotKind: string, steps: Step[]): Json | undefined {
+function valueOfKind(document: Table, robotKind: string, steps: PathStep[]): Json | undefined {
   const known = new Set<string>();
   let place: [string, string] = ["robots", robotKind];
   while (true) {

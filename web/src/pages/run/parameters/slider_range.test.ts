@@ -9,5 +9,5 @@ test.each([
   [Number.POSITIVE_INFINITY, 0, 5],
   [360, 90, 360],
 ])("a slider up to %d that stands at %d ends at %d", (maximum, value, end) => {
-  expect(sliderEnd({ maximum, value, fallback: undefined })).toBe(end);
+  expect(sliderEnd({ maximum, value, fallback: null })).toBe(end);
 });
