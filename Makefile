@@ -144,6 +144,7 @@ golden: ## Check that an unoptimised and a release build give the same runs, byt
 	cargo test --locked --release -p agent-economy-sim --test simulator golden
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
+	RENEW_REPLICATION=1 cargo test --locked -p agent-economy-classic --test starts
 	$(BIN)/python scripts/replication.py
 
 schemas: ## Generate the JSON Schemas, the reference of scenarios, and the types of Python and TypeScript

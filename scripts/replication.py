@@ -1,6 +1,8 @@
 """Recompute every table of docs/replication.md, and write them to the page.
 
-Tables are between `<!-- NAME -->` and `<!-- end -->`. Examples:
+Tables are between `<!-- NAME -->` and `<!-- end -->`. The outcomes of every possible start are in
+docs/replication/starts.csv, which a test of the simulator writes and compares
+(crates/classic/tests/starts.rs). Examples:
 
     python scripts/replication.py            regenerate the page
     python scripts/replication.py --check    exit with 1 if the page is out of date
@@ -8,6 +10,7 @@ Tables are between `<!-- NAME -->` and `<!-- end -->`. Examples:
 
 import tempfile
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -18,12 +21,14 @@ from page import ROOT, Page, table
 from scipy import stats
 
 import agent_economy as ae
+from agent_economy import arrow
 from agent_economy._core import CONTACTS
 from agent_economy.study.answer import published as theirs
 from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.race import run_race
 
+PAGE = Page("replication")
 SCENARIO = ae.Scenario.load(ROOT / "scenarios" / "classic.toml")
 
 Counted = tuple[NDArray[np.float64], NDArray[np.intp]]
@@ -46,19 +51,29 @@ SHEET_MEANS = (-21.9, -28.76, -11.73, -12.02, -24.7, -42.2, -42.3, -43.6)
 """Figures of merit of 1 to 8 robots in the thesis's appendix."""
 
 
+@dataclass(frozen=True)
+class Starts:
+    """Every possible start of a team, and the number of those that never complete."""
+
+    contact: str
+    robots: int
+    starts: int
+    never: int
+
+
 def main() -> None:
     """Write the page, or check it."""
-    Page("replication").draw(lambda name: TABLES[name](), {})
+    PAGE.draw(lambda name: TABLES[name](), {})
 
 
 def never() -> str:
     """Return the exact share of starts that never complete, for one and two robots."""
 
-    def share(contact: str, robots: int) -> str:
-        paints = ae.classic.exhaust(robots, contact)["paints"]
-        return f"{paints.null_count:,} of {len(paints):,} ({paints.null_count / len(paints):.2%})"
+    def share(row: Starts) -> str:
+        return f"{row.never:,} of {row.starts:,} ({row.never / row.starts:.2%})"
 
-    rows = ([contact, share(contact, 1), share(contact, 2)] for contact in CONTACTS)
+    groups = groupby(PAGE.read("starts", Starts), key=lambda row: row.contact)
+    rows = ([contact, *map(share, group)] for contact, group in groups)
     return table(["contact", "1 robot", "2 robots"], rows)
 
 
@@ -281,9 +296,8 @@ def published() -> dict[int, list[float]]:
 
 def paints_of(contact: str, robots: int, runs: int) -> NDArray[np.float64]:
     """Return paints to completion, infinite if it never completes."""
-    column = ae.classic.replicate(robots, runs, contact=contact)["paints"]
-    paints: NDArray[np.float64] = column.cast("double").fill_null(np.inf).to_numpy()
-    return paints
+    team = SCENARIO.replace("contact", contact).replace("robots.wanderer.count", robots)
+    return arrow.floats(ae.replicate(team, runs)["paints"], np.inf)
 
 
 TABLES: dict[str, Callable[[], str]] = {
