@@ -13,7 +13,7 @@ from statistics import median
 
 import numpy as np
 
-from agent_economy import classic
+from agent_economy import Scenario, _core
 from agent_economy.study.store import Column, Columns, RunBlock, Store
 
 COLUMNS = (
@@ -47,17 +47,9 @@ def main() -> None:
 
 def outcomes() -> Columns:
     """Return the columns of real runs, each of shape (teams, runs)."""
-    kept: dict[str, list[object]] = {column.name: [] for column in COLUMNS}
-    for robots in TEAM_SIZES:
-        table = classic.replicate(robots, RUNS)
-        paints = np.nan_to_num(table["paints"].to_numpy().astype(float), nan=np.inf)
-        kept["paints"].append(paints)
-        kept["time_s"].append(np.minimum(paints, classic.TIME_LIMIT_PAINTS) / 56)
-        kept["failed"].append(paints > classic.TIME_LIMIT_PAINTS)
-        kept["robots"].append(np.full(RUNS, robots))
-        kept["found"].append(table["found"].to_numpy())
-        kept["collisions"].append(table["collisions"].to_numpy())
-    return {name: np.array(values, dtype=np.float64) for name, values in kept.items()}
+    scenario = Scenario.load("classic")
+    teams = [scenario.configuration({"robots.wanderer.count": robots}) for robots in TEAM_SIZES]
+    return _core.run_block(teams, seed=0, first_run=0, runs=RUNS, threads=None)
 
 
 def large(data: Columns, rows: int) -> tuple[float, float, float]:

@@ -4,7 +4,8 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from agent_economy import _core, classic
+from agent_economy import _core
+from agent_economy.runs.classic_simulation import ClassicSimulation
 from agent_economy.runs.classic_world import CELL_PX, WORLD
 from agent_economy.runs.simulation import Simulation
 from agent_economy.scenario import Scenario
@@ -56,8 +57,10 @@ def metric(scenario: Scenario) -> str:
 def grid(scenario: Scenario) -> str:
     """Return the grid of 2003, with the robots at their starting positions."""
     side = classic_view.SIDE_PX
-    team = classic.start(sum(scenario.robots.values()))
-    poses = [(each["x"], side - each["y"], math.radians(90 - each["heading"])) for each in team]
+    poses = [
+        (each["x_px"], side - each["y_px"], math.radians(90 - each["heading_deg"]))
+        for each in ClassicSimulation(scenario).team.to_pylist()
+    ]
     shapes = [
         squares(WORLD["walls"], WALL),
         squares(WORLD["items"], ITEM),
