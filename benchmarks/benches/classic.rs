@@ -9,17 +9,33 @@
 #![expect(clippy::unwrap_used, reason = "a benchmark may panic")]
 
 use classic::clock::{DECISION_PERIOD, FIRST_DECISION};
-use classic::start::random_team;
+use classic::start::{random_cell, random_team};
 use classic::world::cells;
-use classic::{Contact, Task, replicate, search};
+use classic::{Contact, FastSearch, Outcome, Task, search};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use rayon::prelude::*;
 use std::hint::black_box;
 
 const RUNS: u64 = 20_000;
 
+/// Runs per task of the thread pool: enough to hide the cost of a task, few enough to balance.
+const RUNS_PER_TASK: usize = 64;
+
+/// The outcomes of runs 0 to [`RUNS`], on the threads of the current pool.
+fn outcomes(robots: u32, task: Task) -> Vec<Outcome> {
+    let run = |search: &mut FastSearch, run: u64| {
+        search.run((0..robots).map(|index| random_cell(1, run, index)))
+    };
+    let runs: Vec<u64> = (0..RUNS).collect();
+    runs.into_par_iter()
+        .with_min_len(RUNS_PER_TASK)
+        .with_max_len(RUNS_PER_TASK)
+        .map_init(|| FastSearch::new(task), run)
+        .collect()
+}
+
 /// Robot-decisions until completion; proofs of "never" are left out, so the rate is understated.
-fn robot_decisions(robots: u32, runs: u64, task: Task) -> u64 {
-    let outcomes = replicate(robots, 0..runs, 1, task);
+fn robot_decisions(robots: u32, outcomes: &[Outcome]) -> u64 {
     let paints = outcomes.iter().filter_map(|outcome| outcome.paints);
     let decisions = |paints: u64| match paints.checked_sub(FIRST_DECISION) {
         Some(rest) => 1 + rest / DECISION_PERIOD,
@@ -45,10 +61,13 @@ fn fast_form(criterion: &mut Criterion) {
             .num_threads(threads)
             .build()
             .unwrap();
-        group.throughput(Throughput::Elements(robot_decisions(robots, RUNS, task)));
+        group.throughput(Throughput::Elements(robot_decisions(
+            robots,
+            &outcomes(robots, task),
+        )));
         let name = format!("{robots} robots, {contact:?}, {threads} thread(s)");
         group.bench_function(name, |bencher| {
-            bencher.iter(|| pool.install(|| replicate(black_box(robots), 0..RUNS, 1, task)));
+            bencher.iter(|| pool.install(|| outcomes(black_box(robots), task)));
         });
     }
 }
@@ -58,12 +77,15 @@ fn plain_form(criterion: &mut Criterion) {
         contact: Contact::Neighbour,
         time_limit_paints: 6720,
     };
-    let runs = 200;
+    let plain = |run| search(&random_team(4, 1, run), task);
+    let all = || (0..200).map(plain);
     let mut group = criterion.benchmark_group("plain form");
-    group.throughput(Throughput::Elements(robot_decisions(4, runs, task)));
+    group.throughput(Throughput::Elements(robot_decisions(
+        4,
+        &all().collect::<Vec<_>>(),
+    )));
     group.bench_function("4 robots, neighbour, 1 thread", |bencher| {
-        let all = || (0..runs).map(|run| search(&random_team(4, 1, run), task).collisions);
-        bencher.iter(|| all().sum::<u64>());
+        bencher.iter(|| all().map(|outcome| outcome.collisions).sum::<u64>());
     });
 }
 

@@ -1,14 +1,14 @@
 """How many robots, of which kinds, does a job need? The answer comes from fast simulation.
 
 `Scenario` describes the job; `run`, `replicate` and `Simulation` simulate it; `study` selects the
-best team. `ClassicSimulation` and `classic` run the 2003 grid simulator.
+best team. `ClassicSimulation` runs the 2003 grid simulator.
 """
 
 from importlib import import_module
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from agent_economy import classic, study
+    from agent_economy import study
     from agent_economy._core import InputError
     from agent_economy.api import replicate, run
     from agent_economy.live.replay import replay
@@ -37,7 +37,6 @@ __all__ = [
     "Simulation",
     "StudyError",
     "__version__",
-    "classic",
     "replay",
     "replicate",
     "run",

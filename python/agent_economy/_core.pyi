@@ -35,7 +35,6 @@ __all__ = [
     "drawn_footprints",
     "drawn_links",
     "equal_allocation",
-    "exhaust",
     "footprints",
     "frame",
     "goals",
@@ -51,7 +50,6 @@ __all__ = [
     "polygon_contains",
     "polygon_error",
     "quantile_bounds",
-    "random_start",
     "read_classic",
     "read_configuration",
     "read_document",
@@ -61,14 +59,12 @@ __all__ = [
     "recorded_moment",
     "recorded_setting",
     "refusal",
-    "replicate",
     "requirement",
     "run_block",
     "run_one",
     "scenario_warnings",
     "selection",
     "served_goals",
-    "trace",
 ]
 
 CONTACTS: list[str]
@@ -381,18 +377,3 @@ class ClassicSimulation(CompiledRun):
 
 def read_classic(source: _Source) -> ClassicScenario: ...
 def classic_world() -> dict[str, Any]: ...
-def trace(start: list[dict[str, float]], decisions: int) -> dict[str, Any]: ...
-def random_start(robots: int, seed: int, run: int) -> list[dict[str, float]]: ...
-def replicate(
-    robots: int,
-    runs: int,
-    *,
-    contact: str,
-    time_limit_paints: int,
-    seed: int,
-    first_run: int,
-    threads: int | None,
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
-def exhaust(
-    robots: int, contact: str, *, threads: int | None
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...

@@ -33,23 +33,9 @@ WEIGHTS = {"time_s": -0.03, "robots": -0.2, "failed": -5.0}
 
 def classic(values: Values, first_run: int, runs: int) -> Columns:
     """Return runs of the classic simulator."""
-    robots = int(values.get(WANDERERS, 4))
-    time_limit_paints = round(56 * float(values.get("clock.time_limit_s", LONGEST_S)))
-    paints, _, _ = _core.replicate(
-        robots,
-        runs,
-        contact=str(values.get("contact", "touch")),
-        time_limit_paints=time_limit_paints,
-        seed=0,
-        first_run=first_run,
-        threads=None,
-    )
-    failed = (paints < 0) | (paints > time_limit_paints)
-    return {
-        "time_s": np.where(failed, time_limit_paints, paints) / 56,
-        "failed": failed * 1.0,
-        "robots": np.full(runs, float(robots)),
-    }
+    configuration = Scenario.load(CLASSIC).configuration(values)
+    block = _core.run_block([configuration], seed=0, first_run=first_run, runs=runs, threads=None)
+    return {name: block[name][0] for name in ("time_s", "failed", "robots")}
 
 
 def synthetic(values: Values, first_run: int, runs: int) -> Columns:

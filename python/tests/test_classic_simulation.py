@@ -24,22 +24,6 @@ def test_a_finished_run_is_a_row_of_replicate(robots: int, contact: str) -> None
     assert ae.ClassicSimulation(scenario, 3, 4).finish() == ae.run(scenario, seed=3, run=4)
 
 
-def test_its_robots_are_those_of_the_trace() -> None:
-    simulation = ae.ClassicSimulation("classic", 5, 2)
-    trace = ae.classic.trace(ae.classic.start(4, 5, 2), 3)
-    for pixels in trace["paints"]:
-        simulation.step()
-        team = simulation.team
-        drawn = zip(team["x_px"].to_pylist(), team["y_px"].to_pylist(), strict=True)
-        assert [list(place) for place in drawn] == pixels
-    carry, _, *robots = trace["decisions"][-1]
-    assert (simulation.tick, simulation.decides_in, simulation.carry) == (34, 11, carry)
-    names = ("heading_deg", "speed", "left_turns", "right_turns")
-    expected = [list(row) for row in zip(*(team[name].to_pylist() for name in names), strict=True)]
-    assert expected == [robot[2:6] for robot in robots]
-    assert [colour[0] for colour in team["colour"].to_pylist()] == [robot[6] for robot in robots]
-
-
 def test_a_run_in_parts_equals_the_run_in_one_call() -> None:
     one, other = ae.ClassicSimulation("classic", 7), ae.ClassicSimulation("classic", 7)
     one.step(500)

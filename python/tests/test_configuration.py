@@ -10,7 +10,7 @@ import pytest
 from alarm import ringing
 from command_line import run_python
 
-from agent_economy import InputError, Scenario, _core
+from agent_economy import ClassicSimulation, InputError, Scenario, _core
 from agent_economy.study import design
 
 COLUMNS = ["time_s", "failed", "robots", "found", "collisions", "paints"]
@@ -45,22 +45,22 @@ def test_columns_have_names_kinds_and_bounds(scenario: Scenario) -> None:
     ]
 
 
-def test_a_block_equals_replicate_for_each_team(scenario: Scenario) -> None:
+def test_a_block_equals_stepped_runs_of_each_team(scenario: Scenario) -> None:
     sizes = (1, 3, 17)
     given = block(teams(scenario, *sizes), seed=9, first_run=70, runs=100)
     assert list(given) == COLUMNS
     for index, size in enumerate(sizes):
-        paints, found, collisions = _core.replicate(
-            size, 100, contact="touch", time_limit_paints=6720, seed=9, first_run=70, threads=1
-        )
-        failed = (paints < 0) | (paints > 6720)
+        team = scenario.replace("robots.wanderer.count", size)
+        rows = [ClassicSimulation(team, 9, 70 + run).finish().row for run in range(100)]
+        paints = np.array([np.inf if row["paints"] is None else row["paints"] for row in rows])
+        failed = paints > 6720
         expected = {
             "time_s": np.where(failed, 120, paints / 56),
             "failed": failed,
             "robots": np.full(100, size),
-            "found": found,
-            "collisions": collisions,
-            "paints": np.where(paints < 0, np.inf, paints),
+            "found": [row["found"] for row in rows],
+            "collisions": [row["collisions"] for row in rows],
+            "paints": paints,
         }
         for name, values in expected.items():
             assert given[name].shape == (3, 100)

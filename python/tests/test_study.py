@@ -208,11 +208,9 @@ def test_the_runs_can_be_queried_in_sql(scenario: Scenario, tmp_path: Path) -> N
 
 
 def test_a_run_of_a_study_equals_that_of_replicate(scenario: Scenario, tmp_path: Path) -> None:
-    from agent_economy import classic  # noqa: PLC0415
-
     study.run(scenario, delta=0.3, seed=5, out=tmp_path)
     mine = study.open(tmp_path).runs().filter("configuration = 3").order("run").fetchnumpy()
-    theirs = classic.replicate(4, len(mine["run"]), seed=5)
+    theirs = ae.replicate(scenario.replace(TEAM, 4), len(mine["run"]), seed=5)
     assert mine["collisions"].tolist() == theirs["collisions"].to_pylist()
 
 

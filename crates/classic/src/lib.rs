@@ -7,16 +7,14 @@
 //! | the rules of a robot | [`robot`], `decision`, [`simulation`]: the *plain form* |
 //! | finds and the end of a run | [`contact`], [`search`](mod@search) |
 //! | runs that are stepped and changed | [`run`] |
-//! | blocks of runs for studies | [`fast`] (tested to give the same outcomes), [`start`], [`replicate`](mod@replicate), [`runner`] |
+//! | blocks of runs for studies | [`fast`] (tested to give the same outcomes), [`start`], [`runner`] |
 //! | scenarios | [`scenario`] |
-//! | traces | [`trace`](mod@trace) |
 
 pub mod clock;
 pub mod contact;
 mod decision;
 pub mod fast;
 pub mod heading;
-pub mod replicate;
 pub mod robot;
 pub mod run;
 pub mod runner;
@@ -24,16 +22,13 @@ pub mod scenario;
 pub mod search;
 pub mod simulation;
 pub mod start;
-pub mod trace;
 pub mod world;
 
 pub use contact::Contact;
 pub use fast::FastSearch;
 pub use heading::Heading;
-pub use replicate::replicate;
 pub use robot::{Colour, Robot, Speed, Start};
 pub use run::Run;
 pub use runner::Configuration;
 pub use search::{Outcome, Search, Task, search};
 pub use simulation::Simulation;
-pub use trace::trace;

@@ -46,14 +46,6 @@ pub struct Start {
     pub speed: Speed,
 }
 
-impl Start {
-    /// The cell that it occupies.
-    #[must_use]
-    pub fn cell(&self) -> Cell {
-        cell_of(self.x_px, self.y_px)
-    }
-}
-
 /// A robot of the plain form, with exactly the state of the original.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {

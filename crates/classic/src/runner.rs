@@ -2,8 +2,8 @@
 
 use crate::clock::{Clock, DECISION_PERIOD, FIRST_DECISION};
 use crate::fast::FastSearch;
-use crate::replicate::run_of;
 use crate::search::{Outcome, Task};
+use crate::start::random_cell;
 use crate::world::ITEMS;
 use base::engine::ColumnKind::{Flag, Real, Whole};
 use base::engine::{BlockOptions, Bounds, Column, OutcomeColumn, OutcomeColumns, Runner};
@@ -102,7 +102,8 @@ impl Runner for Configuration {
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
         let mut search = FastSearch::new(self.task);
         let runs = runs.take_while(|_| !options.is_stopped());
-        let outcomes = runs.map(|run| Some(run_of(&mut search, self.robots, seed, run)));
+        let team = |run| (0..self.robots).map(move |index| random_cell(seed, run, index));
+        let outcomes = runs.map(|run| Some(search.run(team(run))));
         columns().table(self, outcomes)
     }
 }
@@ -135,7 +136,8 @@ fn decisions_until(paint: u64) -> u64 {
 mod tests {
     use super::*;
     use crate::contact::Contact;
-    use crate::replicate::replicate;
+    use crate::search::search;
+    use crate::start::random_team;
 
     fn configuration(robots: u32, contact: Contact, time_limit_paints: u64) -> Configuration {
         Configuration {
@@ -153,16 +155,17 @@ mod tests {
     }
 
     #[test]
-    fn a_block_is_what_replicate_gives_for_that_team_seed_and_run_numbers() {
+    fn a_block_is_what_the_plain_form_gives_for_that_team_seed_and_run_numbers() {
         for (robots, contact) in [
             (1, Contact::Ahead),
             (3, Contact::Touch),
             (40, Contact::Within2),
         ] {
             let configuration = configuration(robots, contact, 2000);
-            let expected = replicate(robots, 5..205, 7, configuration.task);
+            let start = |run| random_team(robots, 7, run);
+            let expected = (5..205).map(|run| search(&start(run), configuration.task));
             let block = configuration.run_block(7, 5..205, BlockOptions::ALONE);
-            for (index, outcome) in expected.into_iter().enumerate() {
+            for (index, outcome) in expected.enumerate() {
                 let row: Vec<f64> = block.iter().map(|column| column[index]).collect();
                 assert_eq!(row, configuration.values(outcome));
             }

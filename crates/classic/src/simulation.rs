@@ -118,3 +118,6 @@ impl Simulation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

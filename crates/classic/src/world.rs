@@ -98,12 +98,6 @@ impl Grid {
     pub(crate) fn is_filled(&self, cell: Cell) -> bool {
         self.count(cell).is_some_and(|count| count > 0)
     }
-
-    /// FNV-1a over the counts modulo 256, as eight hex digits.
-    pub(crate) fn hash(&self) -> String {
-        let step = |hash: u32, count: &u32| (hash ^ (count & 0xff)).wrapping_mul(16_777_619);
-        format!("{:08x}", self.counts.iter().fold(0x811c_9dc5, step))
-    }
 }
 
 fn index(cell: Cell) -> Option<usize> {

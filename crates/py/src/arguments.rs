@@ -4,7 +4,6 @@ use crate::error::input_error;
 use crate::metric_scenario::robot_of;
 use base::error::{InputError, InputErrors};
 use brain::RobotId;
-use classic::Contact;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
@@ -68,12 +67,6 @@ impl Arguments {
         self.integer(name, given, 0..=i64::MAX.cast_unsigned() - MAX_RUNS)
     }
 
-    /// A team size.
-    pub(crate) fn robots(&self, given: &Bound<PyAny>, max: u32) -> Option<u32> {
-        let robots = self.integer("robots", given, 1..=max.into())?;
-        u32::try_from(robots).ok()
-    }
-
     /// The ids of robots of a scenario, by their names.
     pub(crate) fn robots_of(
         &self,
@@ -88,19 +81,6 @@ impl Arguments {
         });
         let robots: Vec<Option<RobotId>> = robots.collect();
         robots.into_iter().collect()
-    }
-
-    /// The name of a contact definition.
-    pub(crate) fn contact(&self, given: &Bound<PyAny>) -> Option<Contact> {
-        let name = given.extract::<String>().unwrap_or_default();
-        let found = Contact::NAMES.iter().find(|(known, _)| *known == name);
-        if found.is_none() {
-            let names = Contact::NAMES.iter().map(|(known, _)| *known);
-            let error =
-                InputError::not_one_of("contact".to_owned(), Some(shown(given)), &name, names);
-            self.errors.borrow_mut().push(error);
-        }
-        found.map(|(_, contact)| *contact)
     }
 
     /// Number of threads; `Some(None)` for one per processor.

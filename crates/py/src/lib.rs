@@ -4,9 +4,7 @@
 mod arguments;
 mod arrays;
 mod brain;
-mod classic_runs;
 mod classic_simulation;
-mod classic_trace;
 mod columns;
 mod configuration;
 mod controller;
@@ -45,13 +43,9 @@ mod _core {
     #[pymodule_export]
     use crate::brain::Brain;
     #[pymodule_export]
-    use crate::classic_runs::{exhaust, replicate};
-    #[pymodule_export]
     use crate::classic_simulation::{
         ClassicScenario, ClassicSimulation, ClassicSnapshot, classic_world, read_classic,
     };
-    #[pymodule_export]
-    use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
     use crate::configuration::{
         Configuration, read_configuration, run_block, run_one, scenario_warnings,

@@ -3,38 +3,13 @@
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Runs between two checks for Ctrl-C, which take some hundredths of a second for typical teams.
-const NUMBERS_PER_BLOCK: u64 = 8192;
-
 /// Time between two checks for Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
-
-/// The concatenated results of `block` for consecutive parts of `numbers`.
-///
-/// Python signals are handled between two parts; other Python threads run during a part.
-pub(crate) fn in_blocks<T: Send>(
-    py: Python<'_>,
-    numbers: Range<u64>,
-    threads: Option<usize>,
-    block: impl Fn(Range<u64>) -> Vec<T> + Sync,
-) -> PyResult<Vec<T>> {
-    let pool = pool(threads)?;
-    let mut results = Vec::new();
-    let mut first = numbers.start;
-    while first < numbers.end {
-        let part = first..numbers.end.min(first.saturating_add(NUMBERS_PER_BLOCK));
-        first = part.end;
-        results.extend(py.detach(|| pool.install(|| block(part))));
-        py.check_signals()?;
-    }
-    Ok(results)
-}
 
 /// Runs `work` on a pool of threads and checks for Ctrl-C in this one.
 ///
