@@ -1,6 +1,6 @@
 //! Paths that first lead away from the destination.
 
-use crate::scenario;
+use crate::scenarios::scenario;
 use base::geometry::Point;
 use rayon::prelude::*;
 use sim::simulation::Simulation;
@@ -26,20 +26,16 @@ obstacles = [
 ]
 ";
 
-const FIELD: &str = "
-[world]
-size_m = [40, 20]
-";
+const FIELD: &str = "world.size_m = [40, 20]";
 
 /// A robot at one point, facing along x, with a waypoint at another.
 fn rover(world: &str, drive: &str, rays_m: f64, from: Point, to: Point) -> String {
     format!(
-        "[clock]\ntime_limit_s = 1000\n{world}
+        "clock.time_limit_s = 1000\n{world}
 [robots.rover]
-count = 1
 radius_m = 0.25
 drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, {drive} }}
-start = {{ kind = \"fixed\", at_m = [[{}, {}]], heading_deg = [0] }}
+start = {{ at_m = [[{}, {}]], heading_deg = [0] }}
 [robots.rover.sensors]
 gps = {{ kind = \"position\", noise_m = 0.02 }}
 compass = {{ kind = \"heading\", noise_deg = 1 }}

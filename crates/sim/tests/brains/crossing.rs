@@ -1,6 +1,7 @@
 //! Robots whose paths cross: whether all reach their destinations without a collision.
 
-use crate::{listed, scenario};
+use crate::listed;
+use crate::scenarios::scenario;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use rayon::prelude::*;

@@ -1,6 +1,7 @@
 //! Waypoints that a team shares.
 
-use crate::{listed, scenario};
+use crate::listed;
+use crate::scenarios::scenario;
 use base::geometry::Point;
 use sim::simulation::Simulation;
 
@@ -8,8 +9,7 @@ const WITHIN_M: f64 = 0.3;
 
 /// A yard with a wall.
 const YARD: &str = "
-[clock]
-time_limit_s = 1000
+clock.time_limit_s = 1000
 [world]
 size_m = [30, 30]
 obstacles = [{ polygon_m = [[14, 8], [14.5, 8], [14.5, 30], [14, 30]] }]
@@ -18,14 +18,12 @@ obstacles = [{ polygon_m = [[14, 8], [14.5, 8], [14.5, 30], [14, 30]] }]
 /// Robots of a kind that start in a corner, and the assignment of waypoints to them.
 fn robots(kind: &str, at_m: &str, share: &str, more: &str) -> String {
     let waypoints_m = listed(&places());
-    let count = at_m.matches('[').count() - 1;
     format!(
         "
 [robots.{kind}]
-count = {count}
 radius_m = 0.25
 drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 120 }}
-start = {{ kind = \"fixed\", at_m = {at_m} }}
+start.at_m = {at_m}
 radio = {{ range_m = 60 }}
 {more}
 [robots.{kind}.sensors]

@@ -1,24 +1,19 @@
 //! Robots that return home before their batteries are empty.
 
-use crate::scenario;
+use crate::scenarios::scenario;
 use rayon::prelude::*;
 use sim::simulation::Simulation;
 
 /// A robot that searches a field from its left end, with a battery for 100 s of driving.
 fn searcher(search: &str) -> String {
     format!(
-        "[clock]
-time_limit_s = 400
-[world]
-size_m = [40, 20]
-[items.mine]
-count = 3
-placement = {{ kind = \"fixed\", at_m = [[39.5, 0.5], [39.5, 19.5], [20, 19.5]] }}
+        "clock.time_limit_s = 400
+world.size_m = [40, 20]
+items.mine.placement.at_m = [[39.5, 0.5], [39.5, 19.5], [20, 19.5]]
 [robots.rover]
-count = 1
 radius_m = 0.25
 drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 120 }}
-start = {{ kind = \"fixed\", at_m = [[3, 10]] }}
+start.at_m = [[3, 10]]
 battery = {{ capacity_j = 2000, idle_w = 5, move_w = 15 }}
 [robots.rover.sensors]
 gps = {{ kind = \"position\", noise_m = 0.02 }}

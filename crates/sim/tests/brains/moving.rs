@@ -1,6 +1,6 @@
 //! Moving objects that no detector identifies are distinguished from static ones by their approach.
 
-use crate::scenario;
+use crate::scenarios::{scenario, with};
 use brain::{BelievedRobot, RobotId};
 use sim::simulation::Simulation;
 
@@ -8,8 +8,7 @@ const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
 
 /// A robot with beliefs among pillars, and another robot that approaches.
 const HALL: &str = "
-[clock]
-time_limit_s = 1000
+clock.time_limit_s = 1000
 [world]
 size_m = [24, 12]
 obstacles = [
@@ -20,7 +19,6 @@ obstacles = [
     { circle = { at_m = [18, 3.5], radius_m = 0.4 } },
 ]
 [robots.a]
-count = 1
 radius_m = 0.25
 drive = { max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 120 }
 [robots.a.sensors]
@@ -30,7 +28,7 @@ compass = { kind = \"heading\" }
 ";
 
 fn simulation(rest: &str, run: u64) -> Simulation {
-    Simulation::new(scenario(&format!("{HALL}{rest}")), 1, run).unwrap()
+    Simulation::new(scenario(&with(HALL, rest)), 1, run).unwrap()
 }
 
 /// The robots that the observer believes to move after a step.
@@ -43,20 +41,15 @@ fn step(simulation: &mut Simulation) -> Vec<BelievedRobot> {
 #[test]
 fn an_approaching_object_is_believed_to_move_at_its_speed() {
     let mut simulation = simulation(
-        "[robots.a.start]
-kind = \"fixed\"
-at_m = [[2, 6]]
-heading_deg = [0]
-[robots.a.brain]
-behaviours = [{ kind = \"hold_position\" }]
+        "
+[robots.a]
+start = { at_m = [[2, 6]], heading_deg = [0] }
+brain.behaviours = [{ kind = \"hold_position\" }]
 [robots.b]
-count = 1
 radius_m = 0.3
 drive = { max_speed_m_s = 0.6, max_turn_rate_deg_s = 90 }
-start = { kind = \"fixed\", at_m = [[7, 6]], heading_deg = [180] }
-[robots.b.brain]
-limit_speed_to_stopping_distance = false
-behaviours = [{ kind = \"cruise\" }]
+start = { at_m = [[7, 6]], heading_deg = [180] }
+brain = { limit_speed_to_stopping_distance = false, behaviours = [{ kind = \"cruise\" }] }
 ",
         0,
     );
@@ -82,9 +75,7 @@ fn static_objects_are_rarely_believed_to_move_by_a_passing_robot() {
     assert!(wrong < 120, "{wrong} of 12000 steps");
 }
 
-const PASSES: &str = "[robots.a.start]
-kind = \"fixed\"
-at_m = [[2, 6]]
-[robots.a.brain]
-behaviours = [{ kind = \"navigate\", waypoints_m = [[22, 6], [22, 2], [2, 2], [2, 10], [22, 10], [11, 6]] }]
+const PASSES: &str = "[robots.a]
+start.at_m = [[2, 6]]
+brain.behaviours = [{ kind = \"navigate\", waypoints_m = [[22, 6], [22, 2], [2, 2], [2, 10], [22, 10], [11, 6]] }]
 ";

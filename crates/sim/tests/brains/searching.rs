@@ -1,6 +1,6 @@
 //! The benefit of remembering searched areas, and of sharing them by radio.
 
-use crate::scenario;
+use crate::scenarios::scenario;
 use rayon::prelude::*;
 use sim::simulation::Simulation;
 use std::sync::{Arc, LazyLock};

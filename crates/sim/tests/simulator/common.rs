@@ -1,27 +1,12 @@
-//! Scenarios parsed from strings, and simulations stepped one by one.
+//! Simulations stepped one by one.
 
-use base::document::Document;
-use base::error::InputErrors;
+pub(crate) use crate::scenarios::{read, scenario, with};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use brain::{About, Command, Message, Motion, Provenance, RobotId};
 use sim::run::Robot;
-use sim::scenario::{Scenario, ScenarioSpec};
 use sim::simulation::Simulation;
 use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// The scenario of a document, or its errors.
-pub(crate) fn read(text: &str) -> Result<Scenario, InputErrors> {
-    let document = Document::parse("t.toml", text)?;
-    let checked = ScenarioSpec::read(&document)?;
-    Ok(checked.scenario)
-}
-
-/// The scenario of a document without errors.
-pub(crate) fn scenario(text: &str) -> Arc<Scenario> {
-    Arc::new(read(text).unwrap_or_else(|errors| panic!("{errors}\n{text}")))
-}
 
 /// A simulation of a scenario at tick 0.
 pub(crate) fn start(text: &str) -> Simulation {

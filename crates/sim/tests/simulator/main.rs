@@ -18,4 +18,6 @@ mod bundled;
 mod common;
 mod documents;
 mod engine;
+#[path = "../scenarios/mod.rs"]
+mod scenarios;
 mod schemas;

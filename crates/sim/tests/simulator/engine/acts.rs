@@ -1,6 +1,6 @@
 //! Robots that act on items with their tools.
 
-use crate::common::{go, id, read, replaced, scenario, start, step_with};
+use crate::common::{go, id, read, replaced, scenario, start, step_with, with};
 use base::geometry::Point;
 use brain::{Act, ActKind, Acted, Command, Percept, RobotId};
 use sim::judge::events::EventKind;
@@ -8,34 +8,22 @@ use sim::simulation::Simulation;
 
 /// A flying robot that marks and a robot on the ground with all tools; a mine at (5, 5), and scrap at (9, 5).
 pub(super) const LANE: &str = r#"
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [20, 10] }
-[items.mine]
-count = 1
-completed_by = "neutralised"
-placement = { kind = "fixed", at_m = [[5, 5]] }
-[items.scrap]
-count = 1
-target = false
-placement = { kind = "fixed", at_m = [[9, 5]] }
+items.mine = { completed_by = "neutralised", placement.at_m = [[5, 5]] }
+items.scrap = { target = false, placement.at_m = [[9, 5]] }
 [robots.oav]
-count = 1
 layer = "air"
-radius_m = 0.2
-start = { kind = "fixed", at_m = [[3, 8]] }
+start.at_m = [[3, 8]]
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-tools = { mark = { range_m = 20 } }
+tools.mark.range_m = 20
 sensors.eye = { kind = "items", range_m = 2 }
 [robots.ugv]
-count = 1
 radius_m = 0.3
 payload_kg = 2
-start = { kind = "fixed", at_m = [[4, 5]], heading_deg = [90] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+start = { at_m = [[4, 5]], heading_deg = [90] }
 sensors.eye = { kind = "items", range_m = 2 }
 [robots.ugv.tools]
-mark = { range_m = 10 }
-confirm = { range_m = 10 }
+mark.range_m = 10
+confirm.range_m = 10
 isolate = { range_m = 2, duration_s = 0.5 }
 neutralise = { range_m = 2, duration_s = 1, charges = 2 }
 "#;
@@ -112,10 +100,7 @@ fn robots_no_longer_detect_an_item_that_was_destroyed_even_in_a_changed_scenario
         step_with(&mut simulation, [(UGV, act(ActKind::Neutralise, MINE))]);
     }
     assert!(percept(&mut simulation, UGV).contacts.is_empty());
-    let more = replaced(
-        LANE,
-        &[("[robots.oav]\ncount = 1", "[robots.oav]\ncount = 0")],
-    );
+    let more = with(LANE, "robots.oav.count = 0");
     simulation.change(scenario(&more)).unwrap();
     assert!(percept(&mut simulation, id(1, 0)).contacts.is_empty());
     assert_eq!(percept(&mut simulation, id(1, 0)).charges, Some(1));
@@ -217,14 +202,8 @@ fn a_target_that_only_the_ground_has_marked_and_met_was_missed_from_the_air() {
         (acts.marked, acts.unmarked_from_air, acts.met_unmarked),
         (1, 1, 1)
     );
-    let blind = replaced(
-        LANE,
-        &[
-            ("payload_kg = 2", "payload_kg = 2\nbrain = { rate_hz = 1 }"),
-            ("[[4, 5]]", "[[15, 5]]"),
-        ],
-    );
-    let mut simulation = start(&blind);
+    let blind = "robots.ugv = { brain.rate_hz = 1, start.at_m = [[15, 5]] }";
+    let mut simulation = start(&with(LANE, blind));
     step_with(&mut simulation, []);
     let acts = simulation.outcome().acts.unwrap();
     assert_eq!((acts.unmarked_from_air, acts.met_unmarked), (1, 0));
@@ -234,11 +213,8 @@ fn a_target_that_only_the_ground_has_marked_and_met_was_missed_from_the_air() {
 /// with a probability above 0.9999; the seed is fixed.
 #[test]
 fn charges_destroy_items_with_their_probability() {
-    let text = replaced(
-        LANE,
-        &[("charges = 2", "charges = 1, success_probability = 0.3")],
-    );
-    let scenario = scenario(&text);
+    let charge = "robots.ugv.tools.neutralise = { charges = 1, success_probability = 0.3 }";
+    let scenario = scenario(&with(LANE, charge));
     let mut destroyed = 0;
     for run in 0..600 {
         let mut simulation = Simulation::new(scenario.clone(), 3, run).unwrap();
@@ -262,8 +238,8 @@ fn charges_destroy_items_with_their_probability() {
 #[test]
 fn an_item_is_complete_when_its_kind_demands_it() {
     for (by, left) in [("detected", 0), ("confirmed", 1), ("neutralised", 1)] {
-        let text = replaced(LANE, &[("\"neutralised\"", &format!("\"{by}\""))]);
-        let mut simulation = start(&text);
+        let completed = format!("items.mine.completed_by = \"{by}\"");
+        let mut simulation = start(&with(LANE, &completed));
         step_with(&mut simulation, [(UGV, Command::default())]);
         assert_eq!(simulation.outcome().acts.unwrap().left, left, "{by}");
         step_with(&mut simulation, [(UGV, act(ActKind::Confirm, MINE))]);
@@ -280,7 +256,7 @@ fn an_end_can_count_what_was_done_to_targets() {
         ("neutralised >= 1", ActKind::Neutralise),
         ("left == 0", ActKind::Neutralise),
     ] {
-        let mut simulation = start(&format!("{LANE}[end]\nwhen = \"{when}\"\n"));
+        let mut simulation = start(&with(LANE, &format!("end.when = \"{when}\"")));
         let is_over = |simulation: &Simulation| simulation.state().is_over(simulation.scenario());
         for _ in 0..10 {
             assert!(!is_over(&simulation), "{when}");
@@ -318,8 +294,8 @@ fn tools_without_what_they_need_and_unknown_completions_are_errors() {
             "robots.oav.tools.mark.range_m",
         ),
         (
-            "mark = { range_m = 20 }",
-            "marc = { range_m = 20 }",
+            "mark.range_m = 20",
+            "marc.range_m = 20",
             "robots.oav.tools.marc",
         ),
         (

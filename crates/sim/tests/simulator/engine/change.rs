@@ -1,49 +1,39 @@
 //! Changing the scenario in the middle of a run.
 
-use crate::common::{drive, first, id, replaced, robots, scenario, start};
+use crate::common::{drive, first, id, replaced, robots, scenario, start, with};
 use sim::run::{Item, NoRoom, Robot, Status};
 use sim::simulation::Simulation;
 use std::time::{Duration, Instant};
 
-const GROUND: &str = "
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
-items.flag = { count = 3 }
-items.mine = { count = 5 }
+const GROUND: &str = r#"
+world.obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+items.flag.count = 3
+items.mine.count = 5
 [robots.bird]
 count = 2
-layer = \"air\"
+layer = "air"
 radius_m = 0.3
 drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
-[robots.bird.sensors.eye]
-kind = \"items\"
-range_m = 2
-latency_s = 0.5
-detection_probability = { mine = 0.5 }
-false_alarm_rate_per_m2_s = { mine = 0.1 }
-needs_line_of_sight = false
+sensors.eye = { kind = "items", range_m = 2, latency_s = 0.5, detection_probability.mine = 0.5,
+    false_alarm_rate_per_m2_s.mine = 0.1, needs_line_of_sight = false }
 [robots.rover]
 count = 6
 radius_m = 0.4
 drive = { max_speed_m_s = 2, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 90 }
 battery = { capacity_j = 1000, idle_w = 5, move_j_per_m = 2 }
-sensors.sonar = { kind = \"range\", rays = 16, range_m = 3, noise_m = 0.02 }
-sensors.mates = { kind = \"robots\", range_m = 5 }
-sensors.eye = { kind = \"items\", range_m = 1 }
+sensors.sonar = { kind = "range", rays = 16, range_m = 3, noise_m = 0.02 }
+sensors.mates = { kind = "robots", range_m = 5 }
+sensors.eye = { kind = "items", range_m = 1 }
 radio = { range_m = 20, loss_probability = 0.3 }
-";
-
-fn with(changes: &[(&str, &str)]) -> String {
-    replaced(GROUND, changes)
-}
+"#;
 
 /// A run that continues with a changed scenario after some seconds; also its robots before.
-fn changed(changes: &[(&str, &str)]) -> (Vec<Robot>, Result<Simulation, NoRoom>) {
+fn changed(changes: &str) -> (Vec<Robot>, Result<Simulation, NoRoom>) {
     let mut simulation = start(GROUND);
     (0..70).for_each(|_| simulation.step());
     let before = robots(&simulation);
     let hash = simulation.state().hash();
-    match simulation.change(scenario(&with(changes))) {
+    match simulation.change(scenario(&with(GROUND, changes))) {
         Ok(()) => (before, Ok(simulation)),
         Err(why) => {
             assert_eq!(
@@ -88,7 +78,7 @@ fn assert_apart(robots: &[Robot], radius_m: f64) {
 
 #[test]
 fn changing_to_the_same_scenario_has_no_effect() {
-    let (_, simulation) = changed(&[]);
+    let (_, simulation) = changed("");
     let mut simulation = simulation.unwrap();
     let mut other = start(GROUND);
     (0..70).for_each(|_| other.step());
@@ -102,7 +92,7 @@ fn changing_to_the_same_scenario_has_no_effect() {
 
 #[test]
 fn a_larger_team_keeps_its_robots_and_adds_new_ones() {
-    let (before, simulation) = changed(&[("count = 6", "count = 40")]);
+    let (before, simulation) = changed("robots.rover.count = 40");
     let simulation = simulation.unwrap();
     let after = robots(&simulation);
     assert_eq!(after.len(), 42);
@@ -124,7 +114,7 @@ fn a_larger_team_keeps_its_robots_and_adds_new_ones() {
 
 #[test]
 fn a_smaller_team_loses_only_its_last_robots() {
-    let (before, simulation) = changed(&[("count = 6", "count = 4"), ("count = 2", "count = 0")]);
+    let (before, simulation) = changed("robots = { bird.count = 0, rover.count = 4 }");
     let mut simulation = simulation.unwrap();
     // Kinds without robots remain.
     assert_eq!(robots(&simulation), before[2..6]);
@@ -137,7 +127,7 @@ fn adding_and_removing_a_robot_does_not_affect_the_others() {
     let mut simulation = start(GROUND);
     (0..70).for_each(|_| simulation.step());
     let before = robots(&simulation);
-    change(&mut simulation, &with(&[("count = 6", "count = 7")]));
+    change(&mut simulation, &with(GROUND, "robots.rover.count = 7"));
     change(&mut simulation, GROUND);
     assert_eq!(robots(&simulation), before);
 }
@@ -149,8 +139,8 @@ fn existing_items_stay_in_place_and_stay_found() {
         simulation.step();
     }
     let before = items(&simulation);
-    let more = with(&[("count = 3", "count = 4"), ("count = 5", "count = 9")]);
-    change(&mut simulation, &more);
+    let more = "items = { flag.count = 4, mine.count = 9 }";
+    change(&mut simulation, &with(GROUND, more));
     let after = items(&simulation);
     assert_eq!(after[..3], before[..3]);
     assert_eq!(after[4..9], before[3..]);
@@ -162,28 +152,25 @@ fn existing_items_stay_in_place_and_stay_found() {
     );
 }
 
-const LATE: &str = "
-clock = { time_limit_s = 60 }
-world = { size_m = [20, 10] }
-items.flag = { count = 1, placement = { kind = \"fixed\", at_m = [[2, 5]] } }
-items.mine = { count = 2, placement = { kind = \"fixed\", at_m = [[1, 6], [18, 5]] } }
+const LATE: &str = r#"
+items.flag.placement.at_m = [[2, 5]]
+items.mine.placement.at_m = [[1, 6], [18, 5]]
 [robots.bird]
-count = 1
-layer = \"air\"
+layer = "air"
 radius_m = 0.4
-start = { kind = \"fixed\", at_m = [[1, 5]] }
+start.at_m = [[1, 5]]
 drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
-sensors.eye = { kind = \"items\", range_m = 2, latency_s = 0.5 }
-";
+sensors.eye = { kind = "items", range_m = 2, latency_s = 0.5 }
+"#;
 
 /// A camera with a latency of half a second has detected an item that is then removed; another
 /// item gets its index.
 #[test]
 fn pending_detections_of_removed_items_are_discarded() {
-    let found = |changes: &[(&str, &str)]| {
+    let found = |changes: &str| {
         let mut simulation = start(LATE);
         simulation.step();
-        change(&mut simulation, &replaced(LATE, changes));
+        change(&mut simulation, &with(LATE, changes));
         (0..4).for_each(|_| simulation.step());
         assert_eq!(simulation.outcome().found.iter().sum::<u32>(), 0);
         let mut outcomes = Vec::new();
@@ -197,16 +184,10 @@ fn pending_detections_of_removed_items_are_discarded() {
         }
         outcomes
     };
-    assert_eq!(found(&[]), [[true, true, false]; 2]);
-    assert_eq!(
-        found(&[("flag = { count = 1", "flag = { count = 0")]),
-        [[true, false]; 2]
-    );
-    let none = [
-        ("flag = { count = 1", "flag = { count = 0"),
-        ("count = 2", "count = 0"),
-    ];
-    assert_eq!(found(&none), [[false; 0]; 2]);
+    assert_eq!(found(""), [[true, true, false]; 2]);
+    assert_eq!(found("items.flag.count = 0"), [[true, false]; 2]);
+    let none = "items = { flag.count = 0, mine.count = 0 }";
+    assert_eq!(found(none), [[false; 0]; 2]);
 }
 
 #[test]
@@ -226,18 +207,12 @@ fn removing_the_remaining_items_completes_a_run_and_adding_some_reopens_it() {
         .collect();
     let last = found.iter().rposition(is_found).unwrap();
     let all_found = found[..=last].iter().all(is_found);
-    let few = with(&[
-        ("count = 3", "count = 0"),
-        ("count = 5", &format!("count = {}", last + 1)),
-    ]);
-    change(&mut simulation, &few);
+    let few = format!("items = {{ flag.count = 0, mine.count = {} }}", last + 1);
+    change(&mut simulation, &with(GROUND, &few));
     assert_eq!(simulation.state().is_over(simulation.scenario()), all_found);
     // Remove everything but clutter, so that it does not matter which mine was found first.
-    let clutter = with(&[
-        ("count = 3", "count = 0"),
-        ("count = 5", "count = 5, target = false"),
-    ]);
-    change(&mut simulation, &clutter);
+    let clutter = "items = { flag.count = 0, mine.target = false }";
+    change(&mut simulation, &with(GROUND, clutter));
     assert!(!simulation.outcome().has_failed);
     change(&mut simulation, GROUND);
     assert!(!simulation.state().is_over(simulation.scenario()));
@@ -246,22 +221,18 @@ fn removing_the_remaining_items_completes_a_run_and_adding_some_reopens_it() {
 
 #[test]
 fn the_last_remaining_item_can_be_removed() {
-    let line = "
-clock = { time_limit_s = 60 }
-world = { size_m = [20, 10] }
-items.mine = { count = 2, placement = { kind = \"fixed\", at_m = [[4, 5], [18, 5]] } }
+    let line = r#"
+items.mine.placement.at_m = [[4, 5], [18, 5]]
 [robots.rover]
-count = 1
 radius_m = 0.4
-start = { kind = \"fixed\", at_m = [[1, 5]], heading_deg = [0] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-sensors.eye = { kind = \"items\", range_m = 1 }
-";
+start = { at_m = [[1, 5]], heading_deg = [0] }
+sensors.eye = { kind = "items", range_m = 1 }
+"#;
     let mut simulation = start(line);
     drive(&mut simulation, 50, &[(id(0, 0), 1.0, 0.0)]);
     assert_eq!(simulation.outcome().found, [1]);
     let found_s = items(&simulation)[0].found_s.unwrap();
-    change(&mut simulation, &line.replace("count = 2", "count = 1"));
+    change(&mut simulation, &with(line, "items.mine.count = 1"));
     assert!(simulation.state().is_over(simulation.scenario()));
     let outcome = simulation.outcome();
     assert!(!outcome.has_failed);
@@ -271,21 +242,17 @@ sensors.eye = { kind = \"items\", range_m = 1 }
 #[test]
 fn a_lower_maximum_speed_applies_at_once() {
     let fast = "
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [200, 20] }
+world.size_m = [200, 20]
 [robots.rover]
-count = 1
 radius_m = 0.4
-start = { kind = \"fixed\", at_m = [[20, 10]], heading_deg = [0] }
+start = { at_m = [[20, 10]], heading_deg = [0] }
 drive = { max_speed_m_s = 100, max_acceleration_m_s2 = 100, max_turn_rate_deg_s = 90 }
 ";
     let mut simulation = start(fast);
     drive(&mut simulation, 10, &[(id(0, 0), 100.0, 0.0)]);
     assert_eq!(first(&simulation).speed_m_s, 100.0);
-    let slow = fast
-        .replace("max_speed_m_s = 100", "max_speed_m_s = 1")
-        .replace("max_acceleration_m_s2 = 100", "max_acceleration_m_s2 = 0.1");
-    change(&mut simulation, &slow);
+    let slow = "robots.rover.drive = { max_speed_m_s = 1, max_acceleration_m_s2 = 0.1 }";
+    change(&mut simulation, &with(fast, slow));
     assert_eq!(first(&simulation).speed_m_s, 1.0);
     (0..100).for_each(|_| simulation.step());
     assert!(first(&simulation).at.x < 200.0 - 0.4 + 1e-6);
@@ -293,10 +260,8 @@ drive = { max_speed_m_s = 100, max_acceleration_m_s2 = 100, max_turn_rate_deg_s 
 
 #[test]
 fn parameters_of_other_kinds_do_not_affect_a_robot() {
-    let (before, simulation) = changed(&[
-        ("max_speed_m_s = 5", "max_speed_m_s = 4"),
-        ("range_m = 2\n", "range_m = 1\n"),
-    ]);
+    let bird = "robots.bird = { drive.max_speed_m_s = 4, sensors.eye.range_m = 1 }";
+    let (before, simulation) = changed(bird);
     let after = robots(&simulation.unwrap());
     assert_eq!(robots_of_kind(&after, 1), robots_of_kind(&before, 1));
     let birds = robots_of_kind(&after, 0);
@@ -305,38 +270,34 @@ fn parameters_of_other_kinds_do_not_affect_a_robot() {
 
 #[test]
 fn a_change_without_room_is_rejected_without_effect() {
-    let pillar = "at_m = [10, 5], radius_m = 1";
     // A robot would be inside an obstacle that covers half of the world.
-    let (_, refused) = changed(&[(pillar, "at_m = [0, 5], radius_m = 10")]);
+    let pillar = |circle: &str| format!("world.obstacles = [{{ circle = {{ {circle} }} }}]");
+    let (_, refused) = changed(&pillar("at_m = [0, 5], radius_m = 10"));
     assert!(matches!(
         refused,
         Err(NoRoom::Item { .. } | NoRoom::Robot(_))
     ));
     // A larger radius would overlap the wall or another robot.
-    let grown = "radius_m = 0.4\ndrive";
-    let (_, refused) = changed(&[(grown, "radius_m = 1.4\ndrive"), ("count = 3", "count = 0")]);
+    let (_, refused) = changed("robots.rover.radius_m = 1.4\nitems.flag.count = 0");
     assert!(matches!(refused, Err(NoRoom::Robot(_))));
     // Birds are above obstacles on the ground.
-    let text = with(&[("count = 6", "count = 0"), ("count = 3", "count = 0")]);
-    let text = text.replace("count = 5", "count = 0");
-    let mut simulation = start(&text);
-    let built = text.replace(pillar, "at_m = [10, 5], radius_m = 9.9");
+    let birds = "robots.rover.count = 0\nitems = { flag.count = 0, mine.count = 0 }";
+    let birds = with(GROUND, birds);
+    let mut simulation = start(&birds);
+    let built = with(&birds, &pillar("at_m = [10, 5], radius_m = 9.9"));
     assert!(simulation.change(scenario(&built)).is_ok());
 }
 
 #[test]
 fn a_fixed_start_that_is_occupied_by_now_is_rejected() {
     let two = "
-clock = { time_limit_s = 60 }
-world = { size_m = [20, 10] }
 [robots.rover]
 count = 1
 radius_m = 0.4
-start = { kind = \"fixed\", at_m = [[1, 5], [3, 5]], heading_deg = [0, 0] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+start = { at_m = [[1, 5], [3, 5]], heading_deg = [0, 0] }
 ";
     let mut simulation = start(two);
-    let more = scenario(&two.replace("count = 1", "count = 2"));
+    let more = scenario(&with(two, "robots.rover.count = 2"));
     drive(&mut simulation, 15, &[(id(0, 0), 1.0, 0.0)]);
     let mut other = simulation.clone();
     assert!(matches!(other.change(more.clone()), Err(NoRoom::Robot(_))));
@@ -346,7 +307,6 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 
 const DRAINED: &str = "
 clock = { step_s = 1, time_limit_s = 1000 }
-world = { size_m = [20, 10] }
 [robots.rover]
 count = 2
 radius_m = 0.4
@@ -407,8 +367,8 @@ fn the_outcome_includes_the_cost_of_removed_robots() {
     assert_eq!((before.energy_j, before.robots_stopped), (400.0, 2));
     let hash = simulation.state().hash();
     for count in [1, 0, 2, 1] {
-        let text = replaced(DRAINED, &[("count = 2", &format!("count = {count}"))]);
-        change(&mut simulation, &text);
+        let count = format!("robots.rover.count = {count}");
+        change(&mut simulation, &with(DRAINED, &count));
         assert_eq!(simulation.outcome(), before);
     }
     assert_ne!(simulation.state().hash(), hash);
@@ -420,15 +380,13 @@ fn the_outcome_includes_the_cost_of_removed_robots() {
 /// Comparing each new robot with every other one would take half a minute.
 #[test]
 fn adding_a_hundred_thousand_robots_takes_seconds_and_they_do_not_overlap() {
-    let many = with(&[
-        ("size_m = [20, 10]", "size_m = [600, 600]"),
-        ("count = 6", "count = 100000"),
-        (
-            "radius_m = 0.4",
-            "radius_m = 0.4\nbrain = { behaviours = [] }",
-        ),
-        ("radio = { range_m = 20, loss_probability = 0.3 }\n", ""),
-    ]);
+    let many = replaced(
+        GROUND,
+        &[("radio = { range_m = 20, loss_probability = 0.3 }\n", "")],
+    );
+    let large =
+        "world.size_m = [600, 600]\nrobots.rover = { count = 100000, brain.behaviours = [] }";
+    let many = with(&many, large);
     let few = scenario(&many.replace("count = 100000", "count = 1000"));
     let (few, many) = (Simulation::new(few, 1, 0).unwrap(), scenario(&many));
     let mut simulation = few;

@@ -6,26 +6,21 @@ use sim::simulation::Simulation;
 
 /// Kinds of items, and robots that all see each other and are within radio range.
 fn within_range(kinds: &[(&str, u32)], items: &[&str], brain_hz: f64) -> String {
-    let items = items
-        .iter()
-        .map(|name| format!("[items.{name}]\ncount = 1\n"));
+    let items = items.iter().map(|name| format!("items.{name} = {{}}\n"));
     let items: String = items.collect();
     let robots = kinds.iter().map(|(name, count)| {
         // Each kind is in its own row, independent of the other kinds.
         let y = 1.0 + 0.3 * f64::from(name.as_bytes()[0] - b'a');
-        let places: Vec<String> = (1..=*count).map(|x| format!("[{x}, {y}]")).collect();
+        let places: Vec<[f64; 2]> = (1..=*count).map(|x| [f64::from(x), y]).collect();
         format!(
-            "[robots.{name}]\ncount = {count}\nradius_m = 0.1\nbrain = {{ rate_hz = {brain_hz} }}\n\
-             start = {{ kind = \"fixed\", at_m = [{}] }}\n\
+            "[robots.{name}]\nradius_m = 0.1\nbrain.rate_hz = {brain_hz}\nstart.at_m = {places:?}\n\
              drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
-             radio = {{ range_m = 50, delay_s = 1 }}\n\
-             sensors = {{ mates = {{ kind = \"robots\", range_m = 50 }}, \
-             eye = {{ kind = \"items\", range_m = 50 }} }}\n",
-            places.join(", ")
+             radio = {{ range_m = 50, delay_s = 1 }}\nsensors.mates = {{ kind = \"robots\", range_m = 50 }}\n\
+             sensors.eye = {{ kind = \"items\", range_m = 50 }}\n"
         )
     });
     let robots: String = robots.collect();
-    format!("[clock]\nstep_s = 0.1\ntime_limit_s = 60\n[world]\nsize_m = [20, 10]\n{items}{robots}")
+    items + &robots
 }
 
 /// The percepts of a robot over a number of steps.

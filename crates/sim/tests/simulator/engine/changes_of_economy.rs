@@ -1,49 +1,26 @@
 //! Each key of goals and controllers that changes in a run has an effect, or is refused.
 
-use crate::common::start;
-use base::document::Document;
-use sim::scenario::{Scenario, ScenarioSpec};
+use crate::common::{self, scenario, start};
+use sim::scenario::Scenario;
 use sim::simulation::Simulation;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Two controllers and three rovers. Half of the goals are issued when the scenario changes.
 const RUN: &str = r#"
-[clock]
-time_limit_s = 150
-[world]
-size_m = [60, 40]
+clock.time_limit_s = 150
+world.size_m = [60, 40]
+robots.bird = { layer = "air", start.at_m = [[30, 20]], brain.behaviours = [] }
+controllers.base.radio = { range_m = 80, messages_per_step = 20, loss_probability = 0.1 }
+controllers.mast = { start.at_m = [[50, 30]], radio.range_m = 80 }
+goals.spot = { count = 8, owner = "base", every_s = 10 }
+goals.here = { count = 2, owner = "mast", placement.at_m = [[20, 10], [40, 10], [30, 30]] }
 [robots.rover]
-count = 3
-radius_m = 0.2
 capabilities = ["arm"]
-start = { kind = "fixed", at_m = [[10, 10], [12, 12], [50, 30]] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+start.at_m = [[10, 10], [12, 12], [50, 30]]
 radio = { range_m = 50, messages_per_step = 20, loss_probability = 0.1 }
-sensors = { gps = { kind = "position" }, compass = { kind = "heading" } }
-brain = { behaviours = [{ kind = "serve" }] }
-[robots.bird]
-count = 1
-radius_m = 0.2
-layer = "air"
-start = { kind = "fixed", at_m = [[30, 20]] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-brain = { behaviours = [] }
-[controllers.base]
-count = 1
-radio = { range_m = 80, messages_per_step = 20, loss_probability = 0.1 }
-[controllers.mast]
-count = 1
-start = { kind = "fixed", at_m = [[50, 30]] }
-radio = { range_m = 80 }
-[goals.spot]
-count = 8
-owner = "base"
-every_s = 10
-[goals.here]
-count = 2
-owner = "mast"
-placement = { kind = "fixed", at_m = [[20, 10], [40, 10], [30, 30]] }
+sensors = { gps.kind = "position", compass.kind = "heading" }
+brain.behaviours = [{ kind = "serve" }]
 "#;
 
 const CHANGED_AT_S: f64 = 25.0;
@@ -67,16 +44,7 @@ fn outcome(mut simulation: Simulation) -> Vec<f64> {
 
 /// The scenario in which a table has a key with another value.
 fn with(table: &str, key: &str, value: &str) -> Arc<Scenario> {
-    let mut document = Document::parse("t.toml", RUN).unwrap();
-    let value = Document::parse("t.toml", &format!("value = {value}")).unwrap();
-    let keys: Vec<&str> = table.split('.').chain([key]).collect();
-    document.set(
-        &keys,
-        value.get(&["value"]).unwrap().value.clone(),
-        "change",
-    );
-    let checked = ScenarioSpec::read(&document).unwrap_or_else(|errors| panic!("{errors}"));
-    Arc::new(checked.scenario)
+    scenario(&common::with(RUN, &format!("{table}.{key} = {value}")))
 }
 
 /// The paths of the values that cannot change.

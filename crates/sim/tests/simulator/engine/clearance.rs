@@ -1,6 +1,6 @@
 //! Controllers that clear a mined lane from what robots report.
 
-use crate::common::{id, replaced, robots, scenario, step_with};
+use crate::common::{id, robots, scenario, step_with, with};
 use base::engine::{BlockOptions, Runner};
 use brain::{About, Command, Message, Provenance, RobotId};
 use rayon::ThreadPoolBuilder;
@@ -11,55 +11,33 @@ use std::sync::Arc;
 
 /// A lane of 40 m x 12 m with an air vehicle, two ground vehicles and a controller.
 const LANE: &str = r#"
-[clock]
-step_s = 0.2
-time_limit_s = 300
-
-[world]
-size_m = [52, 20]
-
+clock = { step_s = 0.2, time_limit_s = 300 }
+world.size_m = [52, 20]
 [items.clutter]
 count = 2
 number = "poisson"
 target = false
 placement = { kind = "uniform", within_m = [[8, 4], [48, 16]] }
-
 [items.mine]
 count = 2
 number = "poisson"
 completed_by = "neutralised"
 placement = { kind = "uniform", within_m = [[8, 4], [48, 16]] }
-
 [robots.oav]
-count = 1
 layer = "air"
 radius_m = 0.1
 capabilities = ["survey"]
 start = { kind = "uniform", within_m = [[1, 4], [5, 16]] }
 drive = { max_speed_m_s = 5, max_acceleration_m_s2 = 4, max_turn_rate_deg_s = 120 }
 radio = { range_m = 100, messages_per_step = 50 }
-
-[robots.oav.sensors.camera]
-kind = "items"
-range_m = 5
-detection_probability = { mine = 0.3, clutter = 0.3 }
-blind_share = { mine = 0.06, clutter = 0.06 }
-confusion = { mine = { mine = 0.74, clutter = 0.26 }, clutter = { mine = 0.26, clutter = 0.74 } }
-noise_m = 0.3
-
-[robots.oav.sensors.gps]
-kind = "position"
-noise_m = 0.5
-
-[robots.oav.sensors.compass]
-kind = "heading"
-noise_deg = 2
-
-[robots.oav.brain]
-arbitration = { kind = "goals" }
-behaviours = [{ kind = "serve" }]
-beliefs = { cell_m = 1, prior_count = { mine = 2, clutter = 2 } }
-
+sensors.gps = { kind = "position", noise_m = 0.5 }
+sensors.compass = { kind = "heading", noise_deg = 2 }
+brain.arbitration.kind = "goals"
+brain.behaviours = [{ kind = "serve" }]
+brain.beliefs = { cell_m = 1, prior_count = { mine = 2, clutter = 2 } }
+sensors.camera = { kind = "items", range_m = 5, noise_m = 0.3,
+    detection_probability = { mine = 0.3, clutter = 0.3 }, blind_share = { mine = 0.06, clutter = 0.06 },
+    confusion = { mine = { mine = 0.74, clutter = 0.26 }, clutter = { mine = 0.26, clutter = 0.74 } } }
 [robots.ugv]
 count = 2
 radius_m = 0.4
@@ -68,40 +46,20 @@ capabilities = ["search"]
 start = { kind = "uniform", within_m = [[1, 4], [5, 16]] }
 drive = { max_speed_m_s = 1.5, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 90 }
 radio = { range_m = 100, messages_per_step = 50 }
-tools = { neutralise = { range_m = 3, reach_m = 0.75, duration_s = 5, charges = 8 } }
-
-[robots.ugv.sensors.detector]
-kind = "items"
-range_m = 4
-fov_deg = 180
-detection_probability = { mine = 0.3, clutter = 0.3 }
-blind_share = { mine = 0.05, clutter = 0.05 }
-confusion = { mine = { mine = 0.95, clutter = 0.05 }, clutter = { mine = 0.08, clutter = 0.92 } }
-noise_m = 0.1
-
-[robots.ugv.sensors.gps]
-kind = "position"
-noise_m = 0.2
-
-[robots.ugv.sensors.compass]
-kind = "heading"
-noise_deg = 2
-
-[robots.ugv.sensors.near]
-kind = "robots"
-range_m = 6
-
-[robots.ugv.brain]
-arbitration = { kind = "goals" }
-behaviours = [{ kind = "serve" }, { kind = "avoid" }]
-beliefs = { cell_m = 1, prior_count = { mine = 2, clutter = 2 } }
-
+tools.neutralise = { range_m = 3, reach_m = 0.75, duration_s = 5, charges = 8 }
+sensors.gps = { kind = "position", noise_m = 0.2 }
+sensors.compass = { kind = "heading", noise_deg = 2 }
+sensors.near = { kind = "robots", range_m = 6 }
+brain.arbitration.kind = "goals"
+brain.behaviours = [{ kind = "serve" }, { kind = "avoid" }]
+brain.beliefs = { cell_m = 1, prior_count = { mine = 2, clutter = 2 } }
+sensors.detector = { kind = "items", range_m = 4, fov_deg = 180, noise_m = 0.1,
+    detection_probability = { mine = 0.3, clutter = 0.3 }, blind_share = { mine = 0.05, clutter = 0.05 },
+    confusion = { mine = { mine = 0.95, clutter = 0.05 }, clutter = { mine = 0.08, clutter = 0.92 } } }
 [controllers.station]
-count = 1
 start = { kind = "uniform", within_m = [[1, 4], [5, 16]] }
 radio = { range_m = 100, messages_per_step = 50 }
 service_lease_s = 60
-
 [controllers.station.clearance]
 lane_m = [[8, 4], [48, 16]]
 declare_below = 0.1
@@ -111,15 +69,10 @@ interrogate = { requires = "search", service_s = 4 }
 neutralise = { requires = "search", service_s = 3 }
 "#;
 
-const MINES: &str = "count = 2\nnumber = \"poisson\"\ncompleted_by = \"neutralised\"\n\
-                     placement = { kind = \"uniform\", within_m = [[8, 4], [48, 16]] }";
-
 /// The lane with mines at these positions.
 fn with_mines(places: &str, count: u32) -> String {
-    let fixed = format!(
-        "count = {count}\ncompleted_by = \"neutralised\"\nplacement = {{ kind = \"fixed\", at_m = {places} }}"
-    );
-    replaced(LANE, &[(MINES, &fixed)])
+    let fixed = format!("count = {count}, number = \"fixed\", placement.at_m = {places}");
+    with(LANE, &format!("items.mine = {{ {fixed} }}"))
 }
 
 fn begin(text: &str, run: u64) -> Simulation {
@@ -169,12 +122,8 @@ fn a_run_ends_with_the_statement_of_a_controller_and_not_with_the_last_mine() {
 #[test]
 fn a_controller_with_no_robot_in_range_never_declares_a_lane() {
     // It gives a lane up after a minute without robots in range.
-    let short = LANE.replace("time_limit_s = 300", "time_limit_s = 50");
-    let deaf = short.replace(
-        "radio = { range_m = 100, messages_per_step = 50 }\nservice",
-        "radio = { range_m = 0.01 }\nservice",
-    );
-    assert_ne!(deaf, short);
+    let deaf = "clock.time_limit_s = 50\ncontrollers.station.radio = { range_m = 0.01, messages_per_step = 4 }";
+    let deaf = with(LANE, deaf);
     for run in 0..3 {
         let (outcome, simulation) = finish(&deaf, run);
         assert_eq!((outcome.time_s, outcome.has_failed), (50.0, true));
@@ -189,20 +138,12 @@ fn a_controller_with_no_robot_in_range_never_declares_a_lane() {
 
 #[test]
 fn a_team_that_cannot_neutralise_gives_up_and_fails() {
-    let unable = replaced(
+    let unable = with(
         &with_mines("[[12, 8], [20, 10], [30, 12], [40, 6]]", 4),
-        &[
-            (
-                "neutralise = { requires = \"search\", service_s = 3 }",
-                "neutralise = { requires = \"blast\", service_s = 3 }",
-            ),
-            (
-                "[controllers.station]",
-                "[robots.sapper]\ncount = 0\npayload_kg = 1\ncapabilities = [\"blast\"]\nradio = { range_m = 9 }\n\
-              drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\nradius_m = 0.3\nsensors.gps = { kind = \"position\" }\n\
-              sensors.compass = { kind = \"heading\" }\nbrain = { behaviours = [{ kind = \"serve\" }] }\n[controllers.station]",
-            ),
-        ],
+        "controllers.station.clearance.neutralise.requires = \"blast\"\n\
+         [robots.sapper]\ncount = 0\npayload_kg = 1\ncapabilities = [\"blast\"]\nradio.range_m = 9\n\
+         radius_m = 0.3\nsensors = { gps.kind = \"position\", compass.kind = \"heading\" }\n\
+         brain.behaviours = [{ kind = \"serve\" }]",
     );
     for run in 0..3 {
         let (outcome, simulation) = finish(&unable, run);
@@ -222,10 +163,7 @@ fn a_team_that_cannot_neutralise_gives_up_and_fails() {
 
 #[test]
 fn a_mission_that_a_person_ends_is_given_up_with_the_risk_of_that_time() {
-    let ended = LANE.replace(
-        "declare_below = 0.1",
-        "declare_below = 0.1\ncalled_off = true",
-    );
+    let ended = with(LANE, "controllers.station.clearance.called_off = true");
     for run in 0..3 {
         let mut simulation = begin(LANE, run);
         (0..100).for_each(|_| simulation.step());
@@ -299,13 +237,7 @@ fn mines_outside_of_the_lane_do_not_count() {
 
 #[test]
 fn the_first_declaration_of_two_controllers_ends_the_run() {
-    let two = replaced(
-        LANE,
-        &[(
-            "[controllers.station]\ncount = 1",
-            "[controllers.station]\ncount = 2",
-        )],
-    );
+    let two = with(LANE, "controllers.station.count = 2");
     // Each controller receives other messages.
     let two = two.replace(
         "messages_per_step = 50 }",
@@ -354,11 +286,10 @@ fn jammed(mut simulation: Simulation, jammer: RobotId) -> Simulation {
 
 #[test]
 fn robots_that_flood_the_channel_do_not_make_lanes_declared_early() {
-    let jammer = "[robots.jammer]\ncount = 1\nlayer = \"air\"\nradius_m = 0.1\nstart = { kind = \"fixed\", at_m = [[50, 1]] }\n\
-                  drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n\
-                  radio = { range_m = 100, messages_per_step = 50 }\n[robots.oav]";
-    let text = replaced(LANE, &[("[robots.oav]", jammer)]);
-    let text = text.replace("50 }\nservice", "6 }\nservice");
+    let jammer = "controllers.station.radio.messages_per_step = 6\n\
+                  [robots.jammer]\nlayer = \"air\"\nradius_m = 0.1\nstart.at_m = [[50, 1]]\n\
+                  radio = { range_m = 100, messages_per_step = 50 }";
+    let text = with(LANE, jammer);
     let (mut later, mut earlier, mut not_clear) = (0, 0, 0);
     for run in 0..12 {
         let (free, _) = finish(&text, run);
@@ -397,10 +328,7 @@ fn a_run_is_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_run_that_is_restored_or_changed_continues_with_the_same_bytes() {
-    let more = replaced(
-        LANE,
-        &[("[robots.ugv]\ncount = 2", "[robots.ugv]\ncount = 3")],
-    );
+    let more = with(LANE, "robots.ugv.count = 3");
     let mut simulation = begin(LANE, 4);
     (0..150).for_each(|_| simulation.step());
     let saved = simulation.state().clone();
@@ -430,10 +358,7 @@ fn a_run_that_is_restored_or_changed_continues_with_the_same_bytes() {
 #[test]
 fn a_statement_stands_after_a_change() {
     let (before, mut simulation) = finish(LANE, 0);
-    let more = replaced(
-        LANE,
-        &[("[items.mine]\ncount = 2", "[items.mine]\ncount = 12")],
-    );
+    let more = with(LANE, "items.mine.count = 12");
     simulation.change(scenario(&more)).unwrap();
     assert!(mines_left(&simulation) > 0 && is_over(&simulation));
     let (before, after) = (lane(&before).clone(), simulation.outcome());
@@ -448,22 +373,13 @@ fn a_statement_stands_after_a_change() {
 #[test]
 fn marks_reach_ground_vehicles_only_by_radio() {
     // Ground vehicles do not search: they go to what the air vehicle has marked.
-    let marks = replaced(
+    let marks = with(
         &with_mines("[[20, 8], [30, 12]]", 2),
-        &[
-            (
-                "searches = [{ requires = \"survey\" }, { requires = \"search\" }]",
-                "searches = [{ requires = \"survey\" }]",
-            ),
-            ("time_limit_s = 300", "time_limit_s = 50"),
-        ],
+        "clock.time_limit_s = 50\ncontrollers.station.clearance.searches = [{ requires = \"survey\" }]",
     );
-    let silent = replaced(
+    let silent = with(
         &marks,
-        &[(
-            "radio = { range_m = 100, messages_per_step = 50 }",
-            "radio = { range_m = 0.01 }",
-        )],
+        "robots.oav.radio = { range_m = 0.01, messages_per_step = 4 }",
     );
     let farthest_m = |text: &str, run| {
         let (_, simulation) = finish(text, run);
@@ -479,12 +395,9 @@ fn marks_reach_ground_vehicles_only_by_radio() {
 
 #[test]
 fn a_robot_without_charges_does_not_neutralise() {
-    let few = replaced(
+    let few = with(
         &with_mines("[[14, 8], [22, 10], [30, 12]]", 3),
-        &[
-            ("charges = 8", "charges = 1"),
-            ("[robots.ugv]\ncount = 2", "[robots.ugv]\ncount = 1"),
-        ],
+        "robots.ugv = { count = 1, tools.neutralise.charges = 1 }",
     );
     for run in 0..3 {
         let (outcome, simulation) = finish(&few, run);

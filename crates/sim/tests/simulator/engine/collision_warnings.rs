@@ -6,13 +6,12 @@ use std::collections::BTreeMap;
 
 /// Robots with a diameter of half a metre at given positions and headings.
 fn team(places: &str, headings_deg: &str) -> Simulation {
-    let count = places.matches('[').count() - 1;
     start(&format!(
         "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [20, 20]\n\
          obstacles = [{{ circle = {{ at_m = [10, 15], radius_m = 1 }} }}]\n\
-         [robots.rover]\ncount = {count}\nradius_m = 0.25\n\
+         [robots.rover]\nradius_m = 0.25\n\
          drive = {{ max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
-         start = {{ kind = \"fixed\", at_m = {places}, heading_deg = {headings_deg} }}\n"
+         start = {{ at_m = {places}, heading_deg = {headings_deg} }}\n"
     ))
 }
 

@@ -1,39 +1,25 @@
 //! Controllers detect robots and other controllers with sensors of their own.
 
-use crate::common::{id, replaced, start};
+use crate::common::{id, replaced, start, with};
 use brain::{About, Dispatch, Neighbour, RobotId};
 use sim::simulation::Simulation;
 
 /// A controller with a detector, one without, and two robots, of which the second cannot send.
 const SEEING: &str = r#"
-[clock]
-time_limit_s = 100
+clock.time_limit_s = 100
+robots.rover = { start.at_m = [[38, 1]], radio.range_m = 50, brain.behaviours = [] }
+controllers.mast = { start.at_m = [[20, 10]], radio.range_m = 50 }
 [world]
 size_m = [40, 20]
 obstacles = [{ polygon_m = [[29, 0], [30, 0], [30, 5], [29, 5]] }]
 [robots.mute]
-count = 1
-radius_m = 0.2
-start = { kind = "fixed", at_m = [[13, 14]], heading_deg = [90] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+start = { at_m = [[13, 14]], heading_deg = [90] }
 radio = { range_m = 50, messages_per_step = 0 }
-brain = { behaviours = [] }
-[robots.rover]
-count = 1
-radius_m = 0.2
-start = { kind = "fixed", at_m = [[38, 1]] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-radio = { range_m = 50 }
-brain = { behaviours = [] }
+brain.behaviours = []
 [controllers.base]
-count = 1
-start = { kind = "fixed", at_m = [[10, 10]] }
-radio = { range_m = 50 }
-sensors = { eye = { kind = "robots", range_m = 15 } }
-[controllers.mast]
-count = 1
-start = { kind = "fixed", at_m = [[20, 10]] }
-radio = { range_m = 50 }
+start.at_m = [[10, 10]]
+radio.range_m = 50
+sensors.eye = { kind = "robots", range_m = 15 }
 "#;
 
 const MUTE: RobotId = RobotId { kind: 0, index: 0 };
@@ -59,31 +45,23 @@ fn a_controller_detects_robots_and_controllers_in_range() {
     assert_eq!(seen, [(MUTE, 5.0), (MAST, 10.0)]);
     assert!((neighbours[0].bearing_rad - 4.0_f64.atan2(3.0)).abs() < 1e-12);
     assert_eq!(neighbours[0].course_rad, None);
-    let blind = replaced(SEEING, &[("range_m = 15", "range_m = 4")]);
-    assert_eq!(ids(&blind), []);
-    let behind = replaced(SEEING, &[("range_m = 15", "range_m = 40")]);
+    let eye = "controllers.base.sensors.eye";
+    assert_eq!(ids(&with(SEEING, &format!("{eye}.range_m = 4"))), []);
+    let behind = with(SEEING, &format!("{eye}.range_m = 40"));
     assert_eq!(
         ids(&behind),
         [MUTE, MAST],
         "the rover is behind an obstacle"
     );
-    let through = replaced(
-        &behind,
-        &[("range_m = 40", "range_m = 40, needs_line_of_sight = false")],
-    );
+    let through = with(&behind, &format!("{eye}.needs_line_of_sight = false"));
     assert_eq!(ids(&through), [MUTE, id(1, 0), MAST]);
 }
 
 #[test]
 fn detectors_of_controllers_are_noisy_and_miss_as_those_of_robots() {
-    let noisy = replaced(
-        SEEING,
-        &[(
-            "range_m = 15",
-            "range_m = 15, noise_m = 0.1, course_noise_deg = 1, detection_probability = 0.5",
-        )],
-    );
-    let mut simulation = start(&noisy);
+    let noisy = "controllers.base.sensors.eye = \
+                 { noise_m = 0.1, course_noise_deg = 1, detection_probability = 0.5 }";
+    let mut simulation = start(&with(SEEING, noisy));
     let mut seen = Vec::new();
     for _ in 0..400 {
         let neighbours = detected(&mut simulation);
@@ -137,10 +115,7 @@ fn the_place_of_a_robot_without_a_radio_is_known_to_the_controllers_from_the_one
     );
     let blind = replaced(
         SEEING,
-        &[(
-            "sensors = { eye = { kind = \"robots\", range_m = 15 } }\n",
-            "",
-        )],
+        &[("sensors.eye = { kind = \"robots\", range_m = 15 }\n", "")],
     );
     assert_eq!(reports(&blind), [[0.0; 2]; 0]);
 }

@@ -1,32 +1,25 @@
 //! Controllers are agents without a body: they take part in communication, fail, and change in mid-run.
 
-use crate::common::{go, id, message, replaced, robots, scenario, send, start, step_with};
+use crate::common::{go, id, message, replaced, robots, scenario, send, start, step_with, with};
 use brain::RobotId;
 use sim::run::{Controller, Status};
 use sim::simulation::Simulation;
 
-const ONE: &str = r#"
-[clock]
-time_limit_s = 100
-[world]
-size_m = [40, 20]
+const ONE: &str = "
+clock.time_limit_s = 100
+world.size_m = [40, 20]
+goals.spot.placement.at_m = [[20, 10], [22, 10], [24, 10], [26, 10]]
 [robots.rover]
-count = 2
-radius_m = 0.2
 price = 10
-start = { kind = "fixed", at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-radio = { range_m = 5 }
-brain = { behaviours = [] }
+start = { at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
+radio.range_m = 5
+brain.behaviours = []
 [controllers.base]
 count = 2
 price = 3
-start = { kind = "fixed", at_m = [[8, 10], [30, 5], [31, 5]] }
-radio = { range_m = 5 }
-[goals.spot]
-count = 4
-placement = { kind = "fixed", at_m = [[20, 10], [22, 10], [24, 10], [26, 10]] }
-"#;
+start.at_m = [[8, 10], [30, 5], [31, 5]]
+radio.range_m = 5
+";
 
 const ROVER: RobotId = RobotId { kind: 0, index: 0 };
 
@@ -58,18 +51,9 @@ fn controllers_count_as_no_robots_but_are_paid_for() {
 
 #[test]
 fn a_controller_aboard_goes_where_its_robot_goes_and_fails_with_it() {
-    let text = replaced(
-        ONE,
-        &[(
-            "start = { kind = \"fixed\", at_m = [[8, 10], [30, 5], [31, 5]] }",
-            "aboard = \"rover\"",
-        )],
-    );
-    let text = replaced(
-        &text,
-        &[("drive", "collision = { max_collisions = 1 }\ndrive")],
-    );
-    let mut simulation = start(&text);
+    let start_m = "start.at_m = [[8, 10], [30, 5], [31, 5]]";
+    let text = replaced(ONE, &[(start_m, "aboard = \"rover\"")]);
+    let mut simulation = start(&with(&text, "robots.rover.collision.max_collisions = 1"));
     for _ in 0..320 {
         step_with(&mut simulation, [(ROVER, go(1.0, 0.0))]);
         assert_eq!(controllers(&simulation)[0].at, robots(&simulation)[0].at);
@@ -97,15 +81,9 @@ fn links_reach_controllers() {
 #[test]
 fn controllers_fail_at_random_times() {
     let never = start(ONE);
-    let text = replaced(
-        ONE,
-        &[("price = 3", "price = 3\nmean_time_between_failures_s = 5")],
-    );
-    let text = replaced(
-        &text,
-        &[("price = 10", "price = 10\nmean_time_between_failures_s = 5")],
-    );
-    let mut simulation = start(&text);
+    let failing = "controllers.base.mean_time_between_failures_s = 5\n\
+                   robots.rover.mean_time_between_failures_s = 5";
+    let mut simulation = start(&with(ONE, failing));
     let mut other = never;
     for _ in 0..1000 {
         simulation.step();
@@ -127,8 +105,8 @@ fn controllers_fail_at_random_times() {
 
 #[test]
 fn robots_and_controllers_that_the_scenario_names_have_failed_for_good() {
-    let text = replaced(ONE, &[("price = 3", "price = 3\nfailed = [1, 7]")]);
-    let text = replaced(&text, &[("price = 10", "price = 10\nfailed = [0]")]);
+    let failed = "controllers.base.failed = [1, 7]\nrobots.rover.failed = [0]";
+    let text = with(ONE, failed);
     let failed = |simulation: &Simulation| {
         let robots = robots(simulation);
         let controllers = controllers(simulation);
@@ -169,16 +147,16 @@ fn controllers_keep_their_goals_when_others_are_added_or_removed() {
     let mut simulation = start(ONE);
     (0..5).for_each(|_| simulation.step());
     assert_eq!(owned(&simulation), [2, 2]);
-    let more = replaced(ONE, &[("count = 2\nprice = 3", "count = 3\nprice = 3")]);
+    let more = with(ONE, "controllers.base.count = 3");
     simulation.change(scenario(&more)).unwrap();
     simulation.step();
     assert_eq!(owned(&simulation), [2, 2, 0]);
     // Goals of a controller that is removed are issued to those that stay.
-    let fewer = replaced(ONE, &[("count = 2\nprice = 3", "count = 1\nprice = 3")]);
+    let fewer = with(ONE, "controllers.base.count = 1");
     simulation.change(scenario(&fewer)).unwrap();
     simulation.step();
     assert_eq!(owned(&simulation), [4]);
-    let none = replaced(ONE, &[("count = 2\nprice = 3", "count = 0\nprice = 3")]);
+    let none = with(ONE, "controllers.base.count = 0");
     simulation.change(scenario(&none)).unwrap();
     simulation.step();
     simulation.change(scenario(ONE)).unwrap();
@@ -199,8 +177,7 @@ fn the_memory_of_controllers_is_part_of_the_state_hash_and_of_snapshots() {
         (simulation.hash(), simulation.state().decision_hash()),
         (hash, decisions)
     );
-    let other = replaced(ONE, &[("count = 4", "count = 4\nvalue = 2")]);
-    let mut other = start(&other);
+    let mut other = start(&with(ONE, "goals.spot.value = 2"));
     other.hash_decisions(1);
     other.step();
     assert_ne!(other.hash(), hash);
@@ -209,10 +186,8 @@ fn the_memory_of_controllers_is_part_of_the_state_hash_and_of_snapshots() {
 
 #[test]
 fn robots_of_a_removed_kind_leave_the_ids_of_controllers_valid() {
-    let two = ONE.to_owned()
-        + "[robots.ant]\ncount = 1\nradius_m = 0.1\nstart = { kind = \"fixed\", at_m = [[3, 3]] }\n\
-           drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\nbrain = { behaviours = [] }\n";
-    let mut simulation = start(&two);
+    let ant = "robots.ant = { radius_m = 0.1, start.at_m = [[3, 3]], brain.behaviours = [] }";
+    let mut simulation = start(&with(ONE, ant));
     step_with(&mut simulation, [(id(1, 0), send(&[message(1.0)]))]);
     assert_eq!(controllers(&simulation)[0].id, id(2, 0));
     simulation.change(scenario(ONE)).unwrap();
@@ -232,13 +207,7 @@ fn clocks_have_their_own_offset_and_drift() {
         })
     };
     assert_eq!(time_s(ONE), [10.0, 10.0]);
-    let drifting = replaced(
-        ONE,
-        &[(
-            "time_limit_s",
-            "max_offset_s = 3\nmax_drift = 0.01\ntime_limit_s",
-        )],
-    );
+    let drifting = with(ONE, "clock = { max_offset_s = 3, max_drift = 0.01 }");
     let times_s = time_s(&drifting);
     assert!(times_s[0] != times_s[1] && times_s.iter().all(|time_s| (9.9..13.2).contains(time_s)));
 }

@@ -226,15 +226,13 @@ fn an_added_robot_or_kind_does_not_affect_robots_that_do_not_meet_it() {
             "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [500, 500]\n[items.mine]\ncount = 20\n\
              placement = {{ kind = \"clustered\", clusters = 3, spread_m = 9 }}\n\
              [robots.rover]\ncount = {rovers}\nradius_m = 0.3\n\
-             drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
              [robots.rover.sensors.gps]\nkind = \"position\"\nnoise_m = 2\n\
              [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 9\nrange_m = 4\nnoise_m = 0.1\nspurious_return_probability = 0.5\n\
              [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 50\ndetection_probability = {{ mine = 0.5 }}\nnoise_m = 1\n\
              false_alarm_rate_per_m2_s = {{ mine = 0.001 }}\n{more}"
         )
     };
-    let kind = "[robots.zebra]\ncount = 5\nradius_m = 0.3\n\
-                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let kind = "[robots.zebra]\ncount = 5\nradius_m = 0.3\n";
     let items = "[items.stone]\ncount = 7\ntarget = false\n";
     let perceived = |text: &str| {
         let mut simulation = start(text);

@@ -1,51 +1,38 @@
 //! Events of a run, for recordings.
 
-use crate::common::{go, id, replaced, robots, scenario, start, step_with};
+use crate::common::{go, id, robots, scenario, start, step_with, with};
 use sim::judge::events::{Event, EventKind, EventReader};
 use sim::run::{Item, Status};
 use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 
 /// Robots of two kinds that collide, break, run empty and find items.
-const CROWD: &str = "
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [14, 10] }
-items.flag = { count = 2 }
-items.mine = { count = 12 }
+const CROWD: &str = r#"
+world.size_m = [14, 10]
+items.flag.count = 2
+items.mine.count = 12
 [robots.cart]
 count = 4
 radius_m = 0.4
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-collision = { max_collisions = 3 }
-sensors.eye = { kind = \"items\", range_m = 1.5 }
-brain = { behaviours = [{ kind = \"cruise\" }] }
+collision.max_collisions = 3
+sensors.eye = { kind = "items", range_m = 1.5 }
+brain.behaviours = [{ kind = "cruise" }]
 [robots.rover]
 count = 4
 radius_m = 0.4
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 battery = { capacity_j = 100, idle_w = 5, move_j_per_m = 2 }
-sensors.eye = { kind = \"items\", range_m = 1.5 }
-brain = { behaviours = [{ kind = \"cruise\" }] }
-";
+sensors.eye = { kind = "items", range_m = 1.5 }
+brain.behaviours = [{ kind = "cruise" }]
+"#;
 
 /// Two robots of different kinds, both next to the same item.
-const PAIR: &str = "
-clock = { time_limit_s = 60 }
-world = { size_m = [14, 10] }
-items.mine = { count = 1, placement = { kind = \"fixed\", at_m = [[5, 5]] } }
-[robots.cart]
-count = 1
-radius_m = 0.2
-start = { kind = \"fixed\", at_m = [[4, 5]] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-sensors.eye = { kind = \"items\", range_m = 2 }
-[robots.rover]
-count = 1
-radius_m = 0.2
-start = { kind = \"fixed\", at_m = [[6, 5]] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-sensors.eye = { kind = \"items\", range_m = 2 }
-";
+const PAIR: &str = r#"
+world.size_m = [14, 10]
+items.mine.placement.at_m = [[5, 5]]
+robots.cart = { start.at_m = [[4, 5]], sensors.eye = { kind = "items", range_m = 2 } }
+robots.rover = { start.at_m = [[6, 5]], sensors.eye = { kind = "items", range_m = 2 } }
+"#;
 
 fn drained(reader: &EventReader) -> Vec<Event> {
     let episodes = reader.drain().into_iter();
@@ -150,14 +137,9 @@ fn events_keep_the_numbers_of_the_scenario_in_which_they_happened() {
     let reader = simulation.event_reader();
     simulation.step();
     // Kinds are numbered in the order of their names.
-    let text = replaced(
-        PAIR,
-        &[("[robots.cart]\ncount = 1", "[robots.cart]\ncount = 0")],
-    );
-    let first = "[robots.ant]\ncount = 1\nradius_m = 0.1\nsensors.eye = { kind = \"items\", range_m = 20 }\n\
-                 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
-    let text = format!("{text}{first}").replace("[5, 5]] }", "[5, 5], [5, 6]] }");
-    let text = replaced(&text, &[("mine = { count = 1", "mine = { count = 2")]);
+    let ant = "[robots.ant]\nradius_m = 0.1\nsensors.eye = { kind = \"items\", range_m = 20 }\n";
+    let other = "robots.cart.count = 0\nitems.mine.placement.at_m = [[5, 5], [5, 6]]\n";
+    let text = with(PAIR, &format!("{other}{ant}"));
     simulation.change(scenario(&text)).unwrap();
     simulation.step();
     let episodes = reader.drain();
@@ -187,11 +169,8 @@ fn events_keep_the_numbers_of_the_scenario_in_which_they_happened() {
 fn the_robot_that_found_an_item_keeps_its_finds_when_kinds_are_renumbered() {
     let mut simulation = start(PAIR);
     simulation.step();
-    let first = "[robots.ant]\ncount = 1\nradius_m = 0.1\n\
-                 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
-    simulation
-        .change(scenario(&format!("{PAIR}{first}")))
-        .unwrap();
+    let first = with(PAIR, "robots.ant.radius_m = 0.1");
+    simulation.change(scenario(&first)).unwrap();
     assert_eq!(items(&simulation)[0].found_by, Some(id(1, 0)));
 }
 

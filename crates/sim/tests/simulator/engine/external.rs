@@ -9,14 +9,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 const FIELD: &str = "
-clock = { step_s = 0.1, time_limit_s = 1000 }
-world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
-items.flag = { count = 2, placement = { kind = \"fixed\", at_m = [[2, 8], [6, 8.5]] } }
-items.mine = { count = 2, placement = { kind = \"fixed\", at_m = [[6, 8], [19, 9]] } }
+clock.time_limit_s = 1000
+world.obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+items.flag.placement.at_m = [[2, 8], [6, 8.5]]
+items.mine.placement.at_m = [[6, 8], [19, 9]]
 [robots.rover]
-count = 3
 radius_m = 0.4
-start = { kind = \"fixed\", at_m = [[2, 2], [4, 2], [16, 8]], heading_deg = [0, 90, 45] }
+start = { at_m = [[2, 2], [4, 2], [16, 8]], heading_deg = [0, 90, 45] }
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
 collision = { max_collisions = 1 }
 battery = { capacity_j = 20, idle_w = 10 }
@@ -323,7 +322,10 @@ fn a_change_keeps_external_bodies() {
     simulation.step();
     let before = simulation.state().clone();
     simulation
-        .change(scenario(&FIELD.replace("count = 3", "count = 2")))
+        .change(scenario(&crate::common::with(
+            FIELD,
+            "robots.rover.count = 2",
+        )))
         .unwrap();
     let external: Vec<bool> = robots(&simulation)
         .iter()

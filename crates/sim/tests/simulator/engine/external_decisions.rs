@@ -6,28 +6,20 @@ use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 
 /// Everything that is kept for a brain's next step: late scans and detections, messages.
-const LATE: &str = "
-clock = { step_s = 0.1, time_limit_s = 100 }
-world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
-items.mine = { count = 3 }
+const LATE: &str = r#"
+clock.time_limit_s = 100
+world.obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+items.mine.count = 3
+robots.tug = { count = 2, radius_m = 0.3 }
 [robots.rover]
 count = 4
 radius_m = 0.3
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-brain = { rate_hz = 4 }
+brain.rate_hz = 4
 radio = { range_m = 8, delay_s = 0.3, loss_probability = 0.1 }
-sensors.sonar = { kind = \"range\", rays = 8, range_m = 3, latency_s = 0.3 }
-[robots.rover.sensors.eye]
-kind = \"items\"
-range_m = 2
-latency_s = 0.5
-detection_probability = { mine = 0.5 }
-false_alarm_rate_per_m2_s = { mine = 0.01 }
-[robots.tug]
-count = 2
-radius_m = 0.3
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-";
+sensors.sonar = { kind = "range", rays = 8, range_m = 3, latency_s = 0.3 }
+sensors.eye = { kind = "items", range_m = 2, latency_s = 0.5, detection_probability.mine = 0.5,
+    false_alarm_rate_per_m2_s.mine = 0.01 }
+"#;
 
 fn requests(simulation: &mut Simulation) -> Vec<(RobotId, Percept)> {
     let none = (BTreeMap::new(), BTreeMap::new());

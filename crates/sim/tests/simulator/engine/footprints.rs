@@ -11,10 +11,8 @@ fn at(place: &str, world: &str, more: &str) -> Simulation {
     let count = place.matches('[').count();
     start(&format!(
         "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [20, 20]\n{world}\n\
-         [items.mine]\ncount = 1\ntarget = false\nplacement = {{ kind = \"fixed\", at_m = [[1, 1]] }}\n\
-         [robots.rover]\ncount = {count}\nradius_m = 0.2\nbrain = {{ behaviours = [] }}\n\
-         start = {{ kind = \"fixed\", at_m = [{place}], heading_deg = {:?} }}\n\
-         drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{more}",
+         [items.mine]\ntarget = false\nplacement.at_m = [[1, 1]]\n[robots.rover]\nbrain.behaviours = []\n\
+         start = {{ at_m = [{place}], heading_deg = {:?} }}\n{more}",
         vec![0.0; count]
     ))
 }

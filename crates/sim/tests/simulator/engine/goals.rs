@@ -1,6 +1,6 @@
 //! Goals are issued to controllers, and served by robots that report it.
 
-use crate::common::{go, id, replaced, send, start, step_with};
+use crate::common::{go, id, send, start, step_with, with};
 use base::geometry::Point;
 use brain::{About, Command, CommitmentStatus, GoalId, Message, Reason, RobotId, issuer_of};
 use sim::judge::GoalOutcome;
@@ -8,27 +8,16 @@ use sim::judge::events::EventKind;
 use sim::run::Goal;
 use sim::simulation::Simulation;
 
-const TWO: &str = r#"
-[clock]
-time_limit_s = 100
-[world]
-size_m = [40, 20]
+const TWO: &str = "
+clock.time_limit_s = 100
+world.size_m = [40, 20]
+controllers.base = { start.at_m = [[5, 5], [6, 5]], radio.range_m = 50 }
+goals.spot = { placement.at_m = [[10, 10], [13, 10], [30, 10]], within_m = 0.5 }
 [robots.rover]
-count = 2
-radius_m = 0.2
-start = { kind = "fixed", at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-radio = { range_m = 50 }
-brain = { behaviours = [] }
-[controllers.base]
-count = 2
-start = { kind = "fixed", at_m = [[5, 5], [6, 5]] }
-radio = { range_m = 50 }
-[goals.spot]
-count = 3
-placement = { kind = "fixed", at_m = [[10, 10], [13, 10], [30, 10]] }
-within_m = 0.5
-"#;
+start = { at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
+radio.range_m = 50
+brain.behaviours = []
+";
 
 const ROVER: RobotId = RobotId { kind: 0, index: 0 };
 const OTHER: RobotId = RobotId { kind: 0, index: 1 };
@@ -91,9 +80,8 @@ fn goals_are_issued_to_the_controllers_in_turn() {
 
 /// The controllers of a run in which some have failed from the start.
 fn with_failed(failed: &str) -> Simulation {
-    let key = format!("count = 2\nfailed = {failed}\nstart = {{ kind = \"fixed\", at_m = [[5");
-    let old = "count = 2\nstart = { kind = \"fixed\", at_m = [[5";
-    let mut simulation = start(&replaced(TWO, &[(old, &key)]));
+    let failed = format!("controllers.base.failed = {failed}");
+    let mut simulation = start(&with(TWO, &failed));
     simulation.step();
     simulation
 }
@@ -122,18 +110,9 @@ fn a_goal_without_a_working_controller_is_reported_as_such() {
 
 #[test]
 fn a_goal_goes_to_another_kind_if_no_controller_of_its_own_works() {
-    let other = "owner = \"base\"\n[controllers.mast]\ncount = 1\nradio = { range_m = 50 }";
-    let text = replaced(
-        TWO,
-        &[
-            ("within_m = 0.5", &format!("within_m = 0.5\n{other}")),
-            (
-                "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
-                "count = 2\nfailed = [0, 1]\nstart = { kind = \"fixed\", at_m = [[5",
-            ),
-        ],
-    );
-    let mut simulation = start(&text);
+    let other = "goals.spot.owner = \"base\"\n\
+                 controllers = { base.failed = [0, 1], mast.radio.range_m = 50 }";
+    let mut simulation = start(&with(TWO, other));
     simulation.step();
     let controllers = simulation.state().each_controller();
     let owned: Vec<usize> = controllers.map(|each| each.goals.len()).collect();
@@ -142,26 +121,16 @@ fn a_goal_goes_to_another_kind_if_no_controller_of_its_own_works() {
 
 #[test]
 fn a_controller_refuses_goals_beyond_its_maximum() {
-    let few = replaced(
-        TWO,
-        &[("count = 2\nstart", "count = 1\nmax_goals = 2\nstart")],
-    );
-    let few = few.replace(
-        "count = 1\nmax_goals = 2\nstart = { kind = \"fixed\", at_m = [[10",
-        "count = 2\nstart = { kind = \"fixed\", at_m = [[10",
-    );
-    let mut simulation = start(&few);
+    let few = "controllers.base = { count = 1, max_goals = 2 }";
+    let mut simulation = start(&with(TWO, few));
     simulation.step();
     assert_eq!(outcome(&simulation).goals_refused, 1);
 }
 
 #[test]
 fn goals_arrive_by_their_timetable() {
-    let text = replaced(
-        TWO,
-        &[("within_m", "arrive_s = 1\nevery_s = 0.5\nwithin_m")],
-    );
-    let mut simulation = start(&text);
+    let timetable = "goals.spot = { arrive_s = 1, every_s = 0.5 }";
+    let mut simulation = start(&with(TWO, timetable));
     (0..30).for_each(|_| simulation.step());
     let issued = goals(&simulation)
         .iter()
@@ -192,8 +161,8 @@ fn a_robot_that_reports_a_service_again_serves_once_and_another_one_serves_twice
     // The other one is too far away.
     step_with(&mut simulation, [(OTHER, send(&[done(0)]))]);
     assert_eq!(outcome(&simulation).served_twice, 0);
-    let near = replaced(TWO, &[("[12, 12]", "[10.4, 10]")]);
-    let mut simulation = start(&near);
+    let near = "robots.rover.start.at_m = [[10, 10], [10.4, 10]]";
+    let mut simulation = start(&with(TWO, near));
     let reader = simulation.event_reader();
     for robot in [ROVER, OTHER, OTHER] {
         step_with(&mut simulation, [(robot, send(&[done(0)]))]);
@@ -212,8 +181,7 @@ fn a_robot_that_reports_a_service_again_serves_once_and_another_one_serves_twice
 
 #[test]
 fn the_parts_of_the_time_of_a_goal_sum_to_its_total() {
-    let text = replaced(TWO, &[("within_m = 0.5", "within_m = 0.5\nservice_s = 1")]);
-    let mut simulation = start(&text);
+    let mut simulation = start(&with(TWO, "goals.spot.service_s = 1"));
     // Waits for 1 s, sets out, stands for 0.5 s, drives 3 m, and serves for 1 s.
     (0..10).for_each(|_| drive(&mut simulation, 0.0, &[]));
     drive(&mut simulation, 0.0, &[active(1)]);
@@ -244,8 +212,7 @@ fn the_parts_of_the_time_of_a_goal_sum_to_its_total() {
 
 #[test]
 fn a_goal_is_not_served_after_its_deadline() {
-    let text = replaced(TWO, &[("within_m", "deadline_s = 1\nwithin_m")]);
-    let mut simulation = start(&text);
+    let mut simulation = start(&with(TWO, "goals.spot.deadline_s = 1"));
     (0..12).for_each(|_| simulation.step());
     drive(&mut simulation, 0.0, &[done(0)]);
     let GoalOutcome {
@@ -256,41 +223,23 @@ fn a_goal_is_not_served_after_its_deadline() {
 
 #[test]
 fn a_run_is_complete_when_all_goals_are_served() {
-    let one = replaced(TWO, &[("count = 3", "count = 1")]);
-    let mut simulation = start(&one);
+    let mut simulation = start(&with(TWO, "goals.spot.count = 1"));
     simulation.step();
     assert!(!simulation.state().is_over(simulation.scenario()));
     drive(&mut simulation, 0.0, &[done(0)]);
     assert!(simulation.state().is_over(simulation.scenario()));
     assert!(!simulation.outcome().has_failed);
-    let mut part = start(&(TWO.to_owned() + "[end]\nwhen = \"served >= 1\"\n"));
+    let mut part = start(&with(TWO, "end.when = \"served >= 1\""));
     drive(&mut part, 0.0, &[done(0)]);
     assert!(part.state().is_over(part.scenario()));
 }
 
 #[test]
 fn messages_that_a_receiver_has_no_room_for_are_counted() {
-    let text = replaced(
-        TWO,
-        &[("range_m = 50 }", "range_m = 50, messages_per_step = 3 }")],
-    );
-    let text = replaced(
-        &text,
-        &[(
-            "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
-            "count = 0\nstart = { kind = \"fixed\", at_m = [[5",
-        )],
-    );
-    let slow = replaced(
-        &text,
-        &[(
-            "[controllers.base]",
-            "[robots.slow]\ncount = 1\nradius_m = 0.2\n\
-        start = { kind = \"fixed\", at_m = [[3, 3]] }\ndrive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n\
-        radio = { range_m = 50, messages_per_step = 1 }\nbrain = { behaviours = [] }\n[controllers.base]",
-        )],
-    );
-    let mut simulation = start(&slow);
+    let slow = "controllers.base.count = 0\nrobots.rover.radio.messages_per_step = 3\n\
+                [robots.slow]\nstart.at_m = [[3, 3]]\nbrain.behaviours = []\n\
+                radio = { range_m = 50, messages_per_step = 1 }";
+    let mut simulation = start(&with(TWO, slow));
     drive(&mut simulation, 0.0, &[active(0), active(1), active(2)]);
     let outcome = outcome(&simulation);
     // The other rover receives all, and the slow robot one.
@@ -299,18 +248,8 @@ fn messages_that_a_receiver_has_no_room_for_are_counted() {
 
 #[test]
 fn messages_that_a_radio_does_not_send_are_counted_as_dropped() {
-    let narrow = TWO.replace(
-        "radio = { range_m = 50 }\nbrain",
-        "radio = { range_m = 50, messages_per_step = 1 }\nbrain",
-    );
-    let without = replaced(
-        &narrow,
-        &[(
-            "count = 2\nstart = { kind = \"fixed\", at_m = [[5",
-            "count = 0\nstart = { kind = \"fixed\", at_m = [[5",
-        )],
-    );
-    let mut simulation = start(&without);
+    let narrow = "controllers.base.count = 0\nrobots.rover.radio.messages_per_step = 1";
+    let mut simulation = start(&with(TWO, narrow));
     drive(&mut simulation, 0.0, &[active(0), active(1), active(2)]);
     let outcome = outcome(&simulation);
     assert_eq!((outcome.messages_sent, outcome.messages_dropped), (1, 2));

@@ -1,31 +1,23 @@
 //! Robots keep clear of the items that they believe may destroy them.
 
-use crate::common::{first, replaced, robots, scenario, start};
+use crate::common::{first, replaced, robots, scenario, start, with};
 use base::geometry::Point;
 use sim::run::Status;
 use sim::simulation::Simulation;
 
 /// A robot that drives along a lane, over a mine that it can detect.
 const LANE: &str = r#"
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [20, 10] }
-[items.mine]
-count = 1
-hazard = { radius_m = 0.3 }
-completed_by = "neutralised"
-placement = { kind = "fixed", at_m = [[10, 5]] }
+items.mine = { hazard.radius_m = 0.3, completed_by = "neutralised", placement.at_m = [[10, 5]] }
 [robots.ugv]
-count = 1
 radius_m = 0.3
-start = { kind = "fixed", at_m = [[2, 5]], heading_deg = [0] }
+start = { at_m = [[2, 5]], heading_deg = [0] }
 drive = { max_speed_m_s = 1, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 90 }
 payload_kg = 1
 tools.neutralise = { range_m = 1, charges = 1 }
-sensors.place = { kind = "position" }
-sensors.compass = { kind = "heading" }
-sensors.eye = { kind = "items", range_m = 4, detection_probability = { mine = 0.9 } }
-[robots.ugv.brain]
-behaviours = [{ kind = "navigate", waypoints_m = [[18, 5]], within_m = 0.5 }]
+sensors.place.kind = "position"
+sensors.compass.kind = "heading"
+sensors.eye = { kind = "items", range_m = 4, detection_probability.mine = 0.9 }
+brain.behaviours = [{ kind = "navigate", waypoints_m = [[18, 5]], within_m = 0.5 }]
 "#;
 
 const MINE: Point = Point { x: 10.0, y: 5.0 };
@@ -55,10 +47,19 @@ fn run(text: &str, place: Point) -> Ran {
     }
 }
 
-/// The lane with a string replaced.
-fn lane(from: &str, to: &str) -> String {
-    replaced(LANE, &[(from, to)])
+/// The lane with other values of its robot.
+fn lane(changes: &str) -> String {
+    with(LANE, &format!("robots.ugv = {{ {changes} }}"))
 }
+
+/// The lane with other goals of its robot.
+fn to(goals: &str) -> String {
+    lane(&format!(
+        "brain.behaviours = [{{ kind = \"navigate\", {goals} }}]"
+    ))
+}
+
+const BLIND: &str = "sensors.eye.detection_probability.mine = 0";
 
 #[test]
 fn a_robot_on_the_ground_drives_around_a_mine_that_it_detects() {
@@ -74,30 +75,17 @@ fn a_robot_on_the_ground_drives_around_a_mine_that_it_detects() {
 
 #[test]
 fn a_robot_is_destroyed_by_a_mine_that_it_does_not_detect_or_believe_in() {
-    let text = lane(
-        "detection_probability = { mine = 0.9 }",
-        "detection_probability = { mine = 0 }",
-    );
-    assert_eq!(run(&text, MINE).status, Status::Broken);
-    let text = lane(
-        "kind = \"navigate\", waypoints_m = [[18, 5]], within_m = 0.5",
-        "kind = \"cruise\"",
-    );
-    assert_eq!(run(&text, MINE).status, Status::Broken);
+    for changes in [BLIND, "brain.behaviours = [{ kind = \"cruise\" }]"] {
+        assert_eq!(run(&lane(changes), MINE).status, Status::Broken);
+    }
 }
 
 #[test]
 fn a_robot_in_the_air_and_one_among_harmless_items_drive_straight() {
     for text in [
-        lane(
-            "radius_m = 0.3\nstart",
-            "radius_m = 0.3\nlayer = \"air\"\nstart",
-        ),
-        lane("hazard = { radius_m = 0.3 }\n", ""),
-        lane(
-            "radius_m = 0.3 }",
-            "radius_m = 0.3, destroy_probability = 0 }",
-        ),
+        lane("layer = \"air\""),
+        replaced(LANE, &[("hazard.radius_m = 0.3, ", "")]),
+        with(LANE, "items.mine.hazard.destroy_probability = 0"),
     ] {
         let ran = run(&text, MINE);
         assert_eq!(ran.status, Status::Active);
@@ -108,8 +96,7 @@ fn a_robot_in_the_air_and_one_among_harmless_items_drive_straight() {
 #[test]
 fn a_robot_that_stands_near_a_mine_drives_away_and_around_it() {
     // The mine is 0.62 m in front of the robot: not near enough to destroy it, but well within its disc.
-    let text = lane("at_m = [[2, 5]]", "at_m = [[9.38, 5]]");
-    let text = replaced(&text, &[("range_m = 4", "range_m = 4, noise_m = 0.1")]);
+    let text = lane("start.at_m = [[9.38, 5]], sensors.eye.noise_m = 0.1");
     let ran = run(&text, MINE);
     assert_eq!(ran.status, Status::Active);
     assert!(
@@ -126,11 +113,10 @@ fn a_goal_near_a_mine_is_reached_from_outside_its_danger() {
         ("[11.5, 5]", "0.3"),
         ("[10.5, 5.1]", "1.5"),
     ] {
-        let text = lane(
-            "waypoints_m = [[18, 5]], within_m = 0.5",
-            &format!("waypoints_m = [{goal}], within_m = {within}"),
+        let ran = run(
+            &to(&format!("waypoints_m = [{goal}], within_m = {within}")),
+            MINE,
         );
-        let ran = run(&text, MINE);
         assert_eq!(ran.status, Status::Active);
         assert!(ran.nearest_m > DANGER_M, "{goal}: {}", ran.nearest_m);
         let corner: Vec<f64> = goal
@@ -155,9 +141,8 @@ fn a_goal_near_a_mine_is_reached_from_outside_its_danger() {
 
 #[test]
 fn a_goal_that_can_only_be_reached_at_a_mine_is_left() {
-    let goals = "waypoints_m = [[10.2, 5], [3, 8]], within_m = 0.3";
-    let text = lane("waypoints_m = [[18, 5]], within_m = 0.5", goals);
-    let ran = run(&text, MINE);
+    let goals = to("waypoints_m = [[10.2, 5], [3, 8]], within_m = 0.3");
+    let ran = run(&goals, MINE);
     assert_eq!(ran.status, Status::Active);
     let away_m = ran.at.to(Point { x: 3.0, y: 8.0 }).length();
     assert!(away_m < 0.5 && ran.nearest_m > DANGER_M, "{:?}", ran.at);
@@ -167,14 +152,8 @@ fn a_goal_that_can_only_be_reached_at_a_mine_is_left() {
 #[test]
 fn a_robot_stops_before_a_row_of_mines_that_it_cannot_pass() {
     let row: Vec<String> = (0..10).map(|row| format!("[10, {row}.5]")).collect();
-    let text = replaced(
-        LANE,
-        &[
-            ("count = 1\nhazard", "count = 10\nhazard"),
-            ("at_m = [[10, 5]]", &format!("at_m = [{}]", row.join(", "))),
-            ("range_m = 4", "range_m = 12"),
-        ],
-    );
+    let row = format!("items.mine.placement.at_m = [{}]", row.join(", "));
+    let text = with(&lane("sensors.eye.range_m = 12"), &row);
     let ran = run(&text, Point { x: 10.0, y: 4.5 });
     assert_eq!(ran.status, Status::Active);
     assert!(ran.at.x < 10.0, "{:?}", ran.at);
@@ -183,20 +162,18 @@ fn a_robot_stops_before_a_row_of_mines_that_it_cannot_pass() {
 /// The robot with the eye is in the air, and reports the mine to the one on the ground.
 #[test]
 fn a_mine_that_another_robot_reports_is_avoided() {
-    let blind = lane(
-        ", detection_probability = { mine = 0.9 }",
-        ", detection_probability = { mine = 0 }",
-    );
-    let radio = "radio = { range_m = 50 }\n";
-    let team = format!(
-        "{}\n[robots.watch]\ncount = 1\nlayer = \"air\"\nradius_m = 0.2\nprice = 1\nstart = {{ kind = \"fixed\", at_m = [[10, 6]] }}\n\
-         drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{radio}\
-         sensors.place = {{ kind = \"position\" }}\nsensors.compass = {{ kind = \"heading\" }}\n\
-         sensors.eye = {{ kind = \"items\", range_m = 4, detection_probability = {{ mine = 0.9 }} }}\n\
-         brain = {{ behaviours = [{{ kind = \"hold_position\" }}] }}\n",
-        blind.replace("sensors.place", &format!("{radio}sensors.place"))
-    );
-    let mut simulation: Simulation = start(&team);
+    let watch = r#"
+robots.ugv.radio.range_m = 50
+[robots.watch]
+layer = "air"
+price = 1
+start.at_m = [[10, 6]]
+radio.range_m = 50
+sensors = { place.kind = "position", compass.kind = "heading",
+    eye = { kind = "items", range_m = 4, detection_probability.mine = 0.9 } }
+brain.behaviours = [{ kind = "hold_position" }]
+"#;
+    let mut simulation: Simulation = start(&with(&lane(BLIND), watch));
     for _ in 0..300 {
         simulation.step();
     }
@@ -209,25 +186,14 @@ fn a_mine_that_another_robot_reports_is_avoided() {
 #[test]
 fn an_item_of_uncertain_kind_is_avoided_if_a_mine_is_likely_enough() {
     for (scrap, status) in [(3, Status::Active), (19, Status::Broken)] {
-        let scrap_kind = "[items.scrap]\ncount = 1\ntarget = false\n\
-                          placement = { kind = \"fixed\", at_m = [[3, 9]] }\n[robots.ugv]";
-        let confused = "confusion = { mine = { mine = 0.5, scrap = 0.5 }, scrap = { mine = 0.5, scrap = 0.5 } }";
-        let text = replaced(
-            LANE,
-            &[
-                ("[robots.ugv]", scrap_kind),
-                (
-                    "{ mine = 0.9 }",
-                    &format!("{{ mine = 0.9, scrap = 0.9 }}, {confused}"),
-                ),
-                (
-                    "[robots.ugv.brain]",
-                    &format!(
-                        "[robots.ugv.brain]\nbeliefs.prior_count = {{ mine = 1, scrap = {scrap} }}"
-                    ),
-                ),
-            ],
+        let changes = format!(
+            "items.scrap = {{ target = false, placement.at_m = [[3, 9]] }}\n\
+             [robots.ugv]\nbrain.beliefs.prior_count = {{ mine = 1, scrap = {scrap} }}\n\
+             sensors.eye.detection_probability.scrap = 0.9\n\
+             sensors.eye.confusion = {{ mine = {{ mine = 0.5, scrap = 0.5 }}, \
+             scrap = {{ mine = 0.5, scrap = 0.5 }} }}"
         );
+        let text = with(LANE, &changes);
         assert_eq!(run(&text, MINE).status, status, "{scrap}");
     }
 }
@@ -235,20 +201,13 @@ fn an_item_of_uncertain_kind_is_avoided_if_a_mine_is_likely_enough() {
 /// A controller awards a goal at the mine to the robot, which serves it from outside and is stationary there.
 #[test]
 fn a_goal_of_a_controller_at_a_mine_is_served_from_outside() {
-    let goal = |within_m: f64| {
-        let text = lane(
-            "kind = \"navigate\", waypoints_m = [[18, 5]], within_m = 0.5",
-            "kind = \"serve\"",
-        );
-        let text = text.replace("sensors.place", "radio = { range_m = 50 }\nsensors.place");
-        format!(
-            "{text}[goals.spot]\ncount = 1\nwithin_m = {within_m}\nservice_s = 2\n\
-             placement = {{ kind = \"fixed\", at_m = [[10, 5]] }}\n\
-             [controllers.base]\ncount = 1\nstart = {{ kind = \"fixed\", at_m = [[1, 9]] }}\nradio = {{ range_m = 50 }}\n"
-        )
-    };
+    let text = lane("radio.range_m = 50, brain.behaviours = [{ kind = \"serve\" }]");
     for (within_m, served) in [(1.5, 1), (0.5, 0)] {
-        let mut simulation = start(&goal(within_m));
+        let goal = format!(
+            "controllers.base = {{ start.at_m = [[1, 9]], radio.range_m = 50 }}\n\
+             goals.spot = {{ within_m = {within_m}, service_s = 2, placement.at_m = [[10, 5]] }}"
+        );
+        let mut simulation = start(&with(&text, &goal));
         let mut nearest_m = f64::INFINITY;
         for _ in 0..590 {
             simulation.step();
@@ -265,25 +224,19 @@ fn a_goal_of_a_controller_at_a_mine_is_served_from_outside() {
 /// that more than 6 of 20 cross with a probability below 1e-3. The seeds are fixed.
 #[test]
 fn a_minefield_is_crossed_between_the_mines() {
-    let field = replaced(
-        LANE,
-        &[
-            ("size_m = [20, 10]", "size_m = [40, 20]"),
-            ("count = 1\nhazard", "count = 40\nhazard"),
-            (
-                "{ kind = \"fixed\", at_m = [[10, 5]] }",
-                "{ kind = \"uniform\", within_m = [[3, 0], [37, 20]] }",
-            ),
-            ("at_m = [[2, 5]]", "at_m = [[1, 10]]"),
-            ("waypoints_m = [[18, 5]]", "waypoints_m = [[39, 10]]"),
-            ("time_limit_s = 60", "time_limit_s = 200"),
-            ("range_m = 4", "range_m = 4, noise_m = 0.2"),
-            ("kind = \"position\"", "kind = \"position\", noise_m = 0.1"),
-        ],
-    );
+    let field = r#"
+clock.time_limit_s = 200
+world.size_m = [40, 20]
+items.mine = { count = 40, placement = { kind = "uniform", within_m = [[3, 0], [37, 20]] } }
+[robots.ugv]
+start.at_m = [[1, 10]]
+sensors = { eye.noise_m = 0.2, place.noise_m = 0.1 }
+brain.behaviours = [{ kind = "navigate", waypoints_m = [[39, 10]], within_m = 0.5 }]
+"#;
+    let field = with(LANE, field);
     let [lost, across] = crossings(&field);
     assert!(lost <= 1 && across >= 18, "{lost} lost, {across} across");
-    let [_, across] = crossings(&replaced(&field, &[("mine = 0.9", "mine = 0")]));
+    let [_, across] = crossings(&field.replace("mine = 0.9", "mine = 0"));
     assert!(across <= 6, "{across} blind robots across");
 }
 

@@ -1,7 +1,7 @@
 //! Items that destroy robots.
 
 use super::acts::{LANE, OAV, UGV, act};
-use crate::common::{go, read, replaced, scenario, start, step_with};
+use crate::common::{go, read, scenario, start, step_with, with};
 use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
 use brain::{ActKind, Command};
@@ -12,15 +12,11 @@ use sim::simulation::Simulation;
 
 /// The lane with a dangerous mine, 1 m in front of the robot on the ground.
 fn lane(hazard: &str) -> String {
-    let hazard = format!("completed_by = \"neutralised\"\nhazard = {{ {hazard} }}");
-    replaced(
-        LANE,
-        &[
-            ("completed_by = \"neutralised\"", &hazard),
-            ("heading_deg = [90]", "heading_deg = [0]"),
-            ("at_m = [[3, 8]]", "at_m = [[4, 5.6]]"),
-        ],
-    )
+    let changes = format!(
+        "items.mine.hazard = {{ {hazard} }}\nrobots.oav.start.at_m = [[4, 5.6]]\n\
+         robots.ugv.start.heading_deg = [0]"
+    );
+    with(LANE, &changes)
 }
 
 /// Drives both robots past the mine, the one on the ground over it.
@@ -116,9 +112,9 @@ fn columns_of_acts_exist_only_where_anything_can_happen_to_items_and_are_bounded
             .map(|column| (column.name.into_owned(), column.bounds.max))
             .collect::<Vec<_>>()
     };
-    let with = names(&lane("radius_m = 0.2"));
+    let bounds = names(&lane("radius_m = 0.2"));
     let max = |name: &str| {
-        let column = with.iter().find(|(column, _)| column == name);
+        let column = bounds.iter().find(|(column, _)| column == name);
         column.unwrap_or_else(|| panic!("{name}")).1
     };
     for (name, bound) in [
@@ -135,31 +131,22 @@ fn columns_of_acts_exist_only_where_anything_can_happen_to_items_and_are_bounded
         assert_eq!(max(name), Some(bound), "{name}");
     }
     let end = LANE.find("[robots.ugv.tools]").unwrap();
-    let plain = replaced(
-        &LANE[..end],
-        &[
-            ("completed_by = \"neutralised\"\n", ""),
-            ("tools = { mark = { range_m = 20 } }\n", ""),
-        ],
-    );
+    let plain = LANE[..end]
+        .replace("completed_by = \"neutralised\", ", "")
+        .replace("tools.mark.range_m = 20\n", "");
     assert!(names(&plain).iter().all(|(name, _)| name != "left"));
-    let varied = format!(
-        "{plain}[study]\nvary = {{ \"items.mine.completed_by\" = \"detected,confirmed\" }}\n"
+    let varied = "study.vary = { \"items.mine.completed_by\" = \"detected,confirmed\" }";
+    assert!(
+        names(&with(&plain, varied))
+            .iter()
+            .any(|(name, _)| name == "left")
     );
-    assert!(names(&varied).iter().any(|(name, _)| name == "left"));
 }
 
 #[test]
 fn outcomes_of_runs_with_hazards_are_in_their_columns() {
-    let text = lane("radius_m = 0.2");
-    let text = replaced(
-        &text,
-        &[(
-            "payload_kg = 2",
-            "payload_kg = 2\nbrain = { behaviours = [{ kind = \"cruise\" }] }",
-        )],
-    );
-    let runs = Runs(scenario(&text));
+    let cruise = "robots.ugv.brain.behaviours = [{ kind = \"cruise\" }]";
+    let runs = Runs(scenario(&with(&lane("radius_m = 0.2"), cruise)));
     let values = runs.run_block(1, 0..2, BlockOptions::ALONE);
     let columns = runs.columns();
     let value = |name: &str| {

@@ -17,20 +17,17 @@ const ITEMS: u32 = 400;
 const LOOKS: u32 = 12;
 
 const TEXT: &str = "
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [20, 20] }
-[items.clutter]
-count = 400
-[items.mine]
-count = 400
+world.size_m = [20, 20]
+items.clutter.count = 400
+items.mine.count = 400
 ";
 
 /// A kind of stationary robots, with an item detector for the whole world.
 fn watcher(name: &str, x: f64, lines: &str) -> String {
     format!(
-        "[robots.{name}]\ncount = 1\nradius_m = 0\nlayer = \"air\"\n\
-         start = {{ kind = \"fixed\", at_m = [[{x}, 10]], heading_deg = [0] }}\n\
-         drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\nbrain = {{ behaviours = [] }}\n\
+        "[robots.{name}]\nradius_m = 0\nlayer = \"air\"\nbrain.behaviours = []\n\
+         start = {{ at_m = [[{x}, 10]], heading_deg = [0] }}\n\
+         drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
          [robots.{name}.sensors.eye]\nkind = \"items\"\nrange_m = 40\nneeds_line_of_sight = false\n\
          detection_probability = {{ clutter = 0.9, mine = 0.9 }}\n{lines}\n"
     )

@@ -1,12 +1,12 @@
 //! Inspection of a robot: its percept and decision are reported, without an effect on the run.
 
-use crate::common::{id, read, robots, start};
+use crate::common::{id, read, robots, start, with};
 use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// Rovers whose brains run in every third step, and birds that flock.
 const TEAM: &str = "
-clock = { time_limit_s = 200 }
+clock.time_limit_s = 200
 world = { size_m = [25, 25], obstacles = [{ circle = { at_m = [12, 12], radius_m = 3 } }] }
 items.mine = { count = 3 }
 [robots.bird]
@@ -109,7 +109,7 @@ fn a_removed_or_stopped_robot_has_no_inspection() {
     simulation.inspect(None);
     assert_eq!(simulation.inspection(), None);
     let mut simulation = inspecting(ROVER);
-    let fewer = TEAM.replace("[robots.rover]\ncount = 3", "[robots.rover]\ncount = 1");
+    let fewer = with(TEAM, "robots.rover.count = 1");
     simulation.change(Arc::new(read(&fewer).unwrap())).unwrap();
     assert_eq!(simulation.inspection(), None);
 }

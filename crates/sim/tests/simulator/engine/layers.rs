@@ -1,27 +1,25 @@
 //! Ground and air layers: collisions, terrain and visibility across layers.
 
-use crate::common::{drive, go, id, robots, start, step_with};
+use crate::common::{drive, go, id, robots, start, step_with, with};
 use sim::simulation::Simulation;
 
 /// Rovers and birds on lines along x with a pillar, in a field of 20 m with mud.
-const FIELD: &str = "
-clock = { step_s = 0.1, time_limit_s = 100 }
-world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
+const FIELD: &str = r#"
+clock.time_limit_s = 100
+world.obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
 terrain.mud = { speed = 0.5, areas_m = [[[0, 7], [20, 7], [20, 10], [0, 10]]] }
 [robots.bird]
-count = 3
-layer = \"air\"
+layer = "air"
 radius_m = 0.5
-start = { kind = \"fixed\", at_m = [[4, 5], [2, 2], [16, 2]], heading_deg = [0, 0, 180] }
+start = { at_m = [[4, 5], [2, 2], [16, 2]], heading_deg = [0, 0, 180] }
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-sensors.sonar = { kind = \"range\", rays = 1, range_m = 18 }
+sensors.sonar = { kind = "range", rays = 1, range_m = 18 }
 [robots.rover]
-count = 3
 radius_m = 0.5
-start = { kind = \"fixed\", at_m = [[4, 5], [10, 2], [4, 8]], heading_deg = [0, 0, 0] }
+start = { at_m = [[4, 5], [10, 2], [4, 8]], heading_deg = [0, 0, 0] }
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-sensors.sonar = { kind = \"range\", rays = 1, range_m = 18 }
-";
+sensors.sonar = { kind = "range", rays = 1, range_m = 18 }
+"#;
 
 fn all_ahead(simulation: &mut Simulation, steps: u32) {
     let ids = robots(simulation).into_iter().map(|robot| robot.id);
@@ -66,11 +64,8 @@ fn terrain_slows_robots_on_the_ground() {
     all_ahead(&mut simulation, 10);
     let all = robots(&simulation);
     assert!((all[5].distance_m - 1.0).abs() < 1e-9 && (all[5].speed_m_s - 1.0).abs() < 1e-12);
-    let text = FIELD.replace(
-        "at_m = [[4, 5], [2, 2], [16, 2]]",
-        "at_m = [[4, 8], [2, 2], [16, 2]]",
-    );
-    let mut simulation = start(&text);
+    let in_mud = "robots.bird.start.at_m = [[4, 8], [2, 2], [16, 2]]";
+    let mut simulation = start(&with(FIELD, in_mud));
     all_ahead(&mut simulation, 10);
     assert!(
         (robots(&simulation)[0].distance_m - 2.0).abs() < 1e-9,
@@ -101,14 +96,12 @@ fn constant_speed_and_turn_rate_give_an_exact_circle() {
 /// The number of neighbours that a bird sees: another robot is across a wall.
 fn across_a_wall(other: &str) -> usize {
     let text = format!(
-        "[clock]\nstep_s = 0.1\ntime_limit_s = 10\n[world]\nsize_m = [20, 10]\n\
-         obstacles = [{{ polygon_m = [[9, 1], [10, 1], [10, 9], [9, 9]] }}]\n\
-         [robots.bird]\ncount = 1\nlayer = \"air\"\nradius_m = 0.5\n\
-         start = {{ kind = \"fixed\", at_m = [[5, 5]] }}\n\
+        "clock.time_limit_s = 10\n\
+         world.obstacles = [{{ polygon_m = [[9, 1], [10, 1], [10, 9], [9, 9]] }}]\n\
+         [robots.bird]\nlayer = \"air\"\nradius_m = 0.5\nstart.at_m = [[5, 5]]\n\
          drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 90 }}\n\
-         sensors = {{ eye = {{ kind = \"robots\", range_m = 15 }} }}\n\
-         [robots.other]\ncount = 1\nlayer = \"{other}\"\nradius_m = 0.5\n\
-         start = {{ kind = \"fixed\", at_m = [[15, 5]] }}\n\
+         sensors.eye = {{ kind = \"robots\", range_m = 15 }}\n\
+         [robots.other]\nlayer = \"{other}\"\nradius_m = 0.5\nstart.at_m = [[15, 5]]\n\
          drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 90 }}\n"
     );
     let percept = start(&text).percept(id(0, 0)).unwrap().unwrap();

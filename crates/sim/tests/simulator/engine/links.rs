@@ -10,12 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 fn field(world: &str, kinds: &[(&str, &str)]) -> Simulation {
     let kinds = kinds.iter().zip(["alpha", "beta", "gamma"]);
     let kinds = kinds.map(|((places, more), name)| {
-        let count = places.matches('[').count() - 1;
-        format!(
-            "[robots.{name}]\ncount = {count}\nradius_m = 0.2\n\
-             start = {{ kind = \"fixed\", at_m = {places} }}\nbrain = {{ behaviours = [] }}\n\
-             drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{more}\n"
-        )
+        format!("[robots.{name}]\nstart.at_m = {places}\nbrain.behaviours = []\n{more}\n")
     });
     start(&format!(
         "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [40, 20]\n{world}\n\

@@ -124,10 +124,10 @@ fn text(bodies: &[Body], names: [&str; 3], order: [usize; 3]) -> String {
             headings.join(", ")
         )
     });
-    let kinds: Vec<String> = kinds.collect();
+    let world = "[clock]\nstep_s = 1\ntime_limit_s = 100\n[world]\n";
     format!(
-        "[clock]\nstep_s = 1\ntime_limit_s = 100\n[world]\nsize_m = [{SIDE_M}, {SIDE_M}]\n{}",
-        kinds.concat()
+        "{world}size_m = [{SIDE_M}, {SIDE_M}]\n{}",
+        kinds.collect::<String>()
     )
 }
 

@@ -10,11 +10,8 @@ use sim::world::obstacles::Solid;
 /// Rovers that search among these obstacles.
 fn hall(obstacles: &str) -> String {
     format!(
-        "clock = {{ time_limit_s = 60 }}\nworld = {{ size_m = [20, 12], obstacles = [{obstacles}] }}\n\
-         [items.parcel]\ncount = 5\n\
-         [robots.rover]\ncount = 3\nradius_m = 0.3\n\
-         drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
-         [robots.rover.sensors]\n\
+        "world = {{ size_m = [20, 12], obstacles = [{obstacles}] }}\nitems.parcel.count = 5\n\
+         [robots.rover]\ncount = 3\nradius_m = 0.3\n[robots.rover.sensors]\n\
          sonar = {{ kind = \"range\", rays = 12, range_m = 3, noise_m = 0.02 }}\n\
          camera = {{ kind = \"items\", range_m = 1.5, needs_line_of_sight = true }}\n"
     )

@@ -18,10 +18,10 @@ fn world(more: &str, kinds: &str) -> String {
 
 /// A kind of robots at given positions, facing along x.
 fn kind(name: &str, places: &[[f64; 2]], more: &str) -> String {
-    let (count, headings) = (places.len(), vec![0.0; places.len()]);
+    let headings = vec![0.0; places.len()];
     format!(
-        "[robots.{name}]\ncount = {count}\nradius_m = 0.2\n\
-         start = {{ kind = \"fixed\", at_m = {places:?}, heading_deg = {headings:?} }}\n\
+        "[robots.{name}]\n\
+         start = {{ at_m = {places:?}, heading_deg = {headings:?} }}\n\
          drive = {{ max_speed_m_s = 5, max_turn_rate_deg_s = 90 }}\n{more}\n"
     )
 }
@@ -196,9 +196,7 @@ fn busy(seed: u64, by: Point) -> Simulation {
     let lattice = (0..20_u32).map(|number| [number % 5, number / 5]);
     let places = lattice.map(|place| moved(Point::from(place.map(|at| 4.0 * f64::from(at)))));
     let rovers = format!(
-        "[items.mine]\ncount = 40\nplacement = {{ kind = \"fixed\", at_m = {mines:?} }}\n\
-         [robots.rover]\ncount = 20\nradius_m = 0.2\n\
-         start = {{ kind = \"fixed\", at_m = {:?} }}\n\
+        "[items.mine]\nplacement.at_m = {mines:?}\n[robots.rover]\nstart.at_m = {:?}\n\
          drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 90 }}\n\
          sensors.sonar = {{ kind = \"range\", rays = 8, range_m = 1.5, noise_m = 0.01 }}\n\
          sensors.eye = {{ kind = \"items\", range_m = 1, noise_m = 0.1, detection_probability = {{ mine = 0.2 }} }}\n\
@@ -212,8 +210,7 @@ fn busy(seed: u64, by: Point) -> Simulation {
 
 #[test]
 fn point_bodies_never_collide() {
-    let points = kind("point", &[[8.0, 8.0], [12.0, 8.0]], "");
-    let points = points.replace("radius_m = 0.2", "radius_m = 0");
+    let points = kind("point", &[[8.0, 8.0], [12.0, 8.0]], "radius_m = 0");
     let mut simulation = start(&world("", &points));
     drive(
         &mut simulation,

@@ -6,16 +6,11 @@ use sim::simulation::Simulation;
 
 /// Robots on a line through the middle of a field of 40 m with a wall at 30 m.
 fn line(radio: &str, waypoints_m: &[f64], more: &str) -> String {
-    let places: Vec<String> = waypoints_m.iter().map(|x| format!("[{x}, 10]")).collect();
+    let places: Vec<[f64; 2]> = waypoints_m.iter().map(|x| [*x, 10.0]).collect();
     format!(
-        "[clock]\nstep_s = 0.1\ntime_limit_s = 100000\n[world]\nsize_m = [40, 20]\n\
-         obstacles = [{{ polygon_m = [[30, 9], [30.1, 9], [30.1, 11], [30, 11]] }}]\n\
-         [robots.rover]\ncount = {}\nradius_m = 0.2\n\
-         start = {{ kind = \"fixed\", at_m = [{}] }}\n\
-         drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\nbrain = {{ behaviours = [] }}\n\
-         radio = {{ {radio} }}\n{more}",
-        places.len(),
-        places.join(", ")
+        "clock.time_limit_s = 100000\nworld.size_m = [40, 20]\n\
+         world.obstacles = [{{ polygon_m = [[30, 9], [30.1, 9], [30.1, 11], [30, 11]] }}]\n\
+         [robots.rover]\nstart.at_m = {places:?}\nbrain.behaviours = []\nradio = {{ {radio} }}\n{more}"
     )
 }
 
@@ -225,9 +220,8 @@ fn obstacles_block_a_radio_that_needs_line_of_sight() {
 
 #[test]
 fn a_slow_brain_receives_each_message_since_its_last_step_once() {
-    let slow = "[robots.slow]\ncount = 1\nradius_m = 0.2\nbrain = { rate_hz = 1, behaviours = [] }\n\
-                start = { kind = \"fixed\", at_m = [[9, 10]] }\nradio = { range_m = 5 }\n\
-                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let slow = "[robots.slow]\nbrain = { rate_hz = 1, behaviours = [] }\n\
+                start.at_m = [[9, 10]]\nradio.range_m = 5\n";
     let mut simulation = start(&line("range_m = 5", &[10.0], slow));
     let mut received = Vec::new();
     for step in 0..41_u32 {
@@ -248,9 +242,7 @@ fn a_slow_brain_receives_each_message_since_its_last_step_once() {
 
 #[test]
 fn a_robot_without_radio_neither_sends_nor_receives() {
-    let mute = "[robots.zero]\ncount = 1\nradius_m = 0.2\n\
-                start = { kind = \"fixed\", at_m = [[9, 10]] }\n\
-                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let mute = "[robots.zero]\nstart.at_m = [[9, 10]]\n";
     let mut simulation = start(&line("range_m = 5", &[10.0, 11.0], mute));
     let all = [id(0, 0), id(1, 0)].map(|id| (id, send(&[message(0.0)])));
     step_with(&mut simulation, all);
@@ -261,9 +253,8 @@ fn a_robot_without_radio_neither_sends_nor_receives() {
 #[test]
 fn a_stopped_robot_neither_sends_nor_receives() {
     // The battery of the first is empty after the second step.
-    let weak = "[robots.alpha]\ncount = 1\nradius_m = 0.2\nbattery = { capacity_j = 2, idle_w = 10 }\n\
-                start = { kind = \"fixed\", at_m = [[9, 10]] }\nradio = { range_m = 5, delay_s = 0.2 }\n\
-                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\nbrain = { behaviours = [] }\n";
+    let weak = "[robots.alpha]\nbattery = { capacity_j = 2, idle_w = 10 }\nstart.at_m = [[9, 10]]\n\
+                radio = { range_m = 5, delay_s = 0.2 }\nbrain.behaviours = []\n";
     let mut simulation = start(&line("range_m = 5", &[10.0], weak));
     let both = [id(0, 0), id(1, 0)].map(|id| (id, send(&[message(0.0)])));
     let mut received = Vec::new();

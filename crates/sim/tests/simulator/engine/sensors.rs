@@ -1,25 +1,36 @@
 //! Measurements of each sensor: values, rates, latencies and errors.
 
-use crate::common::{first, go, id, start, step_with};
+use crate::common::{first, go, id, start, step_with, with};
 use brain::{Command, Percept, SensorRequest};
 use sim::simulation::Simulation;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const STEP_S: f64 = 0.1;
 
+const ROOM: &str = "
+clock.time_limit_s = 100000
+world.size_m = [20, 20]
+world.obstacles = [{ polygon_m = [[13, 9], [13.5, 9], [13.5, 11], [13, 11]] }]
+[robots.rover]
+radius_m = 0.5
+start = { at_m = [[10, 10]], heading_deg = [0] }
+drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 180 }
+";
+
 /// A robot with sensors in the middle of a room of 20 m, facing along x; `more` adds other kinds.
 fn room(sensors: &str, more: &str) -> String {
-    format!(
-        "[clock]\nstep_s = {STEP_S}\ntime_limit_s = 100000\n[world]\nsize_m = [20, 20]\n\
-         obstacles = [{{ polygon_m = [[13, 9], [13.5, 9], [13.5, 11], [13, 11]] }}]\n\
-         [robots.rover]\ncount = 1\nradius_m = 0.5\n\
-         start = {{ kind = \"fixed\", at_m = [[10, 10]], heading_deg = [0] }}\n\
-         drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 180 }}\n{more}\n{sensors}\n"
+    with(
+        ROOM,
+        &format!("robots.rover.sensors = {{ {sensors} }}\n{more}"),
     )
 }
 
-fn sensor(name: &str, rest: &str) -> String {
-    format!("[robots.rover.sensors.{name}]\n{rest}\n")
+/// Robots of 0.1 m that do not move.
+fn stones(places: &str) -> String {
+    format!(
+        "robots.stone = {{ start.at_m = {places}, radius_m = 0.1, \
+         drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }} }}\n"
+    )
 }
 
 fn rover(simulation: &mut Simulation) -> Option<Percept> {
@@ -84,13 +95,11 @@ fn newest(now: u32, rate_hz: f64, latency_s: f64) -> Option<u32> {
 fn a_reading_is_the_newest_available_measurement_with_its_age() {
     for rate_hz in [10.0, 5.0, 4.0, 3.0, 0.7] {
         for latency_s in [0.0, 0.03, 0.1, 0.25, 1.0, 2.1] {
-            let timing = format!("rate_hz = {rate_hz}\nlatency_s = {latency_s}");
-            let sensors = sensor("compass", &format!("kind = \"heading\"\n{timing}"))
-                + &sensor("gps", &format!("kind = \"position\"\n{timing}"))
-                + &sensor(
-                    "sonar",
-                    &format!("kind = \"range\"\nrays = 4\nrange_m = 15\n{timing}"),
-                );
+            let timing = format!("rate_hz = {rate_hz}, latency_s = {latency_s}");
+            let sensors = format!(
+                "compass = {{ kind = \"heading\", {timing} }}, gps = {{ kind = \"position\", {timing} }}, \
+                 sonar = {{ kind = \"range\", rays = 4, range_m = 15, {timing} }}"
+            );
             let mut simulation = start(&room(&sensors, ""));
             let (mut places, mut headings) = (Vec::new(), Vec::new());
             for now in 0..60 {
@@ -135,18 +144,16 @@ fn a_reading_is_the_newest_available_measurement_with_its_age() {
 #[test]
 fn measurements_drop_out_with_the_configured_probability() {
     let out = "dropout_probability = 0.3";
-    let sensors = sensor("compass", &format!("kind = \"heading\"\n{out}"))
-        + &sensor("gps", &format!("kind = \"position\"\n{out}"))
-        + &sensor(
-            "sonar",
-            &format!("kind = \"range\"\nrays = 4\nrange_m = 15\n{out}"),
-        )
-        + &sensor("eye", &format!("kind = \"items\"\nrange_m = 5\n{out}"))
-        + &sensor("mates", &format!("kind = \"robots\"\nrange_m = 5\n{out}"));
-    let more = "[items.mine]\ncount = 1\nplacement = { kind = \"fixed\", at_m = [[11, 11]] }\n\
-                [robots.stone]\ncount = 1\nradius_m = 0.1\ndrive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n\
-                start = { kind = \"fixed\", at_m = [[9, 9]] }";
-    let all = standing(&room(&sensors, more), 20_000);
+    let sensors = format!(
+        "compass = {{ kind = \"heading\", {out} }}, gps = {{ kind = \"position\", {out} }}, \
+         sonar = {{ kind = \"range\", rays = 4, range_m = 15, {out} }}, \
+         eye = {{ kind = \"items\", range_m = 5, {out} }}, mates = {{ kind = \"robots\", range_m = 5, {out} }}"
+    );
+    let more = format!(
+        "items.mine.placement.at_m = [[11, 11]]\n{}",
+        stones("[[9, 9]]")
+    );
+    let all = standing(&room(&sensors, &more), 20_000);
     let count = |has: &dyn Fn(&Percept) -> bool| all.iter().filter(|percept| has(percept)).count();
     let has: [&dyn Fn(&Percept) -> bool; 5] = [
         &|percept| percept.heading_rad.is_some_and(|read| read.age_s == 0.0),
@@ -165,11 +172,8 @@ fn measurements_drop_out_with_the_configured_probability() {
 
 #[test]
 fn a_dropped_measurement_keeps_the_previous_value_however_many_follow() {
-    let sensors = sensor(
-        "gps",
-        "kind = \"position\"\nrate_hz = 2\ndropout_probability = 0.5",
-    );
-    let all = standing(&room(&sensors, ""), 4000);
+    let sensors = "gps = { kind = \"position\", rate_hz = 2, dropout_probability = 0.5 }";
+    let all = standing(&room(sensors, ""), 4000);
     let ages = all
         .iter()
         .filter_map(|percept| percept.position.map(|read| read.age_s));
@@ -190,10 +194,9 @@ fn a_dropped_measurement_keeps_the_previous_value_however_many_follow() {
 
 #[test]
 fn a_late_measurement_arrives_although_others_drop_out() {
-    for rate in ["", "rate_hz = 4"] {
-        let timing =
-            format!("kind = \"position\"\nlatency_s = 0.7\ndropout_probability = 0.6\n{rate}");
-        let all = standing(&room(&sensor("gps", &timing), ""), 4000);
+    for rate in ["", "gps.rate_hz = 4, "] {
+        let late = "gps.kind = \"position\", gps.latency_s = 0.7, gps.dropout_probability = 0.6";
+        let all = standing(&room(&format!("{rate}{late}"), ""), 4000);
         let ages: Vec<f64> = all
             .iter()
             .filter_map(|percept| percept.position.map(|read| read.age_s))
@@ -212,9 +215,9 @@ fn a_late_measurement_arrives_although_others_drop_out() {
 
 #[test]
 fn errors_of_position_and_heading_have_the_configured_moments() {
-    let sensors = sensor("compass", "kind = \"heading\"\nnoise_deg = 5")
-        + &sensor("gps", "kind = \"position\"\nnoise_m = 2");
-    let all = standing(&room(&sensors, ""), 20_000);
+    let sensors = "compass = { kind = \"heading\", noise_deg = 5 }, \
+                   gps = { kind = \"position\", noise_m = 2 }";
+    let all = standing(&room(sensors, ""), 20_000);
     let position = |axis: fn(&base::geometry::Point) -> f64| -> Vec<f64> {
         all.iter()
             .map(|percept| axis(&percept.position.unwrap().value))
@@ -238,8 +241,8 @@ fn errors_of_position_and_heading_have_the_configured_moments() {
 
 #[test]
 fn a_heading_is_normalised_for_any_error() {
-    let sensors = sensor("compass", "kind = \"heading\"\nnoise_deg = 360");
-    let all = standing(&room(&sensors, ""), 1000);
+    let sensors = "compass = { kind = \"heading\", noise_deg = 360 }";
+    let all = standing(&room(sensors, ""), 1000);
     let headings = all.iter().map(|percept| percept.heading_rad.unwrap().value);
     assert!(
         headings
@@ -249,13 +252,9 @@ fn a_heading_is_normalised_for_any_error() {
 }
 
 /// The contacts of a robot in the room with mines at given positions.
-fn seen(sensor_text: &str, at_m: &str, count: u32) -> Vec<(f64, f64)> {
-    let more =
-        format!("[items.mine]\ncount = {count}\nplacement = {{ kind = \"fixed\", at_m = {at_m} }}");
-    let text = room(
-        &sensor("eye", &format!("kind = \"items\"\n{sensor_text}")),
-        &more,
-    );
+fn seen(eye: &str, at_m: &str) -> Vec<(f64, f64)> {
+    let eye = format!("eye = {{ kind = \"items\", {eye} }}");
+    let text = room(&eye, &format!("items.mine.placement.at_m = {at_m}"));
     let percept = rover(&mut start(&text)).unwrap();
     percept
         .contacts
@@ -269,7 +268,7 @@ fn items_are_detected_in_range_in_the_field_of_view_and_in_line_of_sight() {
     // Ahead, left, behind and right, at 2, 2.01 and 4 m; 4 m is behind the wall.
     let places = "[[12, 10], [10, 12], [8, 10], [10, 8], [10, 12.01], [14, 10]]";
     let bearings = |sensor: &str| {
-        let mut seen: Vec<i32> = seen(sensor, places, 6)
+        let mut seen: Vec<i32> = seen(sensor, places)
             .iter()
             .map(|(_, rad)| rad.to_degrees().round() as i32)
             .collect();
@@ -279,29 +278,29 @@ fn items_are_detected_in_range_in_the_field_of_view_and_in_line_of_sight() {
     assert_eq!(bearings("range_m = 2"), [-90, 0, 90, 180]);
     assert_eq!(bearings("range_m = 5"), [-90, 0, 90, 90, 180]);
     assert_eq!(
-        bearings("range_m = 5\nneeds_line_of_sight = false"),
+        bearings("range_m = 5, needs_line_of_sight = false"),
         [-90, 0, 0, 90, 90, 180]
     );
-    assert_eq!(bearings("range_m = 2\nfov_deg = 179"), [0]);
-    assert_eq!(bearings("range_m = 2\nfov_deg = 181"), [-90, 0, 90]);
+    assert_eq!(bearings("range_m = 2, fov_deg = 179"), [0]);
+    assert_eq!(bearings("range_m = 2, fov_deg = 181"), [-90, 0, 90]);
     assert_eq!(
-        bearings("range_m = 2\nfov_deg = 100\nfacing_deg = 90"),
+        bearings("range_m = 2, fov_deg = 100, facing_deg = 90"),
         [90]
     );
     assert_eq!(
-        bearings("range_m = 2\nfov_deg = 100\nfacing_deg = 180"),
+        bearings("range_m = 2, fov_deg = 100, facing_deg = 180"),
         [180]
     );
     assert_eq!(bearings("range_m = 1.99"), [0; 0]);
-    let ahead = seen("range_m = 2\nfov_deg = 10", places, 6);
+    let ahead = seen("range_m = 2, fov_deg = 10", places);
     assert!((ahead[0].0 - 2.0).abs() < 1e-12 && ahead[0].1.abs() < 1e-12);
 }
 
 #[test]
 fn contacts_have_the_configured_noise() {
-    let sensors = sensor("eye", "kind = \"items\"\nrange_m = 5\nnoise_m = 0.5");
-    let more = "[items.mine]\ncount = 1\nplacement = { kind = \"fixed\", at_m = [[10, 12]] }";
-    let all = standing(&room(&sensors, more), 20_000);
+    let sensors = "eye = { kind = \"items\", range_m = 5, noise_m = 0.5 }";
+    let more = "items.mine.placement.at_m = [[10, 12]]";
+    let all = standing(&room(sensors, more), 20_000);
     let place = |part: fn(f64) -> f64, turn: f64| -> Vec<f64> {
         let contacts = all.iter().map(|percept| percept.contacts[0]);
         contacts
@@ -314,22 +313,14 @@ fn contacts_have_the_configured_noise() {
 
 #[test]
 fn items_are_detected_with_the_probability_of_their_kind_and_distance() {
-    let sensors = sensor(
-        "eye",
-        "kind = \"items\"\nrange_m = 5\n\
-         detection_probability = { mine = 0.3, flag = [[1, 0.9], [3, 0.1]], rock = { peak = 0.8, half_range_m = 2 } }",
-    );
-    let item = |name: &str, x: f64| {
-        format!(
-            "[items.{name}]\ncount = 1\nplacement = {{ kind = \"fixed\", at_m = [[{x}, 10]] }}\n"
-        )
-    };
-    let more = item("mine", 9.0)
-        + &item("flag", 8.0)
-        + &item("rock", 8.0)
-        + &item("cow", 8.5)
-        + "target = false\n";
-    let all = standing(&room(&sensors, &more), 20_000);
+    let sensors = "eye = { kind = \"items\", range_m = 5, detection_probability = \
+                   { mine = 0.3, flag = [[1, 0.9], [3, 0.1]], rock = { peak = 0.8, half_range_m = 2 } } }";
+    let more = "[items]
+mine.placement.at_m = [[9, 10]]
+flag.placement.at_m = [[8, 10]]
+rock.placement.at_m = [[8, 10]]
+cow = { placement.at_m = [[8.5, 10]], target = false }";
+    let all = standing(&room(sensors, more), 20_000);
     // Kinds are in alphabetical order: cow, flag, mine, rock.
     for (kind, share) in [(0, 0.0), (1, 0.5), (2, 0.3), (3, 0.4)] {
         let contacts = all.iter().flat_map(|percept| &percept.contacts);
@@ -352,15 +343,11 @@ fn the_number_of_false_alarms_is_proportional_to_the_visible_area() {
     // A quarter of a circle with a radius of 4 m, for 0.2 s.
     let mean = 0.02 * FRAC_PI_2 / 2.0 * 16.0 * 0.2;
     for facing_deg in [90, -90] {
-        let sensors = sensor(
-            "eye",
-            &format!(
-                "kind = \"items\"\nrange_m = 4\nfov_deg = 90\nfacing_deg = {facing_deg}\nrate_hz = 5\n\
-                 detection_probability = {{}}\nfalse_alarm_rate_per_m2_s = {{ mine = 0.02 }}\nnoise_m = 3"
-            ),
+        let sensors = format!(
+            "eye = {{ kind = \"items\", range_m = 4, fov_deg = 90, facing_deg = {facing_deg}, rate_hz = 5, \
+             detection_probability = {{}}, false_alarm_rate_per_m2_s.mine = 0.02, noise_m = 3 }}"
         );
-        let more =
-            "[items.mine]\ncount = 1\ntarget = false\n[items.cow]\ncount = 1\ntarget = false";
+        let more = "items = { mine.target = false, cow.target = false }";
         let mut simulation = start(&room(&sensors, more));
         let all = percepts(&mut simulation, 40_000, &go(0.0, 0.0));
         let scans: Vec<&Percept> = all.iter().step_by(2).flatten().collect();
@@ -394,15 +381,14 @@ fn the_number_of_false_alarms_is_proportional_to_the_visible_area() {
     }
 }
 
+/// A detector that reports only false alarms.
+const ALARMS: &str = "eye.kind = \"items\", eye.range_m = 30, eye.detection_probability = {}, \
+                      eye.false_alarm_rate_per_m2_s.mine = 0.01";
+
 #[test]
 fn false_alarms_are_in_the_visible_area() {
     // The border is 10 m away: half of a range of 20 m is beyond it or behind the wall.
-    let sensors = sensor(
-        "eye",
-        "kind = \"items\"\nrange_m = 30\ndetection_probability = {}\nfalse_alarm_rate_per_m2_s = { mine = 0.01 }",
-    );
-    let more = "[items.mine]\ncount = 1\ntarget = false";
-    let all = standing(&room(&sensors, more), 4_000);
+    let all = standing(&room(ALARMS, "items.mine.target = false"), 4_000);
     let counts: Vec<f64> = all
         .iter()
         .map(|percept| percept.contacts.len() as f64)
@@ -417,17 +403,14 @@ fn false_alarms_are_in_the_visible_area() {
 #[test]
 fn a_slow_brain_receives_every_contact_between_its_steps_once() {
     for latency_s in [0.0, 0.3, 1.5] {
-        let timing = format!("latency_s = {latency_s}\nrange_m = 5");
-        let sensors = sensor("eye", &format!("kind = \"items\"\n{timing}"))
-            + &sensor(
-                "mates",
-                &format!("kind = \"robots\"\nrate_hz = 5\n{timing}"),
-            );
-        let more = "[robots.rover.brain]\nrate_hz = 1\nbehaviours = []\n[robots.stone]\ncount = 2\nradius_m = 0.1\n\
-                    drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n\
-                    start = { kind = \"fixed\", at_m = [[9, 9], [9, 11]] }\n\
-                    [items.mine]\ncount = 1\nplacement = { kind = \"fixed\", at_m = [[11, 11]] }";
-        let mut simulation = start(&room(&sensors, more));
+        let timing = format!("latency_s = {latency_s}, range_m = 5");
+        let sensors = format!(
+            "eye = {{ kind = \"items\", {timing} }}, mates = {{ kind = \"robots\", rate_hz = 5, {timing} }}"
+        );
+        let more = stones("[[9, 9], [9, 11]]")
+            + "robots.rover.brain = { rate_hz = 1, behaviours = [] }\n\
+               items.mine.placement.at_m = [[11, 11]]";
+        let mut simulation = start(&room(&sensors, &more));
         let (mut contacts, mut neighbours) = (Vec::new(), Vec::new());
         let mut steps = Vec::new();
         for now in 0..101_u32 {
@@ -472,10 +455,10 @@ fn a_slow_brain_receives_every_contact_between_its_steps_once() {
 
 #[test]
 fn neighbours_are_in_the_order_of_measurements_and_ids() {
-    let sensors = sensor("mates", "kind = \"robots\"\nrange_m = 8\nlatency_s = 0.3");
-    let more = "[robots.rover.brain]\nrate_hz = 2\nbehaviours = []\n[robots.stone]\ncount = 30\nradius_m = 0.1\n\
-                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }";
-    let mut simulation = start(&room(&sensors, more));
+    let sensors = "mates = { kind = \"robots\", range_m = 8, latency_s = 0.3 }";
+    let more = "robots.rover.brain = { rate_hz = 2, behaviours = [] }\n\
+                robots.stone = { count = 30, radius_m = 0.1 }";
+    let mut simulation = start(&room(sensors, more));
     for _ in 0..60 {
         if let Some(percept) = rover(&mut simulation) {
             let keys: Vec<_> = percept
@@ -491,14 +474,10 @@ fn neighbours_are_in_the_order_of_measurements_and_ids() {
 
 #[test]
 fn robots_of_all_layers_are_recognised_where_they_are() {
-    let sensors = sensor("mates", "kind = \"robots\"\nrange_m = 3.5");
-    let more = "[robots.bird]\ncount = 1\nradius_m = 0.1\nlayer = \"air\"\n\
-                drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n\
-                start = { kind = \"fixed\", at_m = [[10, 13]] }\n\
-                [robots.stone]\ncount = 3\nradius_m = 0.1\n\
-                drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n\
-                start = { kind = \"fixed\", at_m = [[9, 10], [14, 10], [10, 6.4]] }";
-    let text = room(&sensors, more);
+    let more = stones("[[9, 10], [14, 10], [10, 6.4]]")
+        + "[robots.bird]\nradius_m = 0.1\nlayer = \"air\"\nstart.at_m = [[10, 13]]\n\
+           drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }";
+    let text = room("mates = { kind = \"robots\", range_m = 3.5 }", &more);
     // Kinds are in alphabetical order: bird, rover, stone.
     let percept = start(&text).percept(id(1, 0)).unwrap().unwrap();
     let seen: Vec<_> = percept
@@ -514,13 +493,9 @@ fn robots_of_all_layers_are_recognised_where_they_are() {
 
 #[test]
 fn robots_are_detected_with_the_probability_of_their_distance() {
-    let sensors = sensor(
-        "mates",
-        "kind = \"robots\"\nrange_m = 5\ndetection_probability = [[0, 1], [4, 0.2]]\nnoise_m = 0.1",
-    );
-    let more = "[robots.stone]\ncount = 2\nradius_m = 0.1\ndrive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n\
-                start = { kind = \"fixed\", at_m = [[8, 10], [10, 14]] }";
-    let all = standing(&room(&sensors, more), 20_000);
+    let sensors = "mates = { kind = \"robots\", range_m = 5, noise_m = 0.1, \
+                   detection_probability = [[0, 1], [4, 0.2]] }";
+    let all = standing(&room(sensors, &stones("[[8, 10], [10, 14]]")), 20_000);
     for (index, share) in [(0, 0.6), (1, 0.2)] {
         let neighbours = all.iter().flat_map(|percept| &percept.neighbours);
         let of_one: Vec<_> = neighbours.filter(|other| other.id.index == index).collect();
@@ -535,12 +510,11 @@ fn robots_are_detected_with_the_probability_of_their_distance() {
 
 #[test]
 fn a_sensor_that_is_switched_off_measures_nothing_until_it_is_on_again() {
-    let sensors = sensor("compass", "kind = \"heading\"")
-        + &sensor("eye", "kind = \"items\"\nrange_m = 5")
-        + &sensor("gps", "kind = \"position\"\nrate_hz = 5")
-        + &sensor("sonar", "kind = \"range\"\nrays = 4\nrange_m = 15");
-    let more = "[items.mine]\ncount = 1\ntarget = false\nplacement = { kind = \"fixed\", at_m = [[10, 12]] }";
-    let mut simulation = start(&room(&sensors, more));
+    let sensors = "compass.kind = \"heading\", eye = { kind = \"items\", range_m = 5 }, \
+                   gps = { kind = \"position\", rate_hz = 5 }, \
+                   sonar = { kind = \"range\", rays = 4, range_m = 15 }";
+    let more = "items.mine = { target = false, placement.at_m = [[10, 12]] }";
+    let mut simulation = start(&room(sensors, more));
     let switch = |numbers: &[u16], on| Command {
         requests: numbers
             .iter()
@@ -580,13 +554,8 @@ fn a_sensor_that_is_switched_off_measures_nothing_until_it_is_on_again() {
 
 #[test]
 fn false_alarms_are_inside_the_world_even_without_line_of_sight() {
-    let sensors = sensor(
-        "eye",
-        "kind = \"items\"\nrange_m = 30\ndetection_probability = {}\nneeds_line_of_sight = false\n\
-         false_alarm_rate_per_m2_s = { mine = 0.01 }",
-    );
-    let more = "[items.mine]\ncount = 1\ntarget = false";
-    let all = standing(&room(&sensors, more), 4_000);
+    let sensors = format!("{ALARMS}, eye.needs_line_of_sight = false");
+    let all = standing(&room(&sensors, "items.mine.target = false"), 4_000);
     let counts: Vec<f64> = all
         .iter()
         .map(|percept| percept.contacts.len() as f64)

@@ -1,58 +1,38 @@
 //! Common random numbers: the random numbers of a kind do not depend on which other kinds exist.
 
-use crate::common::{go, id, message, robots, send, start, step_with};
+use crate::common::{go, id, message, robots, send, start, step_with, with};
 use base::geometry::Point;
 use brain::{Percept, RobotId};
 use sim::simulation::Simulation;
 
-const ROVERS: &str = "
-clock = { time_limit_s = 60 }
+const ROVERS: &str = r#"
 world = { size_m = [20, 15], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
+items.mine.count = 9
 [items.clutter]
 count = 9
 target = false
-placement = { kind = \"clustered\", clusters = 3, spread_m = 1 }
-[items.mine]
-count = 9
+placement = { kind = "clustered", clusters = 3, spread_m = 1 }
 [robots.rover]
 count = 5
 radius_m = 0.3
-drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-sensors.compass = { kind = \"heading\", noise_deg = 5 }
-[robots.rover.sensors.eye]
-kind = \"items\"
-range_m = 2
-latency_s = 0.3
-noise_m = 0.1
-detection_probability = { clutter = 0.2, mine = 0.3 }
-false_alarm_rate_per_m2_s = { clutter = 0.2, mine = 0.1 }
-[robots.rover.sensors.mates]
-kind = \"robots\"
-range_m = 9
-detection_probability = 0.5
-noise_m = 0.1
-[robots.rover.sensors.sonar]
-kind = \"range\"
-rays = 12
-range_m = 3
-noise_m = 0.02
-miss_probability = 0.1
-[robots.rover.radio]
-range_m = 50
-loss_probability = 0.5
-";
+sensors.compass = { kind = "heading", noise_deg = 5 }
+sensors.mates = { kind = "robots", range_m = 9, detection_probability = 0.5, noise_m = 0.1 }
+radio = { range_m = 50, loss_probability = 0.5 }
+sensors.eye = { kind = "items", range_m = 2, latency_s = 0.3, noise_m = 0.1,
+    detection_probability = { clutter = 0.2, mine = 0.3 },
+    false_alarm_rate_per_m2_s = { clutter = 0.2, mine = 0.1 } }
+sensors.sonar = { kind = "range", rays = 12, range_m = 3, noise_m = 0.02, miss_probability = 0.1 }
+"#;
 
 /// Kinds that are first in alphabetical order, and do not interact with the others.
-const OTHERS: &str = "
-[items.aaa]
-count = 20
-target = false
+const OTHERS: &str = r#"
+items.aaa = { count = 20, target = false }
 [robots.aaa]
 count = 4
-layer = \"air\"
+layer = "air"
 radius_m = 0.4
 drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
-";
+"#;
 
 fn kind(simulation: &Simulation, name: &str) -> u8 {
     let mut names = simulation.scenario().robot_kinds();
@@ -112,7 +92,7 @@ fn step(simulation: &mut Simulation) {
 #[test]
 fn robots_of_another_kind_do_not_affect_other_streams() {
     let mut alone = start(ROVERS);
-    let mut among = start(&format!("{ROVERS}{OTHERS}"));
+    let mut among = start(&with(ROVERS, OTHERS));
     assert_eq!(kind(&among, "rover"), 1);
     let mut contacts = 0;
     for _ in 0..200 {
@@ -134,7 +114,7 @@ fn robots_of_another_kind_do_not_affect_other_streams() {
 
 #[test]
 fn items_of_another_kind_do_not_move_the_others() {
-    let [alone, among] = [start(ROVERS), start(&format!("{ROVERS}{OTHERS}"))];
+    let [alone, among] = [start(ROVERS), start(&with(ROVERS, OTHERS))];
     for name in ["clutter", "mine"] {
         assert_eq!(places(&alone, name), places(&among, name));
     }

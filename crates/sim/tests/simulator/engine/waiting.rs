@@ -3,26 +3,20 @@
 use crate::common::{id, message, send, start, step_with};
 
 /// A robot with a slow brain that detects three items and a robot in every step.
-const SLOW: &str = "
-clock = { step_s = 0.1, time_limit_s = 1000 }
-world = { size_m = [20, 10] }
-items.flag = { count = 3, placement = { kind = \"fixed\", at_m = [[4, 5], [5, 6], [5, 4]] } }
+const SLOW: &str = r#"
+clock.time_limit_s = 1000
+items.flag.placement.at_m = [[4, 5], [5, 6], [5, 4]]
 [robots.listener]
-count = 1
-radius_m = 0.2
-start = { kind = \"fixed\", at_m = [[5, 5]] }
+start.at_m = [[5, 5]]
 drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
-brain = { rate_hz = 0.01 }
-radio = { range_m = 9 }
-sensors.eye = { kind = \"items\", range_m = 3 }
-sensors.mates = { kind = \"robots\", range_m = 9 }
+brain.rate_hz = 0.01
+radio.range_m = 9
+sensors = { eye = { kind = "items", range_m = 3 }, mates = { kind = "robots", range_m = 9 } }
 [robots.other]
-count = 1
-radius_m = 0.2
-start = { kind = \"fixed\", at_m = [[8, 5]] }
+start.at_m = [[8, 5]]
 drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
-radio = { range_m = 9 }
-";
+radio.range_m = 9
+"#;
 
 #[test]
 fn a_brain_that_rarely_steps_receives_the_newest_thousand_of_each_kind() {
