@@ -4,39 +4,24 @@ import math
 from typing import Any
 
 import numpy as np
+from metric import world
 
 from agent_economy.runs.brain import Body, Command, Percept
 
-SMALL = """
-engine = "metric"
-summary = "Blind robots bounce off what they touch."
-merit = "equation-5.2"
-[clock]
-time_limit_s = 60
-[world]
-size_m = [12, 8]
-[items.mine]
-count = 2
+SMALL = world("""
+clock.time_limit_s = 60
+world.size_m = [12, 8]
+items.mine.count = 2
 [robots.bumper]
 radius_m = 0.2
 count = 3
 drive = { max_speed_m_s = 0.6, max_turn_rate_deg_s = 90, max_acceleration_m_s2 = 0.5 }
 radio = { range_m = 5, loss_probability = 0.1, delay_s = 0.3 }
-[robots.bumper.sensors.mates]
-kind = "robots"
-range_m = 4
-latency_s = 0.4
-[robots.bumper.sensors.eye]
-kind = "items"
-range_m = 0.5
-detection_probability = { mine = 0.5 }
-rate_hz = 2
-[robots.bumper.sensors.eye.false_alarm_rate_per_m2_s]
-mine = 0.5
-[robots.bumper.brain]
-rate_hz = 4
-behaviours = [{ kind = "cruise" }, { kind = "random_bounce" }]
-"""
+sensors.mates = { kind = "robots", range_m = 4, latency_s = 0.4 }
+brain = { rate_hz = 4, behaviours = [{ kind = "cruise" }, { kind = "random_bounce" }] }
+sensors.eye = { kind = "items", range_m = 0.5, rate_hz = 2, detection_probability.mine = 0.5,
+    false_alarm_rate_per_m2_s.mine = 0.5 }
+""")
 """Robots without range sensors that bounce off contacts, with latencies and false alarms."""
 
 AHEAD: Command = {

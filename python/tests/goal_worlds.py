@@ -5,29 +5,19 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from random import Random
 
+from metric import world
+
 from agent_economy import Scenario
 
-WORLD = """
-engine = "metric"
-summary = "A robot with goals"
-merit = "equation-5.2"
-[clock]
-step_s = 0.1
-time_limit_s = {time_limit_s}
-[world]
-size_m = [30, 20]
-obstacles = [{obstacles}]
-[items.mine]
-target = false
-count = 1
+WORLD = world("""
+clock.time_limit_s = {time_limit_s}
+world = {{ size_m = [30, 20], obstacles = [{obstacles}] }}
+items.mine = {{ target = false, count = 1 }}
 [robots.rover]
 count = 1
 radius_m = {radius_m}
 start = {{ kind = "fixed", at_m = [{start}] }}
-[robots.rover.drive]
-max_speed_m_s = 1
-max_acceleration_m_s2 = 2
-max_turn_rate_deg_s = 120
+drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 120 }}
 [robots.rover.sensors]
 laser = {{ kind = "range", rays = 36, range_m = 6 }}
 gps = {{ kind = "position", noise_m = {noise_m}, rate_hz = 5 }}
@@ -37,18 +27,16 @@ compass = {{ kind = "heading", noise_deg = 1, rate_hz = 5 }}
 rate_hz = 5
 arbitration = {{ kind = "goals" }}
 behaviours = [{{ kind = "navigate", waypoints_m = {waypoints}, within_m = 0.2 }}{avoid}]
-[robots.rover.brain.beliefs]
-cell_m = 0.5
+beliefs.cell_m = 0.5
 {parked}
-"""
+""")
 PARKED = """
 [robots.waiting]
 count = {count}
 radius_m = 0.3
 start = {{ kind = "fixed", at_m = {at} }}
 drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 90 }}
-[robots.waiting.brain]
-behaviours = []
+brain.behaviours = []
 """
 TIME_LIMIT_S = 600.0
 

@@ -7,25 +7,20 @@ from typing import Any
 
 import pytest
 from command_line import succeed
+from metric import world
 from recorded import contents
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario, Simulation, _core
 from agent_economy.runs.brain import Body, Command, Percept
 
-LANE = """
-engine = "metric"
-summary = "A dangerous mine in front of a robot with tools."
-merit = "equation-5.2"
-[clock]
-step_s = 0.1
-time_limit_s = 20
-[world]
-size_m = [20, 10]
+LANE = world("""
+clock.time_limit_s = 20
+world.size_m = [20, 10]
 [items.mine]
 count = 1
 completed_by = "neutralised"
-hazard = { radius_m = 0.2 }
+hazard.radius_m = 0.2
 placement = { kind = "fixed", at_m = [[6, 5]] }
 [robots.ugv]
 count = 1
@@ -34,12 +29,10 @@ price = 2
 payload_kg = 2
 start = { kind = "fixed", at_m = [[4, 5]], heading_deg = [0] }
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-brain = { behaviours = [{ kind = "cruise" }] }
+brain.behaviours = [{ kind = "cruise" }]
 sensors.eye = { kind = "items", range_m = 2 }
-[robots.ugv.tools]
-mark = { range_m = 10 }
-neutralise = { range_m = 3, duration_s = 1, charges = 2 }
-"""
+tools = { mark.range_m = 10, neutralise = { range_m = 3, duration_s = 1, charges = 2 } }
+""")
 
 MINE = [6, 5]
 

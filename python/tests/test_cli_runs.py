@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from command_line import COMMAND, refuse, run, succeed
-from metric import ENDLESS, FULL
+from metric import ENDLESS, FULL, world
 from pyarrow import csv, parquet
 
 import agent_economy as ae
@@ -21,28 +21,17 @@ from agent_economy.cli.unserved_goals import REASONS
 from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.types.brain import Reason
 
-CROWDED = """
-engine = "metric"
-summary = "A crowded room."
-merit = "equation-5.2"
-[clock]
-time_limit_s = 5
-[world]
-size_m = [3, 3]
-[items.mine]
-count = 1
+CROWDED = world("""
+clock.time_limit_s = 5
+world.size_m = [3, 3]
+items.mine.count = 1
 [robots.rover]
 count = 8
 radius_m = 0.4
-drive = { max_speed_m_s = 0.5 }
-[robots.rover.sensors.sonar]
-kind = "range"
-rays = 8
-range_m = 3
-[robots.rover.sensors.detector]
-kind = "items"
-range_m = 0.5
-"""
+drive.max_speed_m_s = 0.5
+sensors.sonar = { kind = "range", rays = 8, range_m = 3 }
+sensors.detector = { kind = "items", range_m = 0.5 }
+""")
 """Seven of the first twenty runs have no room for eight rovers."""
 
 

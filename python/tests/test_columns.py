@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from metric import world
 
 from agent_economy import Batch, Scenario, Simulation
 from agent_economy.runs.batch import Commands, Percepts
@@ -14,21 +15,16 @@ SCHEMAS = Path(__file__).resolve().parents[2] / "schemas/brain.schema.json"
 TYPES: dict[str, Any] = json.loads(SCHEMAS.read_text(encoding="utf-8"))["$defs"]
 MAX = {"uint8": 200, "uint16": 60_000, "uint32": 4_000_000_000}
 
-TALKERS = """
-engine = "metric"
-summary = "Robots that send messages of all types."
-merit = "equation-5.2"
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [20, 20] }
-[items.mine]
-target = false
-count = 1
+TALKERS = world("""
+clock.time_limit_s = 60
+world.size_m = [20, 20]
+items.mine = { target = false, count = 1 }
 [robots.rover]
 count = 3
 radius_m = 0.2
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 radio = { range_m = 50, messages_per_step = 1000 }
-"""
+""")
 
 
 def resolved(schema: Any) -> Any:
@@ -131,7 +127,7 @@ def test_messages_of_all_types_are_sent_and_received_as_given(seed: int) -> None
 
 
 BIDDERS = (
-    TALKERS.replace("[items.mine]\ntarget = false\ncount = 1\n", "")
+    TALKERS.replace("items.mine = { target = false, count = 1 }\n", "")
     + """
 [robots.rover.brain]
 behaviours = [{ kind = "serve" }]

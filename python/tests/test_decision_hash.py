@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from command_line import run
 from mcap.records import Channel, Message
-from metric import search
+from metric import search, world
 from recorded import contents
 from test_python_brains import bundled
 from test_recording import DRIVE
@@ -19,12 +19,10 @@ import agent_economy as ae
 from agent_economy import InputError, Scenario
 from agent_economy.runs.brain import Command
 
-CRUISING = Scenario.loads("""
-engine = "metric"
-summary = "Robots that drive straight ahead whatever they perceive, without radio."
-merit = "equation-5.2"
-clock = { step_s = 0.1, time_limit_s = 60 }
-world = { size_m = [200, 200] }
+CRUISING = Scenario.loads(
+    world("""
+clock.time_limit_s = 60
+world.size_m = [200, 200]
 items.stone = { count = 1, target = false }
 [robots.rover]
 count = 2
@@ -33,6 +31,7 @@ start = { kind = "fixed", at_m = [[100, 100], [50, 100]] }
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 brain = { behaviours = [{ kind = "cruise" }] }
 """)
+)
 
 AHEAD: Command = {
     "motion": {"speed_m_s": 1.0, "turn_rate_rad_s": 0.0},

@@ -3,30 +3,25 @@
 from pathlib import Path
 
 from command_line import run
+from metric import world
 
 import agent_economy as ae
 
-LANE = """
-engine = "metric"
-summary = "A lane with mines and clutter."
-merit = "equation-5.2"
-clock = { time_limit_s = 10 }
-world = { size_m = [20, 20] }
-[items.clutter]
-count = 1
-target = false
-[items.mine]
-count = 1
+LANE = world("""
+clock.time_limit_s = 10
+world.size_m = [20, 20]
+items.clutter = { count = 1, target = false }
+items.mine.count = 1
 [robots.rover]
 count = 1
 radius_m = 0.2
-drive = { max_speed_m_s = 1 }
+drive.max_speed_m_s = 1
 [robots.rover.sensors.camera]
 kind = "items"
 range_m = 1
-detection_probability = { mine = 0.1 }
-blind_share = { mine = 0.25 }
-"""
+detection_probability.mine = 0.1
+blind_share.mine = 0.25
+""")
 
 NAME = "robots.rover.sensors.camera, mine"
 TEXT = (
@@ -48,7 +43,7 @@ def test_classic_scenarios_have_no_derived_quantities() -> None:
 
 def test_errors_of_the_confusion_and_the_blind_share_are_listed_together(tmp_path: Path) -> None:
     file = tmp_path / "lane.toml"
-    text = LANE.replace("{ mine = 0.25 }", "{ mien = 0.25 }")
+    text = LANE.replace("mine = 0.25", "mien = 0.25")
     file.write_text(text + "confusion = { mine = { mine = 0.9, clutter = 0.2 } }\n")
     given = run("check", file)
     assert given.returncode == 2

@@ -2,6 +2,7 @@
 
 import pytest
 from imperfect_robot import DriveErrors, SensorErrors
+from metric import world
 from virtual_drive import Case, VirtualDrive
 
 import agent_economy as ae
@@ -32,13 +33,9 @@ def test_a_robot_is_where_it_believes_to_be_and_waypoints_are_complete_there(gai
     assert max(distance_m for each in records for *_, distance_m in each.complete) < 1.9
 
 
-FIELD = """
-engine = "metric"
-summary = "One rover in a field."
-merit = "equation-5.2"
-clock = {{ step_s = 0.1, time_limit_s = 600 }}
-world = {{ size_m = [40, 40] }}
-
+FIELD = world("""
+clock.time_limit_s = 600
+world.size_m = [40, 40]
 [robots.rover]
 count = 1
 radius_m = 0.3
@@ -46,11 +43,10 @@ radio = {{ range_m = 100 }}
 start = {{ kind = "fixed", at_m = [[4, 4]], heading_deg = [0] }}
 drive = {{ max_speed_m_s = 0.6, max_turn_rate_deg_s = 60, {drive} }}
 brain = {{ rate_hz = 5, behaviours = [{behaviours}] }}
-
 [robots.rover.sensors]
 gps = {{ kind = "position", rate_hz = 1, noise_m = 0.2, {gps} }}
 compass = {{ kind = "heading", noise_deg = 1 }}
-"""
+""")
 
 CONTROLLER = """
 [controllers.base]

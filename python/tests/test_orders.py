@@ -4,30 +4,24 @@ import math
 from typing import Any
 
 import pytest
+from metric import world
 
 from agent_economy import Batch, Brain, InputError, Scenario, Simulation
 from agent_economy.runs.batch import Commands, Percepts
 
 OPERATOR = {"kind": 255, "index": 0}
 
-SCENARIO = """
-engine = "metric"
-summary = "Rovers wait for orders."
-merit = "equation-5.2"
-[clock]
-step_s = 0.1
-time_limit_s = 600
-[world]
-size_m = [20, 20]
+SCENARIO = world("""
+clock.time_limit_s = 600
+world.size_m = [20, 20]
 [robots.rover]
 radius_m = 0.25
 count = 2
 start = { kind = "fixed", at_m = [[2, 2], [2, 6]], heading_deg = [0, 0] }
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-sensors = { gps = { kind = "position", noise_m = 0.1 }, compass = { kind = "heading" } }
-[robots.rover.brain]
-behaviours = [{ kind = "cruise" }, { kind = "correct", stop_when_done = true }]
-"""
+sensors = { gps = { kind = "position", noise_m = 0.1 }, compass.kind = "heading" }
+brain.behaviours = [{ kind = "cruise" }, { kind = "correct", stop_when_done = true }]
+""")
 
 
 def order(number: int, at: tuple[float, float], action: str = "assign") -> dict[str, Any]:
@@ -152,12 +146,14 @@ def test_no_robot_can_forge_an_order() -> None:
             outbox = [order(1, (8.0, 2.0))["message"]]
             return {"motion": {"speed_m_s": 0, "turn_rate_rad_s": 0}, "outbox": outbox}
 
-    text = SCENARIO.replace(
-        "[robots.rover.brain]", "[robots.rover.radio]\nrange_m = 50\n[robots.rover.brain]"
-    )
-    text += "[robots.forger]\nradius_m = 0.2\ncount = 1\nradio = { range_m = 50 }\n"
-    text += "drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n"
-    simulation = Simulation(Scenario.loads(text), seed=1, brains={"forger": Forger})
+    text = """radio.range_m = 50
+[robots.forger]
+radius_m = 0.2
+count = 1
+radio.range_m = 50
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+"""
+    simulation = Simulation(Scenario.loads(SCENARIO + text), seed=1, brains={"forger": Forger})
     simulation.step(50)
     assert simulation.percept("rover/0")["inbox"]  # type: ignore[index]
     assert simulation.assigned_goals("rover/0") == []

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from metric import world
 
 import agent_economy as ae
 from agent_economy.server import Workspace
@@ -31,10 +32,7 @@ def field(robots: int = 2, obstacles: str = "", range_m: float = 5) -> str:
     """Return a scenario whose first two robots stand on both sides of where a wall may be."""
     places = [[9, 10], [12, 10], *([1 + i % 50, 20 + i // 50] for i in range(robots))]
     headings = [0] * len(places)
-    return f"""
-engine = "metric"
-summary = "Two robots and a wall."
-merit = "equation-5.2"
+    return world(f"""
 clock.time_limit_s = 100
 [world]
 size_m = [60, 60]
@@ -49,7 +47,7 @@ drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}
 brain = {{ behaviours = [] }}
 radio = {{ range_m = {range_m}, needs_line_of_sight = true }}
 sensors.camera = {{ kind = "items", range_m = 3, fov_deg = 90 }}
-"""
+""")
 
 
 class Page:
