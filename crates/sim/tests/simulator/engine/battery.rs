@@ -1,6 +1,6 @@
 //! Energy consumption against values computed by hand.
 
-use crate::common::{first, go, id, robots, start, step_with};
+use crate::common::{first, go, id, robots, start, step_with, with};
 use brain::{Command, Motion, SensorRequest};
 use sim::run::Status;
 use sim::simulation::Simulation;
@@ -81,11 +81,8 @@ fn the_energy_factor_of_terrain_applies_to_motion_only() {
 
 #[test]
 fn energy_per_metre_grows_with_the_relative_mass_of_the_payload() {
-    let loaded = field(VALUES, "").replace(
-        "radius_m = 0.5",
-        "radius_m = 0.5\nmass_kg = 20\npayload_kg = 5",
-    );
-    let mut simulation = start(&loaded);
+    let loaded = "robots.rover = { mass_kg = 20, payload_kg = 5 }";
+    let mut simulation = start(&with(&field(VALUES, ""), loaded));
     drive(&mut simulation, 10, 2.0, 0.0);
     assert_energy(&simulation, 14.0 + 7.0 * 2.0 * 1.25);
 }
@@ -158,10 +155,10 @@ fn a_percept_contains_the_remaining_energy() {
 
 #[test]
 fn a_run_ends_when_the_last_robot_has_stopped() {
-    let text = field("capacity_j = 4, idle_w = 20", "").replace("count = 1", "count = 2");
-    let strong = "[robots.zebra]\ncount = 1\nradius_m = 0.2\nbattery = { capacity_j = 8, idle_w = 20 }\n\
+    let text = field("capacity_j = 4, idle_w = 20", "");
+    let strong = "robots.rover.count = 2\n[robots.zebra]\nbattery = { capacity_j = 8, idle_w = 20 }\n\
                   drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n";
-    let mut simulation = start(&(text + strong));
+    let mut simulation = start(&with(&text, strong));
     let outcome = simulation.finish();
     assert_eq!(simulation.state().tick(), 4);
     assert_eq!(outcome.robots_stopped, 3);

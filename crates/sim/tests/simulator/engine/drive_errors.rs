@@ -1,7 +1,7 @@
 //! Robots whose drives execute setpoints with errors.
 
 use super::determinism::crowd;
-use crate::common::{drive, first, id, replaced, robots, scenario, start, step_with};
+use crate::common::{self, drive, first, id, robots, scenario, start, step_with};
 use base::geometry::Point;
 use proptest::prelude::*;
 use rayon::ThreadPoolBuilder;
@@ -10,18 +10,17 @@ use sim::simulation::Simulation;
 
 const ROVER: &str = "
 clock = { step_s = 0.05, time_limit_s = 600 }
-world = { size_m = [200, 100] }
+world.size_m = [200, 100]
 [robots.rover]
-count = 1
 radius_m = 0.25
-start = { kind = \"fixed\", at_m = [[100, 50]], heading_deg = [0] }
-drive = { max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 90, ERRORS }
-brain = { behaviours = [] }
+start = { at_m = [[100, 50]], heading_deg = [0] }
+drive = { max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+brain.behaviours = []
 ";
 
 /// The scenario with these keys in its drive.
 fn with(errors: &str) -> String {
-    replaced(ROVER, &[("ERRORS", errors)])
+    common::with(ROVER, &format!("robots.rover.drive = {{ {errors} }}"))
 }
 
 fn rover(errors: &str) -> Simulation {
@@ -120,10 +119,7 @@ fn a_robot_with_errors_measures_its_motion_only_with_odometry() {
 #[test]
 fn a_wall_stops_a_robot_with_errors_at_once() {
     let errors = "lag_s = 1, delay_s = 0.3, gain = 2";
-    let text = replaced(
-        &with(errors),
-        &[("size_m = [200, 100]", "size_m = [110, 100]")],
-    );
+    let text = common::with(&with(errors), "world.size_m = [110, 100]");
     let mut simulation = start(&text);
     for _ in 0..300 {
         driven(&mut simulation, 1, 1.0, 0.0);
@@ -194,24 +190,9 @@ fn errors_can_change_in_a_run() {
 
 /// A crowd of robots with all errors, some of them with a delay alone.
 fn erring_crowd() -> String {
-    replaced(
-        &crowd(400, 60.0),
-        &[
-            (
-                "max_speed_m_s = 5, max_acceleration_m_s2 = 3",
-                "max_speed_m_s = 5, delay_s = 0.25, max_acceleration_m_s2 = 3",
-            ),
-            (
-                "max_speed_m_s = 1, max_acceleration_m_s2 = 2",
-                "max_speed_m_s = 1, lag_s = 0.2, delay_s = 0.03, gain = 1.1, gain_left_right = 1.05, \
-                 max_acceleration_m_s2 = 2",
-            ),
-            (
-                "noise_m = 1\nrate_hz = 3",
-                "noise_m = 1\ndrift_m = 0.5\nrate_hz = 3",
-            ),
-        ],
-    )
+    let errors = "robots.bird.drive.delay_s = 0.25\nrobots.rover.sensors.gps.drift_m = 0.5\n\
+                  robots.rover.drive = { lag_s = 0.2, delay_s = 0.03, gain = 1.1, gain_left_right = 1.05 }";
+    common::with(&crowd(400, 60.0), errors)
 }
 
 #[test]
@@ -242,11 +223,9 @@ proptest! {
         gain in 0.2..2.0, ratio in 0.5..2.0, lag in 0.0..1.0, delay in 0.0..1.0, turns: [i8; 8],
     ) {
         let errors = format!("lag_s = {lag}, delay_s = {delay}, gain = {gain}, gain_left_right = {ratio}");
-        let text = replaced(&with(&errors), &[
-            ("count = 1", "count = 2"),
-            ("size_m = [200, 100]", "size_m = [5, 4]"),
-            ("at_m = [[100, 50]], heading_deg = [0]", "at_m = [[1, 2], [4, 2]], heading_deg = [0, 180]"),
-        ]);
+        let two = "world.size_m = [5, 4]\n\
+                   robots.rover.start = { at_m = [[1, 2], [4, 2]], heading_deg = [0, 180] }";
+        let text = common::with(&with(&errors), two);
         let mut simulation = start(&text);
         for turn in turns {
             for _ in 0..20 {

@@ -2,7 +2,7 @@
 
 use super::determinism::crowd;
 use super::judge::{line, mines};
-use crate::common::{scenario, start};
+use crate::common::{scenario, start, with};
 use base::engine::{BlockOptions, Runner};
 use rayon::ThreadPoolBuilder;
 use sim::judge::Outcome;
@@ -20,6 +20,8 @@ fn field(when: &str) -> String {
            placement = { kind = \"fixed\", at_m = [[5, 5]] }\n";
     line(60.0, &items, "") + &end(when)
 }
+
+const BREAKS: &str = "robots.rover.collision.max_collisions = 1";
 
 fn end(when: &str) -> String {
     format!("[end]\nwhen = \"{when}\"\n")
@@ -58,17 +60,12 @@ fn a_run_can_end_with_any_event_that_the_judge_counts() {
     assert_eq!(simulation.outcome().collisions, 1);
     assert!(!collided.has_failed);
 
-    let breaks = field("robots_stopped >= 1")
-        .replace("brain = {", "collision = { max_collisions = 1 }\nbrain = {");
-    let (broken, _) = finish(&breaks);
+    let (broken, _) = finish(&with(&field("robots_stopped >= 1"), BREAKS));
     assert_eq!((broken.time_s, broken.robots_stopped), (collided.time_s, 1));
     assert!(!broken.has_failed);
 
-    let noisy = field("false_alarms >= 3").replace(
-        "range_m = 1.05",
-        "range_m = 1.05\nfalse_alarm_rate_per_m2_s = { mine = 0.1 }",
-    );
-    let (alarmed, simulation) = finish(&noisy);
+    let noisy = "robots.rover.sensors.eye.false_alarm_rate_per_m2_s.mine = 0.1";
+    let (alarmed, simulation) = finish(&with(&field("false_alarms >= 3"), noisy));
     assert!(!alarmed.has_failed && alarmed.false_alarms >= 3);
     assert!(alarmed.time_s < 60.0 && simulation.state().tick() < 600);
 }
@@ -84,9 +81,7 @@ fn a_run_that_never_meets_its_end_has_failed() {
     let (outcome, _) = finish(&none);
     assert_eq!((outcome.has_failed, outcome.time_s), (true, 3.0));
     // A team that cannot move any more cannot meet it either.
-    let stops = field("found_mine >= 4")
-        .replace("brain = {", "collision = { max_collisions = 1 }\nbrain = {");
-    let (outcome, simulation) = finish(&stops);
+    let (outcome, simulation) = finish(&with(&field("found_mine >= 4"), BREAKS));
     assert_eq!((outcome.has_failed, outcome.time_s), (true, 60.0));
     assert!(simulation.state().tick() < 500);
 }
