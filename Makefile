@@ -50,6 +50,7 @@ python-lint: .venv/installed target/page.schema.json
 
 # Only the generator of types reads this schema.
 target/page.schema.json: $(RUST) crates/protocol/examples/page_schema.rs
+	mkdir -p $(@D)
 	cargo run --locked --quiet -p agent-economy-protocol --example page_schema > $@.new
 	mv $@.new $@
 

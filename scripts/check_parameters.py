@@ -1,4 +1,4 @@
-"""Check that no parameter is an anonymous tuple of three values or more: a struct names them.
+"""Check that no parameter itself is an anonymous tuple of three values: a struct names them.
 
 Those that there are stand in `scripts/tuple_parameters.txt`, which may only get shorter. The script
 also prints how many files name the kind of a mission: a new one should touch one file per crate.

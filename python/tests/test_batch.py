@@ -1,6 +1,8 @@
 """One brain for all robots of a kind decides as one brain per robot does."""
 
+import copy
 import math
+import pickle
 import traceback
 from collections.abc import Callable, Iterator
 from typing import Any, get_args, get_type_hints, is_typeddict
@@ -297,15 +299,19 @@ ERRORS: list[tuple[Any, str]] = [
     ),
     ({"motion": STAND, "outbox": 3}, r"rover\(\).outbox = 3: must be a list of dicts, one"),
     ({"motion": STAND, "outbox": [3]}, r"outbox\[0\] = 3: must be a dict with row, about"),
-    ({"motion": STAND, "outbox": [{"confidence": 1}]}, r"\[0\].row = None: must be the row of"),
-    (sent(row=4), r"rover\(\).outbox\[1\].row = 4: must be the row of the sender, below 4"),
+    ({"motion": STAND, "outbox": [{"confidence": 1}]}, r"\[0\].row = None: must be a whole"),
+    (sent(row=4), r"rover\(\).outbox\[1\].row = 4: must be a whole number from 0 to 3, the row"),
+    (sent(row=True), r"outbox\[1\].row = True: must be a whole number from 0 to 3"),
     (sent(about={}), r"outbox\[1\].about = {...}: must be a dict with item"),
     (sent(about={"sender": {"at": [1, 2]}}), r"outbox\[1\].about.sender.heading_rad is missing"),
     (sent(about=about_goal(id={})), r"outbox\[1\].about.goal.id.issuer is missing"),
     (sent(about=about_goal(status="lost")), r"about.goal.status = \"?lost\"?: must be"),
     (sent(about={"item": ITEM | {"kind": 1}}), r"outbox\[1\].about.item.kind = 1: must be a"),
     (sent(confidence=5), r"outbox\[1\].confidence = 5: must be a number from 0 to 1"),
-    (sent(confidence=math.nan), r"outbox\[1\].confidence = nan: must be a finite number"),
+    (
+        sent(confidence=math.nan),
+        r"outbox\[1\].confidence = nan: must be a finite number; only a ray",
+    ),
 ]
 
 
@@ -337,6 +343,41 @@ def test_exceptions_of_a_batch_keep_their_traceback() -> None:
 def test_a_signal_stops_runs_with_a_batch() -> None:
     with ringing(0.3):
         ae.run(search(ENDLESS), brains={"rover": Batch(shy)})
+
+
+def test_received_messages_are_a_sequence_that_can_be_copied() -> None:
+    found: list[Any] = []
+
+    def tell(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del memory
+        found.append(percepts["inbox"])
+        return {"outbox": [MESSAGE, MESSAGE]}  # type: ignore[list-item]
+
+    Simulation("search", brains={"rover": Batch(tell)}).step(3)
+    inbox = found[-1]
+    dicts = list(inbox)
+    assert len(inbox) == len(dicts) > 1
+    assert inbox[-1] == dicts[-1]
+    assert inbox[:2] == dicts[:2]
+    assert copy.deepcopy(inbox) == pickle.loads(pickle.dumps(inbox)) == dicts  # noqa: S301
+    assert inbox.index(dicts[0]) == 0
+    assert repr(inbox) == repr(dicts)
+    with pytest.raises(IndexError):
+        inbox[10**30]
+
+
+def test_the_order_in_memory_of_an_array_does_not_matter() -> None:
+    places = np.array([[1.0, 2.0], [3.0, 4.0]])
+    unaligned = np.frombuffer(bytearray(2 * 8 + 1), "f8", count=2, offset=1)
+    scenario = search({"robots.rover.tools": {"mark": {"range_m": 50}}, "robots.rover.count": 2})
+    for at in (places, places.T.copy().T, np.asfortranarray(places), places[::-1][::-1]):
+        acts = {"row": [0, 1], "kind": 0, "at": at}
+        motion = {"speed_m_s": unaligned, "turn_rate_rad_s": np.zeros(4)[::2]}
+        brain = Batch(lambda *_, acts=acts, motion=motion: {"motion": motion, "acts": acts})  # type: ignore[arg-type]
+        simulation = Simulation(scenario, brains={"rover": brain})
+        simulation.step()
+        decided = [command["acts"][0]["at"] for command in simulation.decided.values()]
+        assert decided == places.tolist()
 
 
 def test_a_batch_gets_the_same_body_as_a_class() -> None:

@@ -218,6 +218,30 @@ mod tests {
         assert_eq!(hash_of(&same), hash_of(&PAIR));
     }
 
+    #[derive(Hashed)]
+    #[expect(dead_code, reason = "skipped")]
+    enum Shape<T> {
+        None,
+        Tuple(T, #[hashed(skip)] u8),
+        Named { left: T, right: T },
+    }
+
+    #[test]
+    fn the_variant_and_the_fields_of_an_enum_change_its_hash() {
+        let named = |left, right| hash_of(&Shape::Named { left, right });
+        let all = [
+            hash_of(&Shape::<u8>::None),
+            hash_of(&Shape::Tuple(0_u8, 7)),
+            hash_of(&Shape::Tuple(1_u8, 7)),
+            named(0_u8, 1),
+            named(1, 0),
+        ];
+        for (number, hash) in all.iter().enumerate() {
+            assert!(!all[..number].contains(hash), "{number}");
+        }
+        assert_eq!(hash_of(&Shape::Tuple(1_u8, 8)), all[2]);
+    }
+
     #[test]
     fn each_of_several_numbers_that_share_a_word_changes_the_hash() {
         let bytes: Vec<i8> = (-50..50).collect();

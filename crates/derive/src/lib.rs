@@ -2,7 +2,10 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use syn::{Data, DeriveInput, Error, Field, Fields, Result, parse_macro_input, parse_quote};
+use syn::{
+    Attribute, Data, DeriveInput, Error, Field, Fields, Ident, Result, parse_macro_input,
+    parse_quote,
+};
 
 /// Implements `base::hashed::Hashed`: the hash covers each field in its order, except those with
 /// `#[hashed(skip)]`, and of an enum the number of the variant first.
@@ -15,6 +18,7 @@ pub fn hashed(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 }
 
 fn implementation(mut input: DeriveInput) -> Result<TokenStream> {
+    refuse(&input.attrs)?;
     for parameter in input.generics.type_params_mut() {
         parameter.bounds.push(parse_quote!(::base::hashed::Hashed));
     }
@@ -37,6 +41,7 @@ fn arms(data: &Data) -> Result<TokenStream> {
         Data::Struct(data) => arm(&quote!(Self), &data.fields, &TokenStream::new()),
         Data::Enum(data) => {
             let variants = (0_u64..).zip(&data.variants).map(|(number, variant)| {
+                refuse(&variant.attrs)?;
                 let name = &variant.ident;
                 arm(
                     &quote!(Self::#name),
@@ -65,15 +70,28 @@ fn arm(path: &TokenStream, fields: &Fields, first: &TokenStream) -> Result<Token
     Ok(quote!(#path { #(#patterns),* } => { #first #(#added)* }))
 }
 
+/// Whether a field has `#[hashed(skip)]`.
 fn is_skipped(field: &Field) -> Result<bool> {
-    let mut is_skipped = false;
-    let attributes = field.attrs.iter();
-    for attribute in attributes.filter(|each| each.path().is_ident("hashed")) {
-        attribute.parse_nested_meta(|meta| {
-            is_skipped = meta.path.is_ident("skip");
-            let refused = || Err(meta.error("must be `skip`"));
-            if is_skipped { Ok(()) } else { refused() }
-        })?;
-    }
-    Ok(is_skipped)
+    let mut own = field
+        .attrs
+        .iter()
+        .filter(|each| each.path().is_ident("hashed"));
+    own.try_fold(false, |_, attribute| {
+        let option: Ident = attribute.parse_args()?;
+        if option == "skip" {
+            return Ok(true);
+        }
+        Err(Error::new_spanned(option, "must be `skip`"))
+    })
+}
+
+/// Refuses the attribute where it has no meaning.
+fn refuse(attributes: &[Attribute]) -> Result<()> {
+    let mut own = attributes
+        .iter()
+        .filter(|each| each.path().is_ident("hashed"));
+    let error = own
+        .next()
+        .map(|each| Error::new_spanned(each, "only fields have this attribute"));
+    error.map_or(Ok(()), Err)
 }

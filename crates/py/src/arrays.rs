@@ -9,7 +9,7 @@ use brain::{Command, Percept, ReceivedMessage};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyBool, PyDict, PyList};
 use serde::Deserialize;
 use serde_json::Value as Json;
 use sim::scenario::Scenario;
@@ -91,12 +91,9 @@ impl Inbox {
         self.0.len()
     }
 
-    fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyAny>> {
-        let from_end = if index < 0 { self.0.len() } else { 0 };
-        let found = from_end.checked_add_signed(index);
+    fn __getitem__<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyAny>> {
         let no_message = || PyIndexError::new_err("no such message");
-        let found = found.and_then(|index| self.0.get(index));
-        let (row, received) = found.ok_or_else(no_message)?;
+        let (row, received) = self.0.get(index).ok_or_else(no_message)?;
         let dict = convert::write(py, received)?;
         dict.set_item("row", row)?;
         Ok(dict)
@@ -130,9 +127,9 @@ pub(crate) fn command(
             as_error(InputError { path, ..error })
         })?;
     }
-    match returned.get_item("outbox") {
-        Ok(outbox) => send(&format!("{at}.outbox"), &kinds, &outbox, decisions),
-        Err(_) => Ok(()),
+    match returned.cast::<PyDict>()?.get_item("outbox")? {
+        Some(outbox) => send(&format!("{at}.outbox"), &kinds, &outbox, decisions),
+        None => Ok(()),
     }
 }
 
@@ -150,14 +147,16 @@ fn send(
     };
     let items = outbox.cast::<PyList>();
     let items = items.map_err(|_| refused(at, outbox, "a list of dicts, one for each message"))?;
-    let allowed_row = format!("the row of the sender, below {}", decisions.len());
+    let max = decisions.len().saturating_sub(1);
+    let allowed_row = format!("a whole number from 0 to {max}, the row of the sender");
     for (number, item) in items.iter().enumerate() {
         let at = format!("{at}[{number}]");
         let dict = item.cast::<PyDict>();
         let dict = dict.map_err(|_| refused(&at, &item, "a dict with row, about, confidence"))?;
         let row = dict.get_item("row")?;
         let row = row.unwrap_or_else(|| item.py().None().into_bound(item.py()));
-        let found = row.extract::<usize>().ok();
+        let is_whole = !row.is_instance_of::<PyBool>();
+        let found = row.extract::<usize>().ok().filter(|_| is_whole);
         let decision = found.and_then(|row| decisions.get_mut(row));
         let Some(decision) = decision else {
             return Err(refused(&format!("{at}.row"), &row, &allowed_row));

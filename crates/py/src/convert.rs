@@ -7,7 +7,7 @@ use base::document::path_of;
 use base::error::InputError;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyComplex, PyDict, PyFloat, PyInt, PyString};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -152,13 +152,15 @@ pub(crate) fn text(given: &Bound<PyAny>) -> String {
 }
 
 fn number(given: &Bound<PyAny>) -> Result<Json, InputError> {
-    let number = given.extract::<f64>().ok();
+    // numpy would drop the imaginary part.
+    let is_complex = given.is_instance_of::<PyComplex>();
+    let number = given.extract::<f64>().ok().filter(|_| !is_complex);
     if number == Some(f64::INFINITY) {
         return Ok(Json::Null);
     }
     let number = number.and_then(Number::from_f64).map(Json::Number);
     let allowed = if given.is_instance_of::<PyFloat>() {
-        "a finite number, or inf for a ray without a return"
+        "a finite number; only a ray without a return is inf"
     } else {
         "a number, a string, True, False, None, or a list or dict of these"
     };

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Protocol, TypeAlias, cast
 
 from agent_economy import _core
-from agent_economy.runs.batch import Batch, Commands, Percepts
+from agent_economy.runs.batch import Batch, Commands, Inbox, Percepts
 from agent_economy.runs.brain import Body, Command, Percept
 from agent_economy.scenario import validation
 
@@ -93,7 +93,8 @@ class BatchBrain:
     def step(self, percepts: dict[str, Any]) -> Commands:
         """Return the commands of the robots that step."""
         time_s = percepts["time_s"]
-        complete = cast("Percepts", self.constants | percepts)
+        inbox = Inbox(percepts["inbox"])
+        complete = cast("Percepts", self.constants | percepts | {"inbox": inbox})
         try:
             return self.batch.function(complete, self.memory)
         except Exception as error:

@@ -227,7 +227,7 @@ class Race:
             computed=self._store.computed,
             seconds=time.monotonic() - self._start,
             survivors=len(procedure.survivors),
-            leaders=best[question.foremost],
+            leaders=best[question.shown_leaders],
             eliminated=new,
             certified=tuple(procedure.certified.tolist()) if question.certifies else None,
             is_over=self._is_over(),

@@ -307,24 +307,32 @@ impl Place<'_> {
 
 /// The numbers of an array, repeated to a shape if one is given, as numpy does.
 fn repeated(array: &Bound<PyArrayDyn<f64>>, shape: Option<&[usize]>) -> PyResult<Vec<f64>> {
-    let numbers = array.readonly();
     let own = array.shape();
-    if shape.map_or(own.len() == 1, |shape| own == shape)
-        && let Ok(numbers) = numbers.as_slice()
+    // A slice is in the order of memory, which may be that of Fortran.
+    if let Ok(numbers) = array.readonly().as_slice()
+        && array.is_c_contiguous()
     {
-        return Ok(numbers.to_vec());
-    }
-    let count = shape.map_or(1, |shape| shape.iter().product());
-    if let ([], Ok([number])) = (own, numbers.as_slice()) {
-        return Ok(vec![*number; count]);
+        if shape.map_or(own.len() == 1, |shape| own == shape) {
+            return Ok(numbers.to_vec());
+        }
+        if let (Some(shape), [number]) = (shape, numbers)
+            && own.is_empty()
+        {
+            return Ok(vec![*number; shape.iter().product()]);
+        }
     }
     let numpy = array.py().import("numpy")?;
     let array = match shape {
         Some(shape) => numpy.call_method1("broadcast_to", (array, shape))?,
         None => numpy.call_method1("atleast_1d", (array,))?,
     };
-    let array = array.cast_into::<PyArrayDyn<f64>>()?;
-    Ok(array.readonly().as_array().iter().copied().collect())
+    // A copy is aligned.
+    let flat = array.call_method0("flatten")?;
+    Ok(flat
+        .cast::<PyArrayDyn<f64>>()?
+        .readonly()
+        .as_slice()?
+        .to_vec())
 }
 
 /// A number as it was given: `None` in place of a number is read as NaN.

@@ -48,7 +48,7 @@ class Best:
     columns = ("time_s", "failed", "robots", "price")
     part = 1 / 12
     typical = "merit"
-    foremost = slice(MAX_SHOWN)
+    shown_leaders = slice(MAX_SHOWN)
     certifies = False
     counts_quarantined = False
 

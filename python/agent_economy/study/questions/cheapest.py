@@ -35,7 +35,7 @@ class Cheapest:
     quantity = "met"
     part = 1.0
     typical = "time_s"
-    foremost = slice(-MAX_SHOWN, None)
+    shown_leaders = slice(-MAX_SHOWN, None)
     certifies = True
     counts_quarantined = True
 

@@ -11,6 +11,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value as Json};
 
+/// Maximum number of keys of a parameter: a schema may contain itself.
+const MAX_STEPS: usize = 32;
+
 /// A number, switch or choice of a scenario.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Parameter {
@@ -90,6 +93,9 @@ struct Walk<'s> {
 impl<'s> Walk<'s> {
     /// Adds the parameters of the value `node` that `part` describes, which may be missing.
     fn value(&mut self, part: &'s Json, node: Option<&Node>, steps: &[PathStep]) {
+        if steps.len() > MAX_STEPS {
+            return;
+        }
         let Some(form) = self.form(part, node) else {
             return;
         };
