@@ -20,7 +20,7 @@ from typing import Any
 import brain_claims
 import numpy as np
 from brain_measurements import Answered, Brain, Measurements, Step, Team
-from page import ROOT, Page, table
+from measured import ROOT, Page, table
 from plots import Axes, Row, Spec, connected, interval, page_of, panel, side_by_side
 from scipy import stats
 

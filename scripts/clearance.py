@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-from page import ROOT, Page, table
+from measured import ROOT, Page, table
 from plots import Row, Spec, page_of, panel, path, points
 from scipy import stats
 

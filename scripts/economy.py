@@ -16,7 +16,7 @@ from itertools import groupby, product
 from typing import Any
 
 import numpy as np
-from page import ROOT, Page, table
+from measured import ROOT, Page, table
 from plots import Axes, Row, Spec, connected, interval, page_of, panel
 from scipy import stats
 

@@ -16,8 +16,8 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
+from measured import ROOT, Page, table
 from numpy.typing import NDArray
-from page import ROOT, Page, table
 from scipy import stats
 
 import agent_economy as ae

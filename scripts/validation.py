@@ -11,7 +11,7 @@ import math
 from functools import cache
 from itertools import groupby
 
-from page import Page, table
+from measured import Page, table
 from paired import HEADER, compared
 from plots import (
     GREY,
