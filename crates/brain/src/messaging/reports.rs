@@ -12,19 +12,21 @@
 //!    observer (once if they are one robot), the belief before own observations stays within
 //!
 //! ```text
-//! prior x product of (1 - t)  <=  belief  <=  1 - (1 - prior) x product of (1 - t)
+//! prior x product of (1 - t) over denials  <=  belief  <=  1 - (1 - prior) x product of (1 - t) over support
 //! ```
 //!
-//! Bound: *whatever c robots send, they make the belief in an item that no honest robot observed at
+//!    Reports that support the item move the belief up to the upper bound at most; denials then lower it.
+//!
+//! Bound: *whatever c robots send, they make the belief in an item that no honest robot detected at
 //! most `1 - (1 - prior) (1 - t1) ... (1 - tc)`, where `ti` is the trust in each of them, at any
-//! number of honest robots that relay.* A report joins the reports of an item by its place and kind,
+//! number of honest robots that relay, or look and see nothing.* A report joins the reports of an item by its place and kind,
 //! or because its sender sent the same one before, and never because another sender named the same
 //! observations. Proof: a radio names the true sender. A report of an honest
 //! sender is of its own observations or was received from the observer that it names (1), so a
-//! report that no honest robot's observations are behind has one of the c robots as sender or as
-//! observer. Counted reports share no robot (2), so at most c of them are such reports, each with
-//! another one of the c robots, and its `t` is at most the trust in that robot. The product in (3)
-//! is then at least that of the bound.
+//! report that supports the item has one of the c robots as sender or as observer. Counted reports
+//! share no robot (2), so at most c of them support it, each with another one of the c robots, and its
+//! `t` is at most the trust in that robot. The product over support in (3) is then at least that of the
+//! bound, and denials only lower the belief.
 //!
 //! At a trust of .5 and a prior of .01 that is .505 for one robot, .75 for two and .88 for three.
 //! The bound is on belief by reports: own observations apply after it.
@@ -166,12 +168,13 @@ impl Items {
             };
             for place in 0..track.count {
                 let source = track.sources[place];
-                let is_report = source.provenance.observer != own && source.log_odds() > 0.0;
-                if is_report && !source.is_judged {
+                let is_own = source.provenance.observer == own;
+                if !is_own && !source.is_judged && source.is_judged_by(verdict) {
+                    let is_right = source.log_odds() > 0.0 && verdict;
                     let is_credited = track.is_credited(own, source.from);
                     track.sources[place].is_judged = true;
                     if !is_credited {
-                        trust.learn(source.from, verdict);
+                        trust.learn(source.from, is_right);
                     }
                 }
             }
@@ -252,14 +255,19 @@ impl Track {
     /// Log odds by the reports of others, within the bounds of the [module](self); `agreement` is the log ratio by
     /// the kinds that they name.
     fn reported(&self, reception: &Reception, agreement: f64) -> f64 {
-        let (mut sum, mut distrust) = (self.prior + agreement, 1.0);
+        let (mut support, mut denial) = (Side::default(), Side::default());
         for report in Ranked::new(self, reception).counted() {
-            sum += report.log_ratio;
-            distrust *= 1.0 - report.trust;
+            if report.log_ratio > 0.0 {
+                support.add(report);
+            } else {
+                denial.add(report);
+            }
         }
         let prior = probability(self.prior);
-        let (min, max) = (prior * distrust, 1.0 - (1.0 - prior) * distrust);
-        sum.max(log_odds(min)).min(log_odds(max))
+        let max = log_odds(1.0 - (1.0 - prior) * support.distrust) - self.prior;
+        let min = log_odds(prior * denial.distrust) - self.prior;
+        let raised = (support.log_ratio + agreement).max(0.0).min(max);
+        self.prior + raised + denial.log_ratio.max(min)
     }
 
     /// Whether a report updates one that its sender sent before. A report of the same observations by
@@ -348,6 +356,12 @@ impl Track {
 }
 
 impl Source {
+    /// Whether own observations with a `verdict` confirm or refute this report: one that there is an item by either
+    /// verdict, a decisive denial if there is one. A denial earns no trust: most places have no item.
+    fn is_judged_by(&self, verdict: bool) -> bool {
+        self.log_odds() > 0.0 || (verdict && self.log_ratio < -DECISIVE)
+    }
+
     /// Whether a report of the same observations replaces this one. The report with more
     /// observations wins; reports of the observer itself precede relayed ones, and a different
     /// sender must be trusted.
@@ -411,6 +425,29 @@ impl WeightedReport {
     /// Whether it comes from one of two robots, or from observations of one of them.
     fn shares(&self, robots: [RobotId; 2]) -> bool {
         robots.iter().any(|robot| self.robots.contains(robot))
+    }
+}
+
+/// The counted reports that support an item, or those that deny it.
+struct Side {
+    log_ratio: f64,
+    /// The probability that none of them can be trusted.
+    distrust: f64,
+}
+
+impl Default for Side {
+    fn default() -> Self {
+        Self {
+            log_ratio: 0.0,
+            distrust: 1.0,
+        }
+    }
+}
+
+impl Side {
+    fn add(&mut self, report: &WeightedReport) {
+        self.log_ratio += report.log_ratio;
+        self.distrust *= 1.0 - report.trust;
     }
 }
 

@@ -114,3 +114,67 @@ fn a_miss_of_a_robot_with_a_poor_position_is_not_support() {
     receive(&mut items, ME, missed);
     assert!(confidence(&items, ME) <= alone);
 }
+
+/// The confidence in an item at a trust in all robots after the reports of liars, and after each of some denials.
+fn denied(trust: f64, liars: u32, denials: &[f64]) -> Vec<f64> {
+    let spec = TrustSpec {
+        initial: trust,
+        adaptive: false,
+    };
+    let trust = &Trust::new(&spec);
+    let reception = Reception { own: ME, trust };
+    let mut items = Items::new(64, None);
+    for liar in 1..=liars {
+        items.receive(&reception, &report(liar, 1.0), 0.01, &[PER_M2]);
+    }
+    let mut found = vec![items.tracks[0].confidence(&reception, None)];
+    for (observer, denial) in (10..).zip(denials) {
+        items.receive(&reception, &report(observer, *denial), 0.01, &[PER_M2]);
+        found.push(items.tracks[0].confidence(&reception, None));
+    }
+    found
+}
+
+#[test]
+fn robots_that_see_nothing_lower_the_belief_in_what_liars_report() {
+    for denial in [1e-6, 1e-5, 1e-4] {
+        let found = denied(0.5, 2, &[denial; 2]);
+        assert!((found[0] - 0.75).abs() < 3e-3, "{found:?}");
+        assert!(found[1] < found[0] && found[2] < found[1], "{found:?}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_denial_never_raises_belief(
+        trust in 0.01_f64..0.99,
+        liars in 1_u32..4,
+        denials in proptest::collection::vec(1e-6_f64..=MAX_PRIOR, 1..3),
+    ) {
+        let found = denied(trust, liars, &denials);
+        for pair in found.windows(2) {
+            prop_assert!(pair[1] <= pair[0] + 1e-12, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn a_denial_that_own_observations_refute_costs_trust_and_one_that_they_confirm_earns_none() {
+    let mut trust = Trust::new(&TrustSpec::default());
+    let mut items = Items::new(64, None);
+    receive(&mut items, ME, &report(7, 0.9));
+    receive(&mut items, ME, &report(8, 1e-4));
+    (0..10).for_each(|_| hit(&mut items, ME));
+    items.learn(ME, &mut trust);
+    assert!(trust.of(robot(7)) > TrustSpec::default().initial);
+    assert!(trust.of(robot(8)) < TrustSpec::default().initial);
+
+    let mut trust = Trust::new(&TrustSpec::default());
+    let mut items = Items::new(64, None);
+    receive(&mut items, ME, &report(7, 0.9));
+    receive(&mut items, ME, &report(8, 1e-4));
+    (0..30).for_each(|_| miss(&mut items, ME));
+    items.learn(ME, &mut trust);
+    assert!(trust.of(robot(7)) < TrustSpec::default().initial);
+    assert!((trust.of(robot(8)) - TrustSpec::default().initial).abs() < 1e-6);
+}
