@@ -137,7 +137,6 @@ mod tests {
             trust: 1.0,
             observations: 1.0,
             blur_m: 0.0,
-            counts_centres: false,
         }
     }
 

@@ -78,7 +78,7 @@ impl BeliefState {
         let goals = goals.map(|goal| GoalState::of(goal, beliefs, selection));
         Self {
             pose: beliefs.pose(),
-            items: messaging.believed_items(beliefs).collect(),
+            items: messaging.believed_items(beliefs),
             robots: robots.collect(),
             goals: goals.collect(),
             heading_options: HeadingOptions::of(&selection.navigator),

@@ -88,6 +88,10 @@ pub enum About {
         /// The observations behind the report.
         #[serde(default)]
         provenance: Provenance,
+        /// Probability of its kind, given that there is an item: the confidence is that of an item of this kind. None
+        /// from robots whose detectors are certain of kinds; receivers that are not then estimate it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        kind_share: Option<f32>,
     },
     /// The sender itself.
     Sender {

@@ -1,6 +1,6 @@
 //! How received messages change the beliefs.
 
-use super::reports::Report;
+use super::reports::{Report, freshness};
 use super::state::Messaging;
 use super::trust::MIN_TRUST;
 use crate::io::body::{Body, Detector, RobotId};
@@ -52,12 +52,15 @@ impl Messaging {
                 kind,
                 at,
                 provenance,
+                kind_share,
             } if is_valid_position(at) && usize::from(kind) < body.item_kinds.len() => {
                 let report = Report {
                     kind,
                     at,
                     provenance: provenance_of(received, provenance, at),
                     confidence,
+                    freshness: freshness(received.age_s),
+                    kind_share: kind_share.filter(|share| *share > 0.0 && *share <= 1.0),
                     from: received.from,
                 };
                 self.receive_report(&report, body, beliefs);
@@ -76,6 +79,7 @@ impl Messaging {
                     age_s: received.age_s,
                 };
                 let path = self.observed_path(received.from, reported, body);
+                let weight = weight * freshness(received.age_s);
                 path.extend_coverage(beliefs, heading_rad, weight);
             }
             About::Goal { id, at, status } if is_valid_position(at) && weight >= MIN_TRUST => {

@@ -51,6 +51,14 @@ const DECISIVE: f64 = 2.0 * LN_10 * 0.477;
 /// A report is sent again when its confidence has changed by this much.
 const RESEND_CHANGE: f64 = 0.05;
 
+/// A report is believed half as much after this age, in seconds.
+const HALF_LIFE_S: f64 = 600.0;
+
+/// Probability that a message of an age still says something about the world: 2^(-age / 10 min).
+pub(super) fn freshness(age_s: f64) -> f64 {
+    libm::exp2(-age_s / HALF_LIFE_S)
+}
+
 /// A report of an item by another robot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Report {
@@ -58,6 +66,10 @@ pub(crate) struct Report {
     pub(crate) at: Point,
     pub(crate) provenance: Provenance,
     pub(crate) confidence: f64,
+    /// Probability of the kind, given that there is an item, if the sender has stated it.
+    pub(crate) kind_share: Option<f32>,
+    /// Probability that it still says something about the item: see [`freshness`].
+    pub(crate) freshness: f64,
     /// The sender.
     pub(crate) from: RobotId,
 }
@@ -68,25 +80,29 @@ impl Report {
         let Some(kinds) = kinds.filter(|_| self.confidence > MAX_PRIOR) else {
             return (1.0, *self);
         };
-        let [named, any] = kinds.of_report(self.kind, self.confidence);
+        let any = match self.kind_share {
+            Some(share) => (self.confidence / f64::from(share)).min(1.0),
+            None => kinds.any_by_report(self.kind, self.confidence),
+        };
         let report = Self {
             confidence: any,
             ..*self
         };
-        (named / any, report)
+        (self.confidence / any, report)
     }
 
-    /// Log likelihood ratio of the observations behind it, given the receiver's prior.
+    /// Log likelihood ratio of the observations behind it, given the receiver's prior, as far as it is fresh.
     ///
     /// Priors differ: that of a robot with a poor position is higher. What it reports after a miss
     /// can be above the receiver's prior, so a probability that may be a prior is never support.
     fn log_ratio(&self, prior: f64) -> f64 {
         let log_ratio = log_odds(self.confidence.clamp(1e-6, 1.0 - 1e-6)) - prior;
-        if self.confidence <= MAX_PRIOR {
+        let log_ratio = if self.confidence <= MAX_PRIOR {
             log_ratio.min(0.0)
         } else {
             log_ratio
-        }
+        };
+        discounted(prior, log_ratio, self.freshness)
     }
 }
 
@@ -129,7 +145,7 @@ impl Items {
         };
         let (kind_share, report) = &report.of_any_kind(kinds.as_deref());
         let known = self.tracks.iter().position(|track| track.continues(report));
-        let near = || self.nearest(report.kind, report.at, variance_m2, &TrackSet::default());
+        let near = || self.track_of_report(report.kind, (report.at, variance_m2), per_m2);
         let new = || Track {
             evidence: kinds
                 .as_ref()
@@ -181,6 +197,22 @@ impl Items {
         }
     }
 
+    /// The tracks with the probabilities of their items, without those that are probably of the item of a more probable one.
+    pub(crate) fn believed(&self, reception: &Reception) -> Vec<(&Track, f64)> {
+        let kinds = self.kinds.as_deref();
+        let each = self.tracks.iter();
+        let all: Vec<(&Track, f64)> = each
+            .map(|track| (track, track.confidence(reception, kinds)))
+            .collect();
+        let is_alone = |(track, confidence): &(&Track, f64)| {
+            let mut others = all.iter().filter(|(_, other)| other > confidence);
+            !others.any(|(other, _)| {
+                (kinds.is_some() || other.kind == track.kind) && track.is_beside(other, *confidence)
+            })
+        };
+        all.iter().filter(|each| is_alone(each)).copied().collect()
+    }
+
     /// Appends reports to the outbox, at most `max`: own observations, and relayed ones of trusted
     /// robots.
     pub(crate) fn report(&mut self, reception: &Reception, outbox: &mut Vec<Message>, max: usize) {
@@ -194,11 +226,13 @@ impl Items {
             let certain = track.kind;
             for source in &mut track.sources[..track.count] {
                 let (kind, share) = match own {
-                    None => (certain, 1.0),
-                    Some(own) if source.provenance.observer == reception.own => own,
-                    Some(_) => (source.kind, source.kind_share.into()),
+                    None => (certain, None),
+                    Some((kind, share)) if source.provenance.observer == reception.own => {
+                        (kind, Some(share))
+                    }
+                    Some(_) => (source.kind, Some(source.kind_share.into())),
                 };
-                let confidence = probability(source.log_odds()) * share;
+                let confidence = probability(source.log_odds()) * share.unwrap_or(1.0);
                 if left == 0 || source.is_sent(confidence) || !source.is_sendable(reception) {
                     continue;
                 }
@@ -211,6 +245,8 @@ impl Items {
                         kind,
                         at,
                         provenance,
+                        #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+                        kind_share: share.map(|share| share as f32),
                     },
                     confidence,
                 });

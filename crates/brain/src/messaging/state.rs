@@ -7,6 +7,7 @@ use super::reports::Reception;
 use super::trust::Trust;
 use crate::io::body::{Body, RobotId};
 use crate::io::message::Message;
+use crate::perception::beliefs::items::track::Track;
 use crate::perception::beliefs::{Beliefs, BeliefsSpec};
 use crate::perception::believed::BelievedItem;
 use alloc::vec::Vec;
@@ -33,16 +34,16 @@ impl Messaging {
         }
     }
 
-    /// The items with their probabilities.
-    pub(crate) fn believed_items(&self, beliefs: &Beliefs) -> impl Iterator<Item = BelievedItem> {
-        let reception = self.reception(beliefs.id);
-        let kinds = beliefs.items.kinds.as_deref();
-        beliefs.items.tracks.iter().map(move |track| BelievedItem {
+    /// The items with their probabilities. A track that is probably of the item of a more probable one is none.
+    pub(crate) fn believed_items(&self, beliefs: &Beliefs) -> Vec<BelievedItem> {
+        let believed = beliefs.items.believed(&self.reception(beliefs.id));
+        let item = |(track, confidence): (&Track, f64)| BelievedItem {
             kind: track.kind,
             at: track.at,
             deviation_m: libm::sqrt(track.variance_m2),
-            confidence: track.confidence(&reception, kinds),
-        })
+            confidence,
+        };
+        believed.into_iter().map(item).collect()
     }
 
     /// Renumbers the robots; information about removed robots is dropped.

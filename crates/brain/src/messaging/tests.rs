@@ -377,6 +377,7 @@ fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedM
                 kind: 0,
                 at,
                 provenance,
+                kind_share: None,
             },
             0.95,
         )
@@ -432,10 +433,12 @@ fn implausibly_many_observations_are_limited() {
 }
 
 #[test]
-fn messages_with_invalid_ages_are_ignored_and_old_observations_count() {
+fn messages_with_invalid_ages_are_ignored_and_observations_count_less_with_their_age() {
     for (age_s, is_believed) in [
         (0.0, true),
-        (500.0, true),
+        (300.0, true),
+        (1200.0, false),
+        (1e9, false),
         (-3.0, false),
         (f64::NAN, false),
         (f64::INFINITY, false),

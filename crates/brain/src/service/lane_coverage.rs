@@ -72,8 +72,6 @@ impl LaneCoverage {
                     trust: 1.0,
                     observations: 1.0,
                     blur_m: pose.blur_m(),
-                    // Statements of risk must not be biased, also not towards safety.
-                    counts_centres: true,
                 };
                 self.own
                     .update(&self.field, (&map.field, &map.occupancy), &scan);

@@ -158,6 +158,7 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
             kind,
             at,
             provenance,
+            kind_share: None,
         });
     let sender = (point(number), number(-4.0, 4.0), any::<u32>()).prop_map(
         |(at, heading_rad, observations)| About::Sender {

@@ -256,6 +256,7 @@ fn believes_3_after_lies_of_7(observer: RobotId) -> bool {
             kind: 0,
             at,
             provenance,
+            kind_share: None,
         };
         step(&mut brain, vec![received(UNRELIABLE, lie, [0.0, 1.0])]);
         (0..9).for_each(|_| drop(step(&mut brain, Vec::new())));

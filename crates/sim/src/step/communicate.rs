@@ -222,6 +222,7 @@ radio = { range_m = 15, needs_line_of_sight = true }
                 kind: 0,
                 at: Point::default(),
                 provenance: Provenance::default(),
+                kind_share: None,
             },
             confidence: 1.0,
         }

@@ -84,6 +84,7 @@ radio = { range_m = 5 }
                 kind: 0,
                 at: Point::default(),
                 provenance: Provenance::default(),
+                kind_share: None,
             },
             confidence: 1.0,
         };

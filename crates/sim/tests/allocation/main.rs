@@ -72,6 +72,7 @@ fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
             kind: 0,
             at: Point::default(),
             provenance: Provenance::default(),
+            kind_share: None,
         },
         confidence: 0.5,
     };
@@ -182,6 +183,7 @@ fn crowded_percept(step: u32, rays: u32, age_s: f64) -> Percept {
                         track_id: number,
                         observations: step + 1,
                     },
+                    kind_share: None,
                 }
             },
             confidence: 0.9,

@@ -60,6 +60,7 @@ pub(crate) fn message(number: f64) -> Message {
             kind: 0,
             at,
             provenance: Provenance::default(),
+            kind_share: None,
         },
         confidence: 0.5,
     }

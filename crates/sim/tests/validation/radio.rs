@@ -68,6 +68,7 @@ fn hello() -> Message {
         kind: 0,
         at: CALLER,
         provenance: Provenance::default(),
+        kind_share: None,
     };
     Message {
         to: RobotId::EVERYONE,

@@ -18,16 +18,42 @@ fn sent(items: &mut Items) -> Vec<Report> {
             kind,
             at,
             provenance,
+            kind_share,
         } => Some(Report {
             kind,
             at,
             provenance,
             confidence: message.confidence,
+            kind_share,
+            freshness: 1.0,
             from: provenance.observer,
         }),
         _ => None,
     };
     outbox.into_iter().filter_map(report).collect()
+}
+
+#[test]
+fn a_report_counts_less_with_its_age() {
+    let believed = |age_s: f64| {
+        let mut items = Items::new(64, None);
+        let freshness = freshness(age_s);
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                freshness,
+                ..report(7, 1.0)
+            },
+        );
+        confidence(&items, ME)
+    };
+    let prior = TAU * 0.01 * PER_M2;
+    let expected = [(0.0, 0.9), (600.0, 0.45), (1200.0, 0.225), (1e9, 0.0)];
+    for (age_s, trusted) in expected {
+        let expected = trusted + (1.0 - trusted) * prior;
+        assert!((believed(age_s) - expected).abs() < 1e-3, "{age_s}");
+    }
 }
 
 /// The trust after nine refuted reports of a robot.
@@ -63,6 +89,8 @@ fn report(observer: u32, confidence: f64) -> Report {
             observations: 1,
         },
         confidence,
+        kind_share: None,
+        freshness: 1.0,
         from: robot(observer),
     }
 }
@@ -373,6 +401,8 @@ fn act() -> impl Strategy<Value = Act> {
                     observations: if more == 8 { u32::MAX } else { more },
                 },
                 confidence: if is_sure { 1.0 } else { confidence },
+                kind_share: None,
+                freshness: 1.0,
                 from: ME,
             },
         },
@@ -447,11 +477,14 @@ fn received_from(from: RobotId, message: Message) -> Report {
             kind,
             at,
             provenance,
+            kind_share,
         } => Report {
             kind,
             at,
             provenance,
             confidence: message.confidence,
+            kind_share,
+            freshness: 1.0,
             from,
         },
         about => panic!("no item: {about:?}"),

@@ -2,7 +2,7 @@
 
 use super::field::Field;
 use super::occupancy::Occupancy;
-use super::view::{View, cell_margin_m};
+use super::view::View;
 use crate::io::body::Detector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -85,8 +85,6 @@ pub(crate) struct DetectorScan<'g> {
     pub(crate) observations: f64,
     /// Cells that are no farther behind an obstacle than this count as visible.
     pub(crate) blur_m: f64,
-    /// Whether a cell counts as in view if its centre is; otherwise, nearly the whole cell has to be.
-    pub(crate) counts_centres: bool,
 }
 
 impl CoverageMap {
@@ -104,15 +102,9 @@ impl CoverageMap {
             trust,
             observations,
             blur_m,
-            counts_centres,
         } = *scan;
         let view = View::new(detector, heading_rad);
         let (low, high) = view.bounding_box(at);
-        let margin_m = if counts_centres {
-            0.0
-        } else {
-            cell_margin_m(field, detector.range_m)
-        };
         let [columns, rows] = field.columns_and_rows(low, high);
         let may_be_hidden = detector.needs_line_of_sight && {
             let [columns, rows] = map_field.columns_and_rows(low, high);
@@ -127,7 +119,7 @@ impl CoverageMap {
                 }
                 let centre = field.centre(cell);
                 let offset = at.to(centre);
-                let is_in_view = view.holds_within(offset, margin_m);
+                let is_in_view = view.holds(offset);
                 if is_in_view
                     && (!may_be_hidden || occupancy.is_visible(map_field, at, centre, blur_m))
                 {
@@ -193,7 +185,6 @@ pub(crate) mod tests {
             trust,
             observations: 1.0,
             blur_m: 0.0,
-            counts_centres: false,
         };
         coverage.update(&map.field, (&map.field, &map.occupancy), &scan);
     }

@@ -9,7 +9,7 @@
 //! log odds = prior log odds + sum over sources of their log likelihood ratios
 //! a contact adds    ln(p N(d; S) / f)    p: probability of detection at that distance,
 //! a miss adds       ln(1 - p)            N: normal density of the position error d,
-//!                                        f: false alarms per m2
+//!                                        f: false alarms per m2; in full: [association]
 //! a report counts   as t x its confidence + (1 - t) x the prior confidence,
 //!                   t: trust in the sender, times trust in the observer if that is another robot
 //! ```
@@ -17,6 +17,9 @@
 //! The prior follows from the density of items, and from the observations that did not detect
 //! anything at that position.
 
+mod association;
+mod contact;
+mod duplicates;
 pub(crate) mod kinds;
 mod observations;
 pub(crate) mod track;

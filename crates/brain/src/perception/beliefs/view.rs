@@ -1,20 +1,13 @@
 //! The field of view of an item detector, and its probability of detection.
 
-use super::field::Field;
 use crate::io::body::Detector;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::{PI, SQRT_2, TAU};
 
-/// A cell counts as observed if its centre is inside the field of view by this fraction of its
-/// width: most of the cell is in view then.
-const MARGIN: f64 = 0.35;
-
-/// The margin in metres; it is smaller for detectors with a range below two cells.
-pub(super) fn cell_margin_m(field: &Field, range_m: f64) -> f64 {
-    MARGIN * field.cell_m.min(range_m / 2.0)
-}
+/// A position counts as certainly in view if all edges are this many standard deviations away.
+const CERTAIN: f64 = 3.5;
 
 /// The field of view of a detector, with directions in the world.
 pub(crate) struct View {
@@ -76,14 +69,29 @@ impl View {
         self.holds_within(offset, 0.0)
     }
 
-    /// Whether most of the cell at a relative position is in view.
-    pub(crate) fn holds_cell(&self, field: &Field, offset: Point) -> bool {
-        self.holds_within(offset, cell_margin_m(field, self.range_m))
+    /// Probability that a relative position is in view that has a standard deviation, along each axis.
+    ///
+    /// Exact for one straight edge; the edges count as independent.
+    pub(crate) fn probability(&self, offset: Point, deviation_m: f64) -> f64 {
+        if self.holds_within(offset, CERTAIN * deviation_m) {
+            return 1.0;
+        }
+        let inside = |margin_m: f64| {
+            0.5 * libm::erfc(-margin_m / (deviation_m.max(f64::MIN_POSITIVE) * SQRT_2))
+        };
+        let [right, left] = self.edges;
+        let (left_of, right_of) = (inside(right.cross(offset)), inside(offset.cross(left)));
+        let between = match self.width {
+            Width::Narrow => left_of * right_of,
+            Width::Wide => 1.0 - (1.0 - left_of) * (1.0 - right_of),
+            Width::Round => 1.0,
+        };
+        between * inside(self.range_m - offset.length())
     }
 
     /// Whether a relative position is inside the field of view by a margin.
     #[inline]
-    pub(super) fn holds_within(&self, offset: Point, margin_m: f64) -> bool {
+    fn holds_within(&self, offset: Point, margin_m: f64) -> bool {
         let max_m = self.range_m - margin_m;
         let [right, left] = self.edges;
         let is_left = right.cross(offset) >= margin_m;

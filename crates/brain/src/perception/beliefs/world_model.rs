@@ -230,7 +230,6 @@ impl Beliefs {
                 trust,
                 observations,
                 blur_m,
-                counts_centres: false,
             };
             coverage.update(field, (field, occupancy), &scan);
         }

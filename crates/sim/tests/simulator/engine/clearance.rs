@@ -270,6 +270,7 @@ fn jammed(mut simulation: Simulation, jammer: RobotId) -> Simulation {
             kind: 0,
             at: [1.0, 1.0].into(),
             provenance: Provenance::default(),
+            kind_share: None,
         },
         confidence: 0.5,
     };

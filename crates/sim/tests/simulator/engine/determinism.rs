@@ -49,6 +49,7 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
                         kind: 0,
                         at: Point::default(),
                         provenance: Provenance::default(),
+                        kind_share: None
                     },
                     confidence: f64::from(number),
                 };

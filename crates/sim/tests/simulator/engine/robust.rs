@@ -38,6 +38,7 @@ fn command(random: &mut Random) -> Command {
             kind: 3,
             at,
             provenance: Provenance::default(),
+            kind_share: None,
         },
         _ => About::Sender {
             at,

@@ -105,7 +105,8 @@ fn a_miss_of_a_robot_with_a_poor_position_is_not_support() {
     with_initial_trust(observer, |reception| {
         of_observer.receive(reception, &lie, 4.0, &[PER_M2]);
     });
-    miss(&mut of_observer, observer);
+    // The item is at the edge of its field of view.
+    observe(&mut of_observer, observer, Point { x: -2.0, y: 0.0 }, &[]);
     let own = sent(&mut of_observer);
     let own = own.iter().find(|sent| sent.provenance.observer == observer);
     let missed = own.expect("it reports its miss");

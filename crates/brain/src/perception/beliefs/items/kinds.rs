@@ -15,8 +15,8 @@
 //!
 //! However often a sensor misses an item, the likelihood therefore stays above the blind share.
 //!
-//! A report names one kind, and its confidence is the probability of an item of that kind. How probable the
-//! other kinds are follows from the confusion of the known detectors: as if that kind had been reported once.
+//! A report names one kind, and states the probability of an item of that kind and that of the kind given an item. What is
+//! left is divided among the other kinds by the confusion of the known detectors: as if that kind had been reported once.
 
 use super::track::{SOURCES, Source, Track};
 use crate::io::body::{Body, Detector, RobotId};
@@ -92,14 +92,11 @@ impl KindModel {
         0..self.kinds()
     }
 
-    /// Probability of the named kind, and of any item, for a report with this confidence in an item of a kind.
-    pub(crate) fn of_report(&self, kind: u16, confidence: f64) -> [f64; 2] {
+    /// Probability of any item, for a report with this confidence in an item of a kind that does not state its share.
+    pub(crate) fn any_by_report(&self, kind: u16, confidence: f64) -> f64 {
         let named = self.true_kind(kind, usize::from(kind)).max(1e-6);
         let other = confidence * (1.0 - named) / named;
-        [
-            confidence,
-            confidence + other.min(MAX_OTHER * (1.0 - confidence)),
-        ]
+        confidence + other.min(MAX_OTHER * (1.0 - confidence))
     }
 
     /// Probability of a true kind by a reported one.
@@ -183,6 +180,20 @@ impl Track {
             blind + (1.0 - blind) * libm::exp(self.evidence[NUMBERS * place])
         };
         models.map(of_model).product()
+    }
+
+    /// Probability of a kind that a detector can see, given that there is an item, by own measurements.
+    pub(super) fn visible_share(&self, kinds: &KindModel, detector: &Detector, kind: usize) -> f64 {
+        let total: f64 = kinds
+            .each_kind()
+            .map(|kind| kinds.shares[kind] * self.own_likelihood(kinds, kind))
+            .sum();
+        let place = kinds.place(detector, kind);
+        let blind = kinds.blind[place / NUMBERS];
+        let visible = (1.0 - blind) * libm::exp(self.evidence[place]);
+        kinds.shares[kind] * self.own_likelihood(kinds, kind) / total.max(f64::MIN_POSITIVE)
+            * visible
+            / (blind + visible)
     }
 
     /// For each kind, the log likelihood ratio of all own measurements for an item that the own sensor models can

@@ -1,7 +1,10 @@
-use super::track::probability;
+use super::track::{Track, probability};
 use super::*;
 use crate::io::body::{Detector, RobotId};
 use crate::io::percept::Contact;
+use crate::messaging::reports::Reception;
+use crate::messaging::trust::Trust;
+use crate::perception::beliefs::TrustSpec;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::perception::beliefs::map::Map;
 use crate::perception::beliefs::pose::Pose;
@@ -99,4 +102,14 @@ pub(crate) fn random(run: u64) -> Stream {
 /// The probability of the first item, of which the robot has own observations only.
 fn confidence(items: &Items) -> f64 {
     probability(items.tracks[0].log_odds())
+}
+
+/// The tracks that a robot with own observations only believes in, with their probabilities.
+fn believed(items: &Items) -> Vec<(&Track, f64)> {
+    let trust = Trust::new(&TrustSpec::default());
+    let reception = Reception {
+        own: ME,
+        trust: &trust,
+    };
+    items.believed(&reception)
 }

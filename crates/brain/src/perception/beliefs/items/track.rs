@@ -168,10 +168,6 @@ impl Track {
 
     /// Corrects the position.
     pub(crate) fn correct_position(&mut self, at: Point, variance_m2: f64) {
-        if self.count == 1 && self.sources[0].provenance.observations <= 1 {
-            (self.at, self.variance_m2) = (at, variance_m2);
-            return;
-        }
         let gain = self.variance_m2 / (self.variance_m2 + variance_m2);
         self.at = self.at.plus(self.at.to(at).times(gain));
         let min_m2 = MIN_DEVIATION_M * MIN_DEVIATION_M;

@@ -1,6 +1,8 @@
 //! All tracks: association, replacement and bookkeeping.
 
+use super::association::Contacts;
 use super::kinds::KindModel;
+
 use super::track::Track;
 use super::track_set::{MAX_TRACKS, TrackSet};
 use crate::io::body::RobotId;
@@ -9,10 +11,8 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
 
-/// Association gate, in standard deviations: one contact of an item in ninety is beyond it, and begins a second
-/// track. In mined lanes and of uncertain kinds, where the number of items matters, it is wider: one in 3,000.
-const GATE: f64 = 3.0;
-const WIDE_GATE: f64 = 4.0;
+/// A report farther from a track than this, in standard deviations, is not of its item.
+const GATE: f64 = 4.0;
 
 /// All item tracks of a robot.
 #[derive(Debug, Clone, Hashed)]
@@ -33,6 +33,9 @@ pub(crate) struct Items {
     /// Tracks with reports to be sent, and those with reports to be judged.
     pub(crate) unsent: TrackSet,
     pub(crate) unjudged: TrackSet,
+    /// Scratch memory of one observation.
+    #[hashed(skip)]
+    pub(super) contacts: Contacts,
 }
 
 impl Items {
@@ -49,6 +52,7 @@ impl Items {
             repeated: 0,
             unsent: TrackSet::default(),
             unjudged: TrackSet::default(),
+            contacts: Contacts::default(),
         }
     }
 
@@ -58,26 +62,20 @@ impl Items {
         self.unjudged.extend(tracks);
     }
 
-    /// The nearest track of a kind within the gate that is not in `taken`; of any kind if kinds are uncertain.
-    pub(crate) fn nearest(
+    /// The track that a report of a kind, or of any kind if kinds are uncertain, is rather of than of another item.
+    pub(crate) fn track_of_report(
         &self,
         kind: u16,
-        at: Point,
-        variance_m2: f64,
-        taken: &TrackSet,
+        (at, variance_m2): (Point, f64),
+        per_m2: f64,
     ) -> Option<usize> {
-        let is_same = |track: &Track| self.kinds.is_some() || track.kind == kind;
-        let gate = if self.kinds.is_some() || self.is_in_lane {
-            WIDE_GATE
-        } else {
-            GATE
-        };
         let tracks = self.tracks.iter().enumerate();
-        let same = tracks.filter(|(number, track)| is_same(track) && !taken.contains(*number));
+        let same = tracks.filter(|(_, track)| self.kinds.is_some() || track.kind == kind);
         let near = same.filter_map(|(number, track)| {
-            let square = track.at.to(at).length_squared();
-            let all_m2 = variance_m2 + track.variance_m2;
-            (square <= gate * gate * all_m2).then_some((square, number))
+            let square_m2 = track.at.to(at).length_squared();
+            let max_m2 = GATE * GATE * (variance_m2 + track.variance_m2);
+            let log_odds = track.prior_with_another(at, variance_m2, per_m2);
+            (square_m2 <= max_m2 && log_odds < 0.0).then_some((log_odds, number))
         });
         let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
         nearest.map(|(_, number)| number)

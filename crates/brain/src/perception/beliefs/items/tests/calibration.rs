@@ -35,7 +35,6 @@ fn model_observation(
         trust: 1.0,
         observations: 1.0,
         blur_m: 0.0,
-        counts_centres: false,
     };
     map.coverage
         .update(&map.field, (&map.field, &map.occupancy), &scan);
@@ -67,9 +66,9 @@ fn confidences(worlds: u64) -> Vec<(f64, bool)> {
         for from in positions {
             model_observation((&mut items, &mut map), &world, from, &mut random);
         }
-        all.extend(items.tracks.iter().map(|track| {
+        all.extend(believed(&items).into_iter().map(|(track, confidence)| {
             let is_there = world.iter().any(|at| at.to(track.at).length() < 0.35);
-            (probability(track.log_odds()), is_there)
+            (confidence, is_there)
         }));
     }
     all

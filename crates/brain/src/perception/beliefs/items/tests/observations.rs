@@ -10,7 +10,7 @@ fn a_contact_is_weighted_by_bayes_rule() {
     assert!((confidence(&items) - odds / (1.0 + odds)).abs() < 1e-9);
     hit(&mut items, ME);
     // A second one at the same position; the standard deviation of both is 0.1 along each axis.
-    let odds = odds * 0.7 / (TAU * 0.02 * FALSE_PER_M2);
+    let odds = odds * (0.3 + 0.7 / (TAU * 0.02 * FALSE_PER_M2));
     assert!((confidence(&items) - odds / (1.0 + odds)).abs() < 1e-9);
     miss(&mut items, ME);
     let odds = odds * 0.3;

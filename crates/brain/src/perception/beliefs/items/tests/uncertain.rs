@@ -97,8 +97,8 @@ fn kinds_are_weighted_by_bayes_rule() {
         let contact = |reported: usize, variance_m2: f64| {
             DETECTION[kind] * CONFUSION[kind][reported] / (TAU * variance_m2 * false_per_m2)
         };
-        let visible =
-            contact(1, variance_m2[0]) * contact(0, variance_m2[1]) * (1.0 - DETECTION[kind]);
+        let missed = 1.0 - DETECTION[kind];
+        let visible = contact(1, variance_m2[0]) * (missed + contact(0, variance_m2[1])) * missed;
         let prior = TAU * 0.01 * KINDS_PER_M2[kind] / (1.0 - TAU * 0.01 * 0.03);
         prior * (BLIND[kind] + (1.0 - BLIND[kind]) * visible)
     };
@@ -211,16 +211,15 @@ fn believed(worlds: u64, assumed: &Detector) -> Vec<(f64, bool)> {
                 trust: 1.0,
                 observations: 1.0,
                 blur_m: 0.0,
-                counts_centres: false,
             };
             map.coverage
                 .update(&map.field, (&map.field, &map.occupancy), &scan);
         }
-        for (place, track) in items.tracks.iter().enumerate() {
+        for (track, confidence) in super::believed(&items) {
             let is_it = |(kind, at, _): &WorldItem| {
                 *kind == track.kind && at.to(track.at).length() < NEAR_M
             };
-            all.push((confidence_of(&items, place), world.iter().any(is_it)));
+            all.push((confidence, world.iter().any(is_it)));
         }
     }
     all
@@ -272,7 +271,7 @@ fn beliefs_that_ignore_the_blind_share_or_the_confusion_are_not_calibrated() {
         ..detector_of_kinds()
     };
     for assumed in [seeing, identifying] {
-        let deviation = largest_deviation(&believed(WORLDS, &assumed));
+        let deviation = largest_deviation(&believed(2 * WORLDS, &assumed));
         assert!(deviation > 1.5 * MAX_DEVIATION, "{deviation}");
     }
 }
