@@ -8,7 +8,7 @@
 //! ```text
 //! likelihood ratio of an item = 1 - p + sum over contacts of p N(d; S) / c
 //! c   = false alarms per m2 + sum over other tracks of N(d'; S') q / (1 - q)
-//! q   = probability of that item x p' x share of this contact in the sum of N(d'; S') / false alarms
+//! q   = probability of that item x p' for the contact that is most probably of it, 0 for the others
 //! p   probability of detection    N(d; S)  normal density of the distance d with the variance of track and contact
 //! ```
 //!
@@ -38,6 +38,8 @@ struct Match {
     per_m2: f64,
     /// Probability that the item, if it exists, is detected and reported as the kind of the contact.
     detection: f64,
+    /// Whether it is the contact that is most probably of the item.
+    is_best: bool,
     /// What the track adds to the false alarms of other tracks.
     claim_per_m2: f64,
     /// `per_m2`, relative to the density of what else the contact may be.
@@ -66,7 +68,7 @@ impl Contacts {
         for (seen, each) in self.seen.iter_mut().zip(&self.matches) {
             seen.tracked_per_m2 += each.claim_per_m2;
             let untracked_per_m2 = seen.false_per_m2 + seen.untracked_per_m2;
-            seen.is_of_track |= each.per_m2 * each.detection > untracked_per_m2;
+            seen.is_of_track |= each.is_best && each.per_m2 * each.detection > untracked_per_m2;
         }
     }
 
@@ -92,19 +94,18 @@ impl Contacts {
         Some(any)
     }
 
-    /// Determines what a track claims of each contact, if its item exists and is detected with some probabilities.
+    /// Determines what a track claims of the contact that is most probably of its item, if that exists and is detected
+    /// with some probabilities. An item gives one contact: it explains no others.
     fn claim(&mut self, exists: f64, detected: f64) {
-        let pairs = self.matches.iter().zip(&self.seen);
-        let all: f64 = pairs
-            .map(|(each, seen)| each.relative_to(seen.false_per_m2))
-            .sum();
-        if all <= 0.0 {
+        let pairs = self.matches.iter_mut().zip(&self.seen);
+        let relative = pairs.map(|(each, seen)| (each.relative_to(seen.false_per_m2), each));
+        let Some((ratio, best)) = relative.max_by(|one, other| one.0.total_cmp(&other.0)) else {
             return;
-        }
-        for (each, seen) in self.matches.iter_mut().zip(&self.seen) {
-            let share = each.relative_to(seen.false_per_m2) / all;
-            let gave = (exists * detected * share).min(MAX_OTHER);
-            each.claim_per_m2 = each.per_m2 * each.detection / detected * gave / (1.0 - gave);
+        };
+        if ratio > 0.0 {
+            let gave = (exists * detected).min(MAX_OTHER);
+            best.claim_per_m2 = best.per_m2 * best.detection / detected * gave / (1.0 - gave);
+            best.is_best = true;
         }
     }
 
