@@ -351,6 +351,7 @@ impl Kind {
     ) {
         let body = &*self.body;
         let likely = odometry.likely(percept, body, moved);
+        brain.doubt_map();
         let BeliefBrain {
             beliefs, messaging, ..
         } = brain;

@@ -40,6 +40,8 @@ pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
     pub(crate) navigator: Navigator,
     pursued: Option<Destination>,
+    /// Whether the map is to be marked stale before the next step, in which a goal is tried again.
+    doubts_map: bool,
     /// Number of the last goal that the robot chose itself.
     pub(crate) last_goal: u32,
     /// Kept between steps to reuse its allocation.
@@ -66,6 +68,15 @@ impl BeliefBrain {
             (known, &mut brain.selection)
         });
         parts.unzip()
+    }
+
+    /// Marks the map as stale before a goal is tried again.
+    pub(crate) fn doubt_map(&mut self) {
+        if core::mem::take(&mut self.selection.doubts_map)
+            && let Some(map) = &mut self.beliefs.map
+        {
+            map.occupancy.mark_stale();
+        }
     }
 
     /// Adds the messages of this step to the outbox. The goals of controllers are done when they have
@@ -216,7 +227,7 @@ impl GoalSelection {
                 Proposal::Destination(destination) => Some((*behaviour, *destination)),
                 Proposal::Motion(_) => None,
             });
-        let is_lengthened = self.navigator.take_is_lengthened();
+        let added_m = self.navigator.take_added_m();
         let step = Step {
             at: pose.at,
             deviation_m: pose.deviation_m,
@@ -227,7 +238,7 @@ impl GoalSelection {
             pursued: pursued.map(|goal| Pursuit {
                 goal,
                 remaining_m: self.navigator.remaining_m(pose.at, goal),
-                is_lengthened,
+                added_m,
             }),
             noise_m: 0.0,
         };
@@ -237,8 +248,15 @@ impl GoalSelection {
         let Some(goal) = self.goals.select(pose.at) else {
             return Motion::default();
         };
-        self.pursued = Some(goal.destination);
+        let destination = goal.destination;
+        self.doubts_map = self.goals.begin(&destination);
+        if self.doubts_map {
+            self.navigator.discard_plan();
+            return Motion::default();
+        }
+        self.pursued = Some(destination);
+        let is_retry = self.goals.is_retried(&destination);
         self.navigator
-            .drive_to(&goal.destination, situation, beliefs)
+            .drive_to((&destination, is_retry), situation, beliefs)
     }
 }

@@ -194,6 +194,26 @@ fn an_enclosed_waypoint_is_skipped() {
 }
 
 #[test]
+fn a_waypoint_is_reached_after_a_wall_around_it_has_left_out_of_sight() {
+    let (enclosed, open) = (at(8.0, 6.0), at(13.0, 9.0));
+    let mission = navigate(&[enclosed, open], Assignment::All);
+    let walls = [
+        [6.5, 4.5, 9.5, 4.8],
+        [6.5, 7.2, 9.5, 7.5],
+        [9.2, 4.5, 9.5, 7.5],
+    ];
+    let door = [6.5, 4.5, 6.8, 7.5];
+    let boxes = [walls[0], walls[1], walls[2], door];
+    let mut robot = Mission::new(mission, [16.0, 12.0], &boxes, at(3.0, 5.0));
+    robot.go(150);
+    assert!(robot.visit(enclosed).is_none());
+    let others = robot.walk.walls.len() - sides(door).len();
+    robot.walk.walls.truncate(others);
+    robot.go(250);
+    assert!(robot.visit(enclosed).is_some(), "{:?}", robot.walk.at);
+}
+
+#[test]
 fn shared_waypoints_are_visited_by_one_robot_each() {
     let places = [at(2.0, 2.0), at(8.0, 2.0), at(8.0, 8.0)];
     for (index, own) in [(1, 1), (5, 2)] {

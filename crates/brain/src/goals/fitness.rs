@@ -16,6 +16,11 @@ pub(crate) const PROGRESS_M: f64 = 0.1;
 const RECEDING_S: f64 = 4.0;
 const IMPOSSIBLE_S: f64 = 30.0;
 
+/// A discovery that makes the path longer by more than this leads elsewhere, in metres: the time without
+/// progress starts over. One that lengthens it by less, such as a further cell of an obstacle that the path
+/// passes, does not.
+const DETOUR_M: f64 = 2.0;
+
 /// The situation of one step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
@@ -42,8 +47,9 @@ pub(crate) struct Pursuit {
     pub(crate) goal: GoalPlace,
     /// Path length to it.
     pub(crate) remaining_m: f64,
-    /// Whether the path has become longer because of a cell that had never been occupied before.
-    pub(crate) is_lengthened: bool,
+    /// By how much a new path is longer because of a cell that was discovered to be occupied, or less than 0 if
+    /// it is shorter.
+    pub(crate) added_m: f64,
 }
 
 impl Step {
@@ -60,6 +66,8 @@ pub(crate) struct Fitness {
     pub(crate) last_m: f64,
     /// The difference between it and the minimum so far.
     behind_m: f64,
+    /// By how much the minimum has been raised by discoveries.
+    raised_m: f64,
     /// Time without progress.
     pub(crate) stuck_s: f64,
     /// Whether the goal was pursued in the last step.
@@ -135,8 +143,8 @@ impl Fitness {
     }
 
     /// Progress is only a path that is shorter than ever before: a path that jumps between two
-    /// lengths is none. A discovery that lengthens the path starts over. As each cell is discovered
-    /// only once, this ends.
+    /// lengths is none. What a discovery adds to the path raises the minimum too, until a new path is shorter
+    /// again, and a detour starts the time over. As each cell is discovered only once, this ends.
     fn track(&mut self, destination: &Destination, step: &Step) {
         let pursued = step
             .pursued
@@ -149,10 +157,15 @@ impl Fitness {
         };
         self.last_m = pursued.remaining_m;
         if was_pursued {
-            self.behind_m += pursued.remaining_m - before_m;
+            let raised_m = pursued.added_m.max(-self.raised_m);
+            self.raised_m += raised_m;
+            self.behind_m += pursued.remaining_m - before_m - raised_m;
         }
-        if pursued.is_lengthened || self.behind_m < -step.min_progress_m() {
+        if self.behind_m < -step.min_progress_m() {
             (self.behind_m, self.stuck_s) = (0.0, 0.0);
+            self.is_uncertain = false;
+        } else if pursued.added_m > DETOUR_M {
+            self.stuck_s = 0.0;
             self.is_uncertain = false;
         } else if was_pursued {
             self.count(step.elapsed_s, step.period_s);
@@ -193,7 +206,7 @@ mod tests {
             pursued: Some(Pursuit {
                 goal: GOAL.goal(),
                 remaining_m,
-                is_lengthened: false,
+                added_m: 0.0,
             }),
             noise_m: 0.0,
         }
@@ -248,7 +261,7 @@ mod tests {
     }
 
     /// The verdicts while a path of 5 m jumps to 18 m, and then becomes shorter by 0.5 m/s.
-    fn after_a_jump(is_lengthened: bool) -> Vec<Verdict> {
+    fn after_a_jump(is_discovery: bool) -> Vec<Verdict> {
         let mut fitness = Fitness::default();
         (0..5).for_each(|_| {
             fitness.update(&GOAL, &step(5.0, 5.0));
@@ -256,7 +269,9 @@ mod tests {
         let verdicts = (0..26).map(|second| {
             let mut step = step(5.0, 18.0 - 0.5 * f64::from(second));
             let pursued = step.pursued.as_mut().unwrap();
-            pursued.is_lengthened = is_lengthened && second == 0;
+            if is_discovery && second == 0 {
+                pursued.added_m = 13.0;
+            }
             fitness.update(&GOAL, &step)
         });
         verdicts.collect()
@@ -278,6 +293,38 @@ mod tests {
         };
         let verdicts: Vec<Verdict> = (0..40).map(&mut next).collect();
         assert_eq!(verdicts[35], Verdict::Impossible);
+    }
+
+    #[test]
+    fn an_obstacle_that_comes_and_goes_on_the_path_is_no_progress() {
+        let mut fitness = Fitness::default();
+        let mut next = |second| {
+            let is_longer = second % 10 >= 5;
+            let remaining_m = if is_longer { 5.6 } else { 5.0 };
+            let mut step = step(5.0, remaining_m);
+            // Each time another cell of it is discovered.
+            let added_m = match second % 10 {
+                5 => 0.6,
+                0 if second > 0 => -0.6,
+                _ => 0.0,
+            };
+            step.pursued.as_mut().unwrap().added_m = added_m;
+            fitness.update(&GOAL, &step)
+        };
+        let verdicts: Vec<Verdict> = (0..40).map(&mut next).collect();
+        assert_eq!(verdicts[25], Verdict::Receding);
+        assert_eq!(verdicts[35], Verdict::Impossible);
+    }
+
+    #[test]
+    fn a_robot_that_discovers_a_wall_while_it_drives_along_it_approaches() {
+        let mut fitness = Fitness::default();
+        // It discovers as much of the wall as it drives.
+        for _ in 0..60 {
+            let mut step = step(5.0, 5.0);
+            step.pursued.as_mut().unwrap().added_m = 0.4;
+            assert_eq!(fitness.update(&GOAL, &step), Verdict::Approaching);
+        }
     }
 
     #[test]

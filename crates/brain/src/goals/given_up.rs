@@ -28,6 +28,8 @@ struct Rest {
     total_s: f64,
     /// Why it failed.
     reason: Reason,
+    /// Whether the map has not been marked stale since it failed.
+    is_map_older: bool,
 }
 
 impl GivenUp {
@@ -42,6 +44,24 @@ impl GivenUp {
         let mut goals = self.goals.iter();
         let known = goals.find(|rest| rest.goal == goal);
         known.map_or(0.0, |rest| rest.left_s)
+    }
+
+    /// Whether a goal has failed before.
+    pub(crate) fn contains(&self, goal: GoalPlace) -> bool {
+        self.goals.iter().any(|rest| rest.goal == goal)
+    }
+
+    /// Begins to try a goal again. Returns whether the map is to be marked stale: if it has not been since
+    /// the goal failed. Goals that fail one after the other thus share what the robot observes again.
+    pub(crate) fn begin_retry(&mut self, goal: GoalPlace) -> bool {
+        let mut goals = self.goals.iter();
+        let is_due = goals.any(|rest| rest.goal == goal && rest.is_map_older);
+        if is_due {
+            for rest in &mut self.goals {
+                rest.is_map_older = false;
+            }
+        }
+        is_due
     }
 
     /// Why a goal failed last.
@@ -65,6 +85,7 @@ impl GivenUp {
             left_s: total_s,
             total_s,
             reason,
+            is_map_older: true,
         });
     }
 
@@ -107,6 +128,17 @@ mod tests {
         given_up.remove(goal(1));
         given_up.add(goal(1), Reason::Unreachable);
         assert_eq!(given_up.rest_s(goal(1)).to_bits(), f64::to_bits(10.0));
+    }
+
+    #[test]
+    fn goals_that_failed_before_the_map_was_marked_stale_do_not_mark_it_again() {
+        let mut given_up = GivenUp::default();
+        (1..3).for_each(|number| given_up.add(goal(number), Reason::Unreachable));
+        assert!(!given_up.begin_retry(goal(3)));
+        assert!(given_up.begin_retry(goal(1)));
+        assert!(!given_up.begin_retry(goal(1)) && !given_up.begin_retry(goal(2)));
+        given_up.add(goal(2), Reason::Unreachable);
+        assert!(given_up.begin_retry(goal(2)) && !given_up.begin_retry(goal(1)));
     }
 
     #[test]

@@ -139,6 +139,17 @@ impl Goals {
         is_given_up
     }
 
+    /// Begins to pursue a goal. Returns whether the map is to be marked stale first, as the goal is tried
+    /// again.
+    pub(crate) fn begin(&mut self, destination: &Destination) -> bool {
+        self.given_up.begin_retry(destination.goal())
+    }
+
+    /// Whether a goal has been given up before.
+    pub(crate) fn is_retried(&self, destination: &Destination) -> bool {
+        self.given_up.contains(destination.goal())
+    }
+
     /// Lets goals rest that were given up.
     pub(crate) fn rest(&mut self, elapsed_s: f64) {
         self.given_up.advance(elapsed_s);
@@ -376,7 +387,7 @@ mod tests {
             pursued: Some(Pursuit {
                 goal: one.goal(),
                 remaining_m: 10.0,
-                is_lengthened: false,
+                added_m: 0.0,
             }),
             ..step(HERE)
         };

@@ -186,7 +186,7 @@ impl Order {
             pursued: Some(Pursuit {
                 goal: self.goal,
                 remaining_m: distance_m,
-                is_lengthened: false,
+                added_m: 0.0,
             }),
             ..*step
         };

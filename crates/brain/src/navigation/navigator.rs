@@ -50,7 +50,11 @@ pub(crate) struct Navigator {
     #[hashed(skip)]
     wavefront: Wavefront,
     plan: Option<Plan>,
-    is_lengthened: bool,
+    /// Whether the goal has been given up before: where no path is known, obstacles that are stale are
+    /// observed again.
+    #[hashed(skip)]
+    is_retry: bool,
+    added_m: f64,
     /// The target of the last step, relative to the robot's front: bearing (radians) and distance
     /// (metres).
     pub(crate) target: Option<[f64; 2]>,
@@ -71,8 +75,8 @@ struct Plan {
     /// [`Occupancy::changes`](crate::perception::beliefs::occupancy::Occupancy::changes) of the map
     /// that it was made on.
     map_changes: u32,
-    /// The same for [`Occupancy::ever_occupied`](crate::perception::beliefs::occupancy::Occupancy::ever_occupied).
-    ever_occupied: u32,
+    /// The same for [`Occupancy::discoveries`](crate::perception::beliefs::occupancy::Occupancy::discoveries).
+    discoveries: u32,
 }
 
 impl Hashed for Plan {
@@ -84,11 +88,11 @@ impl Hashed for Plan {
             beyond_m,
             age_s,
             map_changes,
-            ever_occupied,
+            discoveries,
         } = self;
         (*goal, *waypoint).add_to(hash);
         [*beyond_m, *age_s].add_to(hash);
-        [*map_changes, *ever_occupied].add_to(hash);
+        [*map_changes, *discoveries].add_to(hash);
         if *end != goal.at {
             end.add_to(hash);
         }
@@ -102,13 +106,17 @@ impl Plan {
         at.to(waypoint).length() + self.beyond_m
     }
 
-    /// Whether the path from a position is longer than that of an older plan, and the robot has
-    /// discovered an occupied cell since then.
-    fn is_longer_by_discovery(&self, older: &Self, at: Point) -> bool {
+    /// By how much the path from a position is longer than that of an older plan, if the robot has
+    /// discovered an occupied cell since then; less than 0 if it is shorter.
+    fn added_m(&self, older: &Self, at: Point) -> f64 {
         let has_paths = self.waypoint.is_some() && older.waypoint.is_some();
         let added_m = self.remaining_m(at) - older.remaining_m(at);
-        let has_discovered = self.ever_occupied != older.ever_occupied;
-        self.goal == older.goal && has_paths && has_discovered && added_m > PROGRESS_M
+        let is_longer = added_m > PROGRESS_M && self.discoveries != older.discoveries;
+        if self.goal == older.goal && has_paths && (is_longer || added_m < 0.0) {
+            added_m
+        } else {
+            0.0
+        }
     }
 
     fn is_straight(&self) -> bool {
@@ -134,13 +142,14 @@ enum Source {
 }
 
 impl Navigator {
-    /// The motion towards a destination; zero without a pose or a path.
+    /// The motion towards a destination, which may be tried again; zero without a pose or a path.
     pub(crate) fn drive_to(
         &mut self,
-        destination: &Destination,
+        (destination, is_retry): (&Destination, bool),
         situation: &Situation,
         beliefs: &Beliefs,
     ) -> Motion {
+        self.is_retry = is_retry;
         let Some(pose) = beliefs.pose() else {
             return Motion::default();
         };
@@ -217,10 +226,10 @@ impl Navigator {
         plan.map_or_else(|| at.to(goal.at).length(), |plan| plan.remaining_m(at))
     }
 
-    /// Whether the path has become longer since the last call, because of a cell that had never
-    /// been occupied before.
-    pub(crate) fn take_is_lengthened(&mut self) -> bool {
-        core::mem::take(&mut self.is_lengthened)
+    /// By how much new paths since the last call are longer because of a cell that was discovered to be
+    /// occupied, or less than 0 if they are shorter.
+    pub(crate) fn take_added_m(&mut self) -> f64 {
+        core::mem::take(&mut self.added_m)
     }
 
     pub(crate) fn discard_plan(&mut self) {
@@ -254,11 +263,10 @@ impl Navigator {
             beyond_m: self.beyond_m(waypoint, end, map),
             age_s: 0.0,
             map_changes: map.occupancy.changes,
-            ever_occupied: map.occupancy.ever_occupied,
+            discoveries: map.occupancy.discoveries,
         };
         let older = self.plan.replace(plan);
-        self.is_lengthened |=
-            older.is_some_and(|older| plan.is_longer_by_discovery(&older, pose.at));
+        self.added_m += older.map_or(0.0, |older| plan.added_m(&older, pose.at));
         waypoint
     }
 
@@ -312,7 +320,8 @@ impl Navigator {
     }
 
     /// The first waypoint of a new path: one with clearance on both sides, or else one through
-    /// which the robot may just fit, since an obstacle need not fill its whole cell.
+    /// which the robot may just fit, since an obstacle need not fill its whole cell. If there is neither, a
+    /// goal that is tried again is looked for behind stale obstacles.
     fn search(&mut self, goal: Point, at: Point, map: &Map, radius_m: f64) -> Option<Point> {
         let cell_m = map.field.cell_m;
         let here = map.field.nearest_cell(at);
@@ -320,12 +329,20 @@ impl Navigator {
             (radius_m + CLEARANCE * cell_m, true),
             ((radius_m - TIGHT_CLEARANCE * cell_m).max(0.0), false),
         ];
-        clearances_m.into_iter().find_map(|(clearance_m, is_wide)| {
-            let known = (&map.field, &map.occupancy);
-            self.wavefront.avoid(&self.hazards, is_wide);
-            self.wavefront
-                .expand(known, goal, clearance_m, |cell, _| cell != here);
-            self.wavefront.waypoint(&map.field, &map.occupancy, at)
+        let stages: &[bool] = if self.is_retry {
+            &[false, true]
+        } else {
+            &[false]
+        };
+        stages.iter().find_map(|passes_stale| {
+            self.wavefront.pass_stale(*passes_stale);
+            clearances_m.into_iter().find_map(|(clearance_m, is_wide)| {
+                let known = (&map.field, &map.occupancy);
+                self.wavefront.avoid(&self.hazards, is_wide);
+                self.wavefront
+                    .expand(known, goal, clearance_m, |cell, _| cell != here);
+                self.wavefront.waypoint(&map.field, &map.occupancy, at)
+            })
         })
     }
 

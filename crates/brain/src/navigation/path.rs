@@ -8,10 +8,14 @@
 //! A start or goal where the robot does not fit, such as one close to a wall, is connected by
 //! straight lines to the nearest cells where it does, unless an obstacle lies between. The same holds
 //! for a start near a [hazard](super::hazards); no path leads into one.
+//!
+//! Paths may be allowed through obstacles that are [stale](Occupancy::is_stale), at an extra cost per cell: the
+//! robot then drives to where it can observe them.
 
 use super::hazards::Hazards;
 use crate::perception::beliefs::field::Field;
 use crate::perception::beliefs::occupancy::Occupancy;
+use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -27,8 +31,16 @@ const START: u16 = 1;
 
 const UNREACHED: u16 = u16::MAX;
 
+/// An unreached cell into which the robot fits only if a stale obstacle has left, and one of these that the
+/// wavefront has met and enters later.
+const STALE: u16 = UNREACHED - 1;
+const WAITING: u16 = UNREACHED - 2;
+
+/// Extra cost of such a cell: that of a detour of 20 cells.
+const STALE_COST: u16 = 20 * STRAIGHT;
+
 /// The wavefront stops here: except in mazes, no path on a field of some thousand cells is longer.
-const MAX_COST: u16 = UNREACHED - DIAGONAL;
+const MAX_COST: u16 = WAITING - DIAGONAL - STALE_COST;
 
 /// The distance of every cell from one position. Two bytes per cell, and four per open cell.
 #[derive(Debug, Clone, Default)]
@@ -46,6 +58,10 @@ pub(crate) struct Wavefront {
     inflation: i32,
     /// Open cells, by their cost modulo 8.
     buckets: [Vec<u32>; 8],
+    /// Whether paths lead through stale obstacles; and the cells there that are not entered yet, with their
+    /// costs, which rise.
+    passes_stale: bool,
+    waiting: VecDeque<(u32, u16)>,
     is_complete: bool,
 }
 
@@ -54,6 +70,11 @@ impl Wavefront {
     pub(crate) fn avoid(&mut self, hazards: &Hazards, is_wide: bool) {
         self.hazards.clone_from(hazards);
         self.is_wide = is_wide;
+    }
+
+    /// Whether paths lead through stale obstacles in later expansions.
+    pub(crate) fn pass_stale(&mut self, passes_stale: bool) {
+        self.passes_stale = passes_stale;
     }
 
     /// Whether the last expansion kept clear of the same hazards.
@@ -104,6 +125,8 @@ impl Wavefront {
         let clearance = (clearance_m / field.cell_m).max(0.0).min(max_cells);
         self.inflation = clearance as i32 + 1;
         for occupied in map.occupied() {
+            let is_passed = self.passes_stale && map.is_stale(occupied);
+            let mark = if is_passed { STALE } else { BLOCKED };
             let [column, row] = field.column_and_row_of(occupied);
             for up in 1 - self.inflation..self.inflation {
                 for right in 1 - self.inflation..self.inflation {
@@ -112,7 +135,7 @@ impl Wavefront {
                         && is_near
                     {
                         let index = self.index(field, cell);
-                        self.costs[index] = BLOCKED;
+                        self.costs[index] = self.costs[index].min(mark);
                     }
                 }
             }
@@ -135,6 +158,7 @@ impl Wavefront {
 
     fn start(&mut self, field: &Field, map: &Occupancy) {
         self.buckets.iter_mut().for_each(Vec::clear);
+        self.waiting.clear();
         let origin_cell = field.nearest_cell(self.origin);
         if !self.is_blocked(field, origin_cell) {
             let index = self.index(field, origin_cell);
@@ -156,7 +180,8 @@ impl Wavefront {
     /// Returns whether all reachable cells were visited.
     fn propagate(&mut self, field: &Field, mut visit: impl FnMut(usize, f64) -> bool) -> bool {
         let (mut cost, mut empty_buckets) = (START, 0);
-        while empty_buckets < 8 && cost < MAX_COST {
+        while (empty_buckets < 8 || !self.waiting.is_empty()) && cost < MAX_COST {
+            self.enter_stale(cost);
             let mut front = core::mem::take(&mut self.buckets[usize::from(cost % 8)]);
             empty_buckets = if front.is_empty() {
                 empty_buckets + 1
@@ -179,6 +204,18 @@ impl Wavefront {
             cost += 1;
         }
         true
+    }
+
+    /// Enters the stale cells that have waited for this cost.
+    #[inline]
+    fn enter_stale(&mut self, cost: u16) {
+        while let Some(&(index, entered)) = self.waiting.front()
+            && entered <= cost
+        {
+            self.costs[index as usize] = cost;
+            self.buckets[usize::from(cost % 8)].push(index);
+            self.waiting.pop_front();
+        }
     }
 
     #[inline]
@@ -206,8 +243,21 @@ impl Wavefront {
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "at most 65,000 cells")]
     fn reach(&mut self, index: usize, cost: u16) {
+        if matches!(self.costs[index], STALE | WAITING) {
+            self.wait_for(index, cost);
+            return;
+        }
         self.costs[index] = cost;
         self.buckets[usize::from(cost % 8)].push(index as u32);
+    }
+
+    /// Meets a cell in a stale obstacle, which is entered later.
+    #[expect(clippy::cast_possible_truncation, reason = "at most 65,000 cells")]
+    fn wait_for(&mut self, index: usize, cost: u16) {
+        if self.costs[index] == STALE {
+            self.costs[index] = WAITING;
+            self.waiting.push_back((index as u32, cost + STALE_COST));
+        }
     }
 
     /// Index of a cell of the field in `costs`.
@@ -233,7 +283,7 @@ impl Wavefront {
     #[inline]
     pub(crate) fn cell_distance_m(&self, field: &Field, cell: usize) -> Option<f64> {
         let cost = self.costs[self.index(field, cell)];
-        let is_reached = cost != BLOCKED && cost != UNREACHED;
+        let is_reached = cost != BLOCKED && cost < WAITING;
         is_reached.then(|| distance_m(field, cost))
     }
 
@@ -306,6 +356,7 @@ impl Wavefront {
             let is_free = || {
                 self.is_open_between(field, at, centre)
                     && self.hazards.are_clear_between(at, centre)
+                    && (!self.passes_stale || map.is_free_between(field, at, centre))
             };
             if farthest.is_some() && !is_free() {
                 break;

@@ -287,3 +287,63 @@ fn a_diagonal_wall_has_no_gaps() {
         );
     }
 }
+
+/// The distances of the cells from an origin if paths lead through stale obstacles.
+fn through_stale(map: &Occupancy, origin: Point) -> Wavefront {
+    let mut wavefront = Wavefront::default();
+    wavefront.pass_stale(true);
+    wavefront.expand((&field(), map), origin, 0.1, |_, _| true);
+    wavefront
+}
+
+/// Observes that a cell is occupied.
+fn observe(map: &mut Occupancy, at: Point) {
+    let free = Segment { from: at, to: at };
+    let hit = Some(at);
+    map.add_ray(&field(), &Ray { free, hit });
+}
+
+#[test]
+fn a_path_leads_through_a_stale_wall_at_an_extra_cost_until_all_of_it_is_observed() {
+    let mut map = map(|column, _| column == 6);
+    let (start, goal) = (point(2, 5), point(10, 5));
+    let here = field().nearest_cell(start);
+    let distance_m = |map: &Occupancy| through_stale(map, goal).cell_distance_m(&field(), here);
+    assert_eq!(distance_m(&map), None);
+    map.mark_stale();
+    assert_eq!(distance_m(&map), Some(4.0 + 10.0));
+    let distances = (0..ROWS).map(|row| {
+        // From the middle outwards.
+        let row = if row % 2 == 0 {
+            5 - row / 2
+        } else {
+            6 + row / 2
+        };
+        observe(&mut map, point(6, row));
+        distance_m(&map)
+    });
+    let distances: Vec<Option<f64>> = distances.collect();
+    assert!(distances.is_sorted_by(|one, other| other.is_none() || one <= other));
+    assert_eq!(distances.iter().filter(|each| each.is_none()).count(), 1);
+    assert_eq!(
+        wavefront(&map, goal, 0.1).cell_distance_m(&field(), here),
+        None
+    );
+}
+
+#[test]
+fn a_path_leads_around_a_stale_wall_if_that_costs_less() {
+    let mut map = drawn(WALL);
+    let here = field().nearest_cell(point(1, 1));
+    let around_m = wavefront(&map, point(12, 1), 0.1).cell_distance_m(&field(), here);
+    map.mark_stale();
+    let wavefront = through_stale(&map, point(12, 1));
+    assert_eq!(wavefront.cell_distance_m(&field(), here), around_m);
+    let mut at = point(1, 1);
+    for _ in 0..20 {
+        let next = wavefront.waypoint(&field(), &map, at).unwrap();
+        assert!(map.is_free_between(&field(), at, next), "{at:?} {next:?}");
+        at = next;
+    }
+    assert_eq!(at, point(12, 1));
+}

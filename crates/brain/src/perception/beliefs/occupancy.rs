@@ -24,6 +24,9 @@ const OCCUPIED: i8 = 4;
 /// each ray adds [`HIT`] to the cell in which it ends and [`PASS`] to those that it passes. Nine
 /// bits per cell.
 ///
+/// An occupied cell is stale if no ray has ended in it since [`Occupancy::mark_stale`]: what was there may
+/// have left out of sight.
+///
 /// A wall at a grazing angle ends few rays, while many pass through cells that it occupies in part.
 /// A ray therefore clears cells only as far as its neighbours reach, and each cell about once per
 /// scan.
@@ -33,11 +36,13 @@ pub(crate) struct Occupancy {
     /// The cells that the previous ray passed, in order.
     #[hashed(skip)]
     passed: Vec<usize>,
-    /// Number of cells that have become occupied or free so far.
+    /// Number of cells that have become occupied, free, or stale no more, so far.
     pub(crate) changes: u32,
-    /// Whether each cell has ever been occupied, in groups of 64, and the number of those cells.
-    was_occupied: Vec<u64>,
-    pub(crate) ever_occupied: u32,
+    /// Whether each cell has been occupied since the map was marked stale, or ever if it never was, in
+    /// groups of 64.
+    confirmed: Vec<u64>,
+    /// Number of cells that have become confirmed so far.
+    pub(crate) discoveries: u32,
 }
 
 /// A measured ray.
@@ -55,8 +60,8 @@ impl Occupancy {
             quarter_nats: vec![0; field.cells()],
             passed: Vec::with_capacity(field.columns.max(field.rows) + 1),
             changes: 0,
-            was_occupied: vec![0; field.cells().div_ceil(64)],
-            ever_occupied: 0,
+            confirmed: vec![0; field.cells().div_ceil(64)],
+            discoveries: 0,
         }
     }
 
@@ -66,6 +71,17 @@ impl Occupancy {
         self.quarter_nats
             .get(cell)
             .is_some_and(|odds| *odds >= OCCUPIED)
+    }
+
+    /// Whether an occupied cell is stale.
+    pub(crate) fn is_stale(&self, cell: usize) -> bool {
+        let group = self.confirmed.get(cell / 64);
+        group.is_some_and(|group| group & (1 << (cell % 64)) == 0)
+    }
+
+    /// Marks all occupied cells as stale until they are observed again.
+    pub(crate) fn mark_stale(&mut self) {
+        self.confirmed.fill(0);
     }
 
     /// Whether any cell within columns and rows counts as occupied.
@@ -133,20 +149,22 @@ impl Occupancy {
             let is_occupied = *odds >= OCCUPIED;
             if was_occupied != is_occupied {
                 self.changes = self.changes.wrapping_add(1);
-                if is_occupied {
-                    self.count_occupied(cell);
-                }
+            }
+            if is_occupied && change > 0 && self.confirm(cell) {
+                self.discoveries = self.discoveries.wrapping_add(1);
+                self.changes = self.changes.wrapping_add(u32::from(was_occupied));
             }
         }
     }
 
-    /// Counts a cell that has become occupied, once for ever.
-    fn count_occupied(&mut self, cell: usize) {
-        if let Some(group) = self.was_occupied.get_mut(cell / 64) {
-            let bit = 1 << (cell % 64);
-            self.ever_occupied += u32::from(*group & bit == 0);
+    /// Confirms that a cell is occupied; returns whether it was not confirmed before.
+    fn confirm(&mut self, cell: usize) -> bool {
+        let bit = 1 << (cell % 64);
+        self.confirmed.get_mut(cell / 64).is_some_and(|group| {
+            let is_new = *group & bit == 0;
             *group |= bit;
-        }
+            is_new
+        })
     }
 
     /// Whether no known obstacle hides a position from another. Obstacles at the position itself,
@@ -259,11 +277,25 @@ mod tests {
             (0..100).for_each(|_| scan(&mut map, 4.1, true));
             (0..100).for_each(|_| scan(&mut map, 8.0, false));
         }
-        assert_eq!((map.changes, map.ever_occupied), (6, 1));
+        assert_eq!((map.changes, map.discoveries), (6, 1));
         scan(&mut map, 6.1, true);
-        assert_eq!(map.ever_occupied, 1);
+        assert_eq!(map.discoveries, 1);
         (0..10).for_each(|_| scan(&mut map, 6.1, true));
-        assert_eq!(map.ever_occupied, 2);
+        assert_eq!(map.discoveries, 2);
+    }
+
+    #[test]
+    fn a_stale_wall_stays_occupied_and_is_discovered_again_once_it_is_observed() {
+        let mut map = Occupancy::new(&field());
+        let wall = field().cell(Point { x: 5.1, y: 5.25 }).unwrap();
+        scan(&mut map, 4.1, true);
+        assert!(!map.is_stale(wall));
+        map.mark_stale();
+        assert!(map.is_stale(wall) && map.is_occupied(wall));
+        assert_eq!((map.changes, map.discoveries), (1, 1));
+        (0..3).for_each(|_| scan(&mut map, 4.1, true));
+        assert!(!map.is_stale(wall));
+        assert_eq!((map.changes, map.discoveries), (2, 2));
     }
 
     #[test]
