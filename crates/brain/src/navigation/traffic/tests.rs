@@ -105,7 +105,7 @@ impl TestRobot {
         let current_speed_m_s = self.speed_m_s;
         let odometry = odometry(body, current_speed_m_s, turned_rad);
         let moved = Displacement::along(self.moved_m, &odometry);
-        self.others.update(percept, body, &moved);
+        self.others.update(percept, body, &moved, None);
         self.traffic.update(&self.others.movers, body, &odometry);
         self.traffic.limit(wanted, body, current_speed_m_s)
     }

@@ -14,6 +14,7 @@ pub(crate) mod displacement;
 mod drive_estimate;
 pub(crate) mod field;
 pub(crate) mod items;
+mod last_places;
 mod localisation;
 mod map;
 pub(crate) mod mover;

@@ -15,6 +15,11 @@ const MIN_SPEED_M_S: f64 = 0.1;
 const PARKED_S: f64 = 20.0;
 const SAME_PLACE_M: f64 = 0.5;
 
+/// The place follows the observations with this time constant, in seconds, and an observation within this
+/// number of standard deviations does not leave it.
+const PLACE_S: f64 = 10.0;
+const SAME_PLACE_DEVIATIONS: f64 = 3.0;
+
 /// The estimated state of a robot or other moving object.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
 pub(crate) struct Mover {
@@ -40,8 +45,9 @@ pub(crate) struct Mover {
 }
 
 impl Mover {
-    /// Corrects the state with an observed position; `gain` is that of the velocity.
-    pub(super) fn correct(&mut self, at: Point, age_s: f64, gain: f64) {
+    /// Corrects the state with an observed position; `gain` is that of the velocity, and `noise_m` the
+    /// standard deviation of the position along each axis.
+    pub(super) fn correct(&mut self, (at, noise_m): (Point, f64), age_s: f64, gain: f64) {
         // A repeated observation is ignored.
         let interval_s = self.age_s - age_s;
         if interval_s <= 0.0 {
@@ -55,9 +61,7 @@ impl Mover {
         if corrected.length_squared() <= MAX_SPEED_M_S * MAX_SPEED_M_S {
             self.velocity_m_s = corrected;
         }
-        if self.place.to(at).length_squared() > SAME_PLACE_M * SAME_PLACE_M {
-            (self.place, self.standing_s) = (at, 0.0);
-        }
+        self.stand(at, noise_m, interval_s);
         let speed_m_s = self.speed_m_s();
         if speed_m_s > MIN_SPEED_M_S {
             self.course = self.velocity_m_s.times(1.0 / speed_m_s);
@@ -65,6 +69,23 @@ impl Mover {
         self.at = at.plus(self.velocity_m_s.times(age_s));
         self.age_s = age_s;
         self.observations = self.observations.saturating_add(1);
+    }
+
+    /// Takes an observed position into account for how long it has been in one place. The place is a mean: in
+    /// this robot's frame, it drifts with the errors of the odometry.
+    fn stand(&mut self, at: Point, noise_m: f64, interval_s: f64) {
+        if Self::is_same_place(self.place, at, noise_m) {
+            let gain = interval_s / (PLACE_S + interval_s);
+            self.place = self.place.plus(self.place.to(at).times(gain));
+        } else {
+            (self.place, self.standing_s) = (at, 0.0);
+        }
+    }
+
+    /// Whether an observation with a standard deviation of `noise_m` along each axis is of a place.
+    pub(super) fn is_same_place(place: Point, at: Point, noise_m: f64) -> bool {
+        let same_m = SAME_PLACE_M + SAME_PLACE_DEVIATIONS * noise_m;
+        place.to(at).length_squared() <= same_m * same_m
     }
 
     /// Whether it is an obstacle that paths lead around, rather than one that will move on.

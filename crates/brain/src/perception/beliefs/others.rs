@@ -1,10 +1,11 @@
 //! Tracks of nearby robots and other moving objects.
 
 use super::displacement::Displacement;
+use super::last_places::LastPlaces;
 use super::mover::Mover;
-use super::pose::turned;
+use super::pose::{Pose, turned};
 use super::scan_objects::ScanObjects;
-use crate::io::body::Body;
+use crate::io::body::{Body, RobotId};
 use crate::io::percept::{Neighbour, Percept};
 use crate::perception::rays::Ring;
 use crate::perception::sector::direction;
@@ -37,25 +38,34 @@ const NOISY_GAIN: f64 = 0.3;
 pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
     objects: ScanObjects,
+    last_places: LastPlaces,
     /// Scratch memory, to avoid allocations.
     #[hashed(skip)]
     distances_m: Vec<f64>,
 }
 
 impl Others {
-    /// Updates the tracks after a step with a displacement.
-    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, moved: &Displacement) {
+    /// Updates the tracks after a step with a displacement. Without a pose, the places of robots that are
+    /// lost from sight are not kept.
+    pub(crate) fn update(
+        &mut self,
+        percept: &Percept,
+        body: &Body,
+        moved: &Displacement,
+        pose: Option<&Pose>,
+    ) {
         let motion = moved.chord;
         self.movers.retain(|mover| mover.id.is_some());
         self.predict(motion, moved);
         self.objects
             .predict(motion, moved.turned_rad, moved.elapsed_s);
+        self.last_places.advance(moved.elapsed_s);
         let max_range_m = self.max_range_m(&percept.neighbours);
         let near = percept.neighbours.iter();
         for neighbour in near.filter(|neighbour| neighbour.range_m <= max_range_m) {
-            self.observe(neighbour, body, moved);
+            self.observe(neighbour, body, moved, pose);
         }
-        self.movers.retain(|mover| mover.age_s <= MAX_AGE_S);
+        self.drop_lost(pose);
         let speed_m_s = motion.length() / moved.elapsed_s.max(f64::MIN_POSITIVE);
         let stopping_m = speed_m_s * speed_m_s / (2.0 * body.max_acceleration_m_s2);
         self.keep_nearest(&Segment {
@@ -99,7 +109,25 @@ impl Others {
         }
     }
 
-    fn observe(&mut self, neighbour: &Neighbour, body: &Body, own: &Displacement) {
+    /// Drops tracks without an observation, and keeps the places of these robots.
+    fn drop_lost(&mut self, pose: Option<&Pose>) {
+        let last_places = &mut self.last_places;
+        self.movers.retain(|mover| {
+            let is_lost = mover.age_s > MAX_AGE_S;
+            if let Some(pose) = pose.filter(|_| is_lost) {
+                last_places.add(mover, pose);
+            }
+            !is_lost
+        });
+    }
+
+    fn observe(
+        &mut self,
+        neighbour: &Neighbour,
+        body: &Body,
+        own: &Displacement,
+        pose: Option<&Pose>,
+    ) {
         let other = body.others.get(usize::from(neighbour.id.kind));
         if other.is_some_and(|other| !other.is_in_the_way) || !is_valid(neighbour) {
             return;
@@ -113,24 +141,37 @@ impl Others {
             EXACT_GAIN
         };
         let known = self.movers.iter_mut();
-        match known
+        if let Some(mover) = known
             .into_iter()
             .find(|mover| mover.id == Some(neighbour.id))
         {
-            Some(mover) => mover.correct(at, neighbour.age_s, gain),
-            None => self.add(Mover {
-                id: Some(neighbour.id),
-                at,
-                radius_m: other.map_or(body.radius_m, |other| other.radius_m),
-                braking_m_s2: other.map_or(body.max_acceleration_m_s2, |other| {
-                    other.max_acceleration_m_s2
-                }),
-                age_s: neighbour.age_s,
-                observations: 1,
-                place: at,
-                ..Mover::default()
-            }),
+            mover.correct((at, body.neighbour_noise_m), neighbour.age_s, gain);
+            return;
         }
+        let mut mover = Mover {
+            id: Some(neighbour.id),
+            at,
+            radius_m: other.map_or(body.radius_m, |other| other.radius_m),
+            braking_m_s2: other.map_or(body.max_acceleration_m_s2, |other| {
+                other.max_acceleration_m_s2
+            }),
+            age_s: neighbour.age_s,
+            observations: 1,
+            place: at,
+            ..Mover::default()
+        };
+        if let Some(pose) = pose {
+            let noise_m = body.neighbour_noise_m;
+            mover.standing_s = self.last_places.standing_s(&mover, pose, noise_m);
+        }
+        self.add(mover);
+    }
+
+    /// Changes the ids of the robots; those without a new id are forgotten.
+    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+        self.movers
+            .retain_mut(|mover| mover.id.as_mut().is_none_or(&keep));
+        self.last_places.renumber(keep);
     }
 
     fn add(&mut self, mover: Mover) {

@@ -96,9 +96,7 @@ impl Beliefs {
     /// Renumbers the robots; information about removed robots is dropped.
     pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
         let keep = |id: &mut RobotId| new_id(*id).map(|new| *id = new).is_some();
-        self.others
-            .movers
-            .retain_mut(|mover| mover.id.as_mut().is_none_or(keep));
+        self.others.renumber(keep);
         self.items.renumber(keep);
     }
 
@@ -122,13 +120,14 @@ impl Beliefs {
         self.id = percept.id;
         self.uptime_s += elapsed_s;
         let moved = self.localisation.step(percept, body, odometry);
-        self.others.update(percept, body, &moved);
+        let pose = self.localisation.pose();
+        self.others.update(percept, body, &moved, pose.as_ref());
         for (ring, ranges_m) in new_scans(percept, rings, elapsed_s) {
             self.others.scan(ring, ranges_m);
         }
         self.battery.update(percept, elapsed_s);
         self.note_lane(percept, body);
-        if let Some(pose) = self.localisation.pose() {
+        if let Some(pose) = pose {
             self.update_map(percept, &pose, rings, elapsed_s);
             self.observe(percept, body);
         }

@@ -40,6 +40,7 @@ fn observe(others: &mut Others, neighbours: Vec<Neighbour>) {
         &percept(neighbours),
         &rover(),
         &Displacement::along(0.0, &STILL),
+        None,
     );
 }
 
@@ -65,7 +66,12 @@ fn tracked([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Poin
         }
         let observed = turned(at.to(other), direction(-heading_rad));
         let percept = percept(vec![neighbour(OTHER, observed)]);
-        others.update(&percept, &rover(), if step > 0 { &moved } else { &at_rest });
+        others.update(
+            &percept,
+            &rover(),
+            if step > 0 { &moved } else { &at_rest },
+            None,
+        );
     }
     (others.movers[0], turned(velocity, direction(-heading_rad)))
 }
@@ -133,6 +139,7 @@ fn invalid_neighbours_and_flying_ones_are_ignored() {
         &percept(vec![near]),
         &body,
         &Displacement::along(0.0, &STILL),
+        None,
     );
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let off = [
@@ -220,4 +227,60 @@ fn a_robot_is_parked_after_twenty_seconds_in_one_place_until_it_moves_on() {
     assert!(!is_moving_after(21.0, 0.0));
     assert!(!is_moving_after(21.0, 0.3));
     assert!(is_moving_after(21.0, 1.0));
+}
+
+/// Whether a robot that stands at a place in the world is parked for one that is out of sight of it for
+/// a minute, and finds it in another place.
+fn is_parked_after_a_minute(moved: Point) -> bool {
+    let mut others = Others::default();
+    let mut see = |pose: &Pose, at: Option<Point>| {
+        let neighbours = at.map(|at| neighbour(OTHER, pose.in_own_frame(at)));
+        let percept = percept(neighbours.into_iter().collect());
+        let moved = Displacement::along(0.0, &STILL);
+        others.update(&percept, &rover(), &moved, Some(pose));
+        others.movers.first().is_some_and(Mover::is_parked)
+    };
+    let place = Point { x: 5.0, y: 3.0 };
+    let pose = Pose {
+        at: Point { x: 2.0, y: 2.0 },
+        heading_rad: 1.0,
+        deviation_m: 0.0,
+        deviation_rad: 0.0,
+        age_s: 0.0,
+    };
+    assert!(!see(&pose, Some(place)));
+    (0..600).for_each(|_| assert!(!see(&pose, None)));
+    let other_pose = Pose {
+        at: Point { x: 8.0, y: 5.0 },
+        heading_rad: -2.0,
+        ..pose
+    };
+    see(&other_pose, Some(place.plus(moved)))
+}
+
+#[test]
+fn a_robot_that_is_found_where_it_was_a_minute_ago_is_parked() {
+    assert!(is_parked_after_a_minute(Point::default()));
+    assert!(is_parked_after_a_minute(Point { x: 0.3, y: 0.2 }));
+    assert!(!is_parked_after_a_minute(Point { x: 1.0, y: 0.0 }));
+}
+
+#[test]
+fn a_robot_is_parked_for_a_noisy_sensor() {
+    let body = Body {
+        neighbour_noise_m: 0.3,
+        ..rover()
+    };
+    let mut others = Others::default();
+    // A square wave is as noisy as its amplitude.
+    for step in 0..250 {
+        let side = if step % 2 == 0 { 0.3 } else { -0.3 };
+        let at = Point {
+            x: 3.0 + side,
+            y: side,
+        };
+        let moved = Displacement::along(0.0, &STILL);
+        others.update(&percept(vec![neighbour(OTHER, at)]), &body, &moved, None);
+    }
+    assert!(others.movers[0].is_parked());
 }
