@@ -175,7 +175,7 @@ bench-page: .venv/released web ## Measure the page: first load, latency of chang
 safety: .venv/installed ## Break every port and process in every state, and measure the stops (a quarter of an hour); SAFETY=--quick
 	$(BIN)/python python/tests/measure_safety.py $(SAFETY)
 
-goals: .venv/installed ## Measure how soon robots give up goals that they cannot reach, in 400 random worlds
+goals: .venv/installed ## Measure how soon robots give up goals that they cannot reach and have them later, in 600 random worlds
 	$(BIN)/python python/tests/measure_goals.py
 
 drive: .venv/installed ## Drive an emulated robot around a wall to two waypoints, and replay the recording

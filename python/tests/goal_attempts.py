@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from goal_worlds import TIME_LIMIT_S, Place, random_world
+from goal_worlds import TIME_LIMIT_S, Place, World, corners, distance_m, random_world
 
 from agent_economy import Simulation
 from agent_economy.types.brain import GoalState
@@ -68,6 +68,11 @@ class Attempt:
             return math.inf
         return self.given_up_s[0] - max([self.began_s, *self.restarts_s])
 
+    def attempts_s(self, until_s: float) -> list[float]:
+        """Return how long the attempts were that failed before a time."""
+        attempts = zip(self.tried_s, self.given_up_s, strict=False)
+        return [given_up_s - tried_s for tried_s, given_up_s in attempts if given_up_s < until_s]
+
     @property
     def unfounded_restarts(self) -> int:
         """Number of restarts without a cell that was discovered since the one before."""
@@ -123,11 +128,22 @@ def outcome(family: str, number: int, *, to_the_end: bool = False) -> Outcome:
     attempts = [Attempt(at) for at in world.waypoints]
     result = Outcome(attempts[: world.count], attempts[world.count :])
     while not simulation.is_over and (to_the_end or not result.is_decided):
+        change(simulation, world)
         simulation.step(2)
         if result.impossible:
             discoveries.observe(simulation)
         observe(attempts, simulation, discoveries)
     return result
+
+
+def change(simulation: Simulation, world: World) -> None:
+    """Make the next change of a world if it is due, as soon as the robot is not in the way."""
+    here = simulation.poses[0, :2]
+    due = world.changes[:1] if simulation.time_s >= world.next_change_s else []
+    for _, boxes in due:
+        if all(distance_m(here, box) > world.radius_m for box in boxes):
+            simulation.change("world.obstacles", [{"polygon_m": corners(box)} for box in boxes])
+            world.changes.pop(0)
 
 
 def observe(attempts: list[Attempt], simulation: Simulation, discoveries: Discoveries) -> None:

@@ -1,4 +1,4 @@
-"""Random worlds with goals that a robot can reach, and with goals that it cannot."""
+"""Random worlds with goals that a robot can reach, cannot reach, or can reach after a change."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -38,7 +38,16 @@ start = {{ kind = "fixed", at_m = {at} }}
 drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 90 }}
 brain.behaviours = []
 """
+EYE = 'kind = "robots", range_m = 6'
+EYES = [
+    "noise_m = 0.0",
+    "noise_m = 0.3, dropout_probability = 0.3",
+    "latency_s = 0.3, rate_hz = 2",
+    "detection_probability = { peak = 0.7, half_range_m = 3 }",
+]
 TIME_LIMIT_S = 600.0
+LATE_S = 250.0
+"""When a door opens that has been closed since the start."""
 
 Place = tuple[float, float]
 Box = tuple[float, float, float, float]
@@ -53,20 +62,33 @@ class World:
     count: int = 1
     start: Place = (3.0, 10.0)
     boxes: list[Box] = field(default_factory=list)
+    changes: list[tuple[float, list[Box]]] = field(default_factory=list)
+    """Times in seconds, and the boxes from then on."""
     parked: list[Place] = field(default_factory=list)
     radius_m: float = 0.25
-    senses_robots: bool = False
+    eye: str = ""
+    """The sensor of robots; without it, the robot detects none."""
+
+    @property
+    def time_limit_s(self) -> float:
+        """Return the time limit: a goal may be tried again some minutes after the last change."""
+        return TIME_LIMIT_S + max([0.0, *(time_s for time_s, _ in self.changes)])
+
+    @property
+    def next_change_s(self) -> float:
+        """Return the time of the next change."""
+        return self.changes[0][0] if self.changes else math.inf
 
     def scenario(self, random: Random) -> Scenario:
         """Return its scenario, with random noise and with or without *avoid*."""
         parked = PARKED.format(count=len(self.parked), at=[list(at) for at in self.parked])
         text = WORLD.format(
-            time_limit_s=TIME_LIMIT_S,
-            obstacles=", ".join(map(rectangle, self.boxes)),
+            time_limit_s=self.time_limit_s,
+            obstacles=", ".join(f"{{ polygon_m = {corners(box)} }}" for box in self.boxes),
             radius_m=self.radius_m,
             start=list(self.start),
             noise_m=random.choice([0.02, 0.1]),
-            sensors='eye = { kind = "robots", range_m = 6 }' if self.senses_robots else "",
+            sensors=f"eye = {{ {self.eye} }}" if self.eye else "",
             waypoints=[list(at) for at in self.waypoints],
             avoid=random.choice(["", ', { kind = "avoid" }']),
             parked=parked if self.parked else "",
@@ -74,11 +96,10 @@ class World:
         return Scenario.loads(text)
 
 
-def rectangle(box: Box) -> str:
-    """Return a rectangle as an obstacle of a scenario."""
+def corners(box: Box) -> list[list[float]]:
+    """Return the corners of a box."""
     left, low, right, high = box
-    corners = [[left, low], [right, low], [right, high], [left, high]]
-    return f"{{ polygon_m = {corners} }}"
+    return [[left, low], [right, low], [right, high], [left, high]]
 
 
 def block(random: Random) -> World:
@@ -138,7 +159,23 @@ def aisle(random: Random) -> World:
         [(right - 1.0, middle), (26.0, 2.0)],
         boxes=boxes,
         parked=[(left + random.uniform(1.0, length_m - 2.5), middle)],
-        senses_robots=random.random() < 0.5,
+        eye=EYE if random.random() < 0.5 else "",
+    )
+
+
+def wide_aisle(random: Random) -> World:
+    """Return a world with a place at the end of a wide aisle with one or two parked robots."""
+    width_m, left, low = random.uniform(1.6, 2.0), random.uniform(8, 20), random.uniform(4, 13)
+    middle, aside_m = low + width_m / 2, random.uniform(0, 0.2)
+    first_m = left + random.uniform(1, 3)
+    parked = [(first_m, middle + aside_m), (first_m + 1.5, middle - aside_m)]
+    gap_m = width_m / 2 + aside_m - 0.3
+    return World(
+        [(29.0, middle), (3.0, 2.0)],
+        boxes=[(left, 0.0, 30.0, low), (left, low + width_m, 30.0, 20.0)],
+        parked=parked[: random.randint(1, 2)],
+        radius_m=gap_m / 2 * random.uniform(1.05, 1.4),
+        eye=f"{EYE}, {random.choice(EYES)}",
     )
 
 
@@ -181,6 +218,80 @@ def doors(random: Random) -> World:
     return world
 
 
+def late_door(random: Random) -> World:
+    """Return a world with a place in a room with a door that opens late."""
+    world = doors(random)
+    return opening(world, [gap(world.boxes)])
+
+
+def late_gate(random: Random) -> World:
+    """Return a world with a place behind a wall across it with gates, of which one opens late."""
+    left, thick_m = random.uniform(9, 16), random.uniform(0.3, 2.5)
+    count = random.randint(2, 4)
+    levels = [20.0 * (gate + 0.5) / count + random.uniform(-1, 1) for gate in range(count)]
+    ends = [0.0, *(level + side for level in levels for side in (-0.7, 0.7)), 20.0]
+    walls = [
+        (left, low, left + thick_m, high) for low, high in zip(ends[::2], ends[1::2], strict=True)
+    ]
+    gates = [(left, level - 0.7, left + thick_m, level + 0.7) for level in levels]
+    last = gates.pop(random.randrange(count))
+    place = (left + thick_m + random.uniform(2, 6), random.uniform(3, 17))
+    return opening(World([place, (4.0, random.uniform(2, 18))], 0, boxes=[*walls, *gates]), [last])
+
+
+def late_exit(random: Random) -> World:
+    """Return a world with a robot in a room with a door that opens late, and a place outside."""
+    world = late_door(random)
+    world.start, world.waypoints = world.waypoints[0], [(3.0, random.uniform(2, 18))]
+    return world
+
+
+def late_doors(random: Random) -> World:
+    """Return a world with a place behind two doors, of which the inner one opens last."""
+    world = doors(random)
+    left = world.boxes[0][0] - 2.5
+    gate = (left, 16.0, left + 0.4, 17.5)
+    world.boxes += [(left, 0.0, left + 0.4, 16.0), (left, 17.5, left + 0.4, 20.0)]
+    world.waypoints[1] = (3.0, random.uniform(2, 8))
+    return opening(world, [gate], [gap(world.boxes)])
+
+
+def busy_door(random: Random) -> World:
+    """Return a world with a place in a room with a door that closes and opens several times."""
+    world = late_door(random)
+    closed, (_, opened) = world.boxes, world.changes[0]
+    first_s = random.uniform(2, 12)
+    world.boxes = opened
+    world.changes = [(first_s, closed), (120.0, opened), (125.0, closed), (LATE_S, opened)]
+    return world
+
+
+def left_box(random: Random) -> World:
+    """Return a world with a place under a box that leaves late."""
+    left, low = random.uniform(9, 20), random.uniform(4, 12)
+    width_m, depth_m = random.uniform(0.4, 3), random.uniform(0.4, 3)
+    box = (left, low, left + width_m, low + depth_m)
+    place = (left + width_m / 2, low + depth_m / 2)
+    return opening(World([place, (27.0, 18.0)], 0), [box])
+
+
+def opening(world: World, *doors: list[Box]) -> World:
+    """Return a world with further boxes, which are removed in turn, at long intervals."""
+    left = [box for each in doors for box in each]
+    walls = world.boxes
+    world.boxes = walls + left
+    for number, each in enumerate(doors):
+        left = [box for box in left if box not in each]
+        world.changes.append((LATE_S * (number + 1), walls + left))
+    return world
+
+
+def gap(boxes: list[Box]) -> Box:
+    """Return the gap between the first two of some boxes, which are the parts of a wall."""
+    (left, _, right, low), (_, high, _, _) = boxes[:2]
+    return (left, low, right, high)
+
+
 def free_places(random: Random, boxes: list[Box], count: int) -> Iterator[Place]:
     """Yield places at least 1 m from all boxes; among random boxes, one may be enclosed."""
     while count:
@@ -202,6 +313,7 @@ UNREACHABLE: dict[str, Callable[[Random], World]] = {
     "door narrower than the robot": door,
     "corner of the world": corner,
     "aisle with a parked robot": aisle,
+    "wide aisle with parked robots": wide_aisle,
 }
 REACHABLE: dict[str, Callable[[Random], World]] = {
     "blocks": blocks,
@@ -209,10 +321,18 @@ REACHABLE: dict[str, Callable[[Random], World]] = {
     "dead end": trap,
     "room with a door": doors,
 }
+CHANGING: dict[str, Callable[[Random], World]] = {
+    "room with a door that opens": late_door,
+    "wall with a gate that opens": late_gate,
+    "door that opens to the outside": late_exit,
+    "two doors that open in turn": late_doors,
+    "door that closes and opens again": busy_door,
+    "box that leaves": left_box,
+}
 
 
 def random_world(family: str, number: int) -> tuple[World, Scenario]:
     """Return a world of a family, and a scenario of it with random noise, the same each time."""
     random = Random(f"{family} {number}")  # noqa: S311
-    world = {**UNREACHABLE, **REACHABLE}[family](random)
+    world = {**UNREACHABLE, **REACHABLE, **CHANGING}[family](random)
     return world, world.scenario(random)

@@ -1,10 +1,10 @@
-"""Goals that a robot cannot reach are given up in time, and those that it can are not."""
+"""Goals that a robot cannot reach are given up in time and tried again; others are not given up."""
 
 from itertools import pairwise
 
 import pytest
 from goal_attempts import PERIOD_S, outcome
-from goal_worlds import REACHABLE, UNREACHABLE
+from goal_worlds import CHANGING, REACHABLE, TIME_LIMIT_S, UNREACHABLE
 
 MAX_PATIENCE_S = 120.0
 """A goal is given up within this time after the last cell that made its path longer."""
@@ -40,3 +40,27 @@ def test_a_goal_that_was_given_up_is_tried_again_at_longer_and_longer_intervals(
     min_rests_s = [10 * 2.0**failure - PERIOD_S for failure in range(5)]
     assert len(rests_s) == len(min_rests_s)
     assert all(rest_s > min_s for rest_s, min_s in zip(rests_s, min_rests_s, strict=True))
+
+
+@pytest.mark.parametrize("family", CHANGING)
+def test_a_goal_is_reached_after_a_change_that_the_robot_cannot_see_from_where_it_waits(
+    family: str,
+) -> None:
+    outcomes = [outcome(family, number) for number in range(2)]
+    assert all(each.possible[0].reached_s is not None for each in outcomes)
+
+
+def test_a_parked_robot_in_a_wide_aisle_does_not_restart_the_clock_again_and_again() -> None:
+    outcomes = [outcome("wide aisle with parked robots", number) for number in range(16)]
+    # In this time, the robot also looks for another way around the solid blocks.
+    assert max(each.impossible[0].given_up_s[0] for each in outcomes) <= MAX_PATIENCE_S
+
+
+def test_a_robot_waits_for_most_of_the_time_if_a_goal_cannot_be_reached() -> None:
+    [goal] = outcome("closed room", 0, to_the_end=True).impossible
+    attempts_s = goal.attempts_s(TIME_LIMIT_S)
+    assert len(attempts_s) >= 5
+    assert max(attempts_s) <= 120.0
+    # All of the walls are observed again each time.
+    assert min(attempts_s[1:]) >= 5.0
+    assert sum(attempts_s) <= 0.5 * TIME_LIMIT_S
