@@ -68,6 +68,20 @@ pub(crate) fn outline(corners: &[[f64; 2]]) -> Vec<Segment> {
         .collect()
 }
 
+/// The walls of a square box that is turned by an angle.
+pub(crate) fn square(centre: Point, angle_rad: f64, side_m: f64) -> Vec<Segment> {
+    let half_diagonal_m = side_m / 2.0_f64.sqrt();
+    // Clockwise: it is free outside.
+    let corners = [0.0, 1.0, 2.0, 3.0].map(|corner| {
+        let (y, x) = sin_cos(angle_rad - corner * PI / 2.0);
+        [
+            centre.x + half_diagonal_m * x,
+            centre.y + half_diagonal_m * y,
+        ]
+    });
+    outline(&corners)
+}
+
 /// The sensors of a robot.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Wiring {
@@ -232,7 +246,7 @@ impl Walk {
         }
     }
 
-    fn gap_m(&self, at: Point) -> f64 {
+    pub(crate) fn gap_m(&self, at: Point) -> f64 {
         let distances = self.walls.iter().map(|wall| wall.distance_m(at));
         distances.fold(f64::INFINITY, f64::min) - self.body.radius_m
     }

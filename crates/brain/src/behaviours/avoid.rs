@@ -190,7 +190,7 @@ impl Ready {
     fn look(&self, memory: &mut Memory, clear_s: f64, situation: &Situation) -> Option<Motion> {
         if situation.touches(clear_s) || situation.is_blocked(clear_s) {
             if self.backing_s <= 0.0 {
-                return Some(self.turn_from_touch(memory, situation));
+                return Some(self.turn_by_chance(memory, situation));
             }
             *memory = Memory::Backing {
                 left_s: self.backing_s as f32,
@@ -200,6 +200,9 @@ impl Ready {
         }
         let [left_m, right_m] = self.nearest_m(situation);
         let is_near = left_m.min(right_m) < self.near_m;
+        if !is_near && situation.is_stopped(clear_s) {
+            return Some(self.turn_by_chance(memory, situation));
+        }
         is_near.then(|| self.turn(memory, [left_m, right_m], 0.0, situation))
     }
 
@@ -214,11 +217,11 @@ impl Ready {
         if left_s.min(*patience_s) > situation.half_step_s() {
             self.back
         } else {
-            self.turn_from_touch(memory, situation)
+            self.turn_by_chance(memory, situation)
         }
     }
 
-    fn turn_from_touch(&self, memory: &mut Memory, situation: &Situation) -> Motion {
+    fn turn_by_chance(&self, memory: &mut Memory, situation: &Situation) -> Motion {
         let mut random_words = situation.random_words();
         // The first random word selects the side.
         random_words.unit();
@@ -347,7 +350,7 @@ mod tests {
         }
 
         #[test]
-        fn obstacles_beside_or_behind_are_ignored(ray in 4_usize..=12, range in 0.25_f64..2.0) {
+        fn obstacles_beside_or_behind_are_ignored(ray in 4_usize..=12, range in 0.27_f64..2.0) {
             let motion = brain(&rover()).step(&percept(&[(ray, range)], 0, false)).motion;
             prop_assert_eq!(motion.turn_rate_rad_s, 0.0);
         }

@@ -14,8 +14,9 @@
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::percept::Percept;
+use crate::perception::corners::Width;
 use crate::perception::dead_reckoning::DeadReckoning;
-use crate::perception::rays::Ring;
+use crate::perception::rays::{Free, Ring};
 use crate::perception::sector::Sector;
 use crate::perception::turns::Headings;
 use crate::situation::{ClearAhead, Situation};
@@ -43,7 +44,11 @@ pub(crate) struct SpeedGovernor {
 impl SpeedGovernor {
     pub(crate) fn new(body: &Body) -> Self {
         let half_width_m = body.radius_m * (1.0 + CLEARANCE);
-        let ring = |ring| Ring::new(ring, half_width_m, body.period_s);
+        let width = Width {
+            half_m: half_width_m,
+            clearance_m: half_width_m - body.radius_m,
+        };
+        let ring = |ring| Ring::new(ring, width, body.period_s);
         let rings: Vec<Ring> = body.rings.iter().map(ring).collect();
         Self {
             half_width_m,
@@ -62,11 +67,11 @@ impl SpeedGovernor {
         body: &Body,
         current_speed_m_s: f64,
     ) -> Option<ClearAhead> {
-        let free_m = |ring: &Ring, age_s, ranges_m: &[f64]| {
+        let free = |ring: &Ring, age_s, ranges_m: &[f64]| {
             let is_fresh = ring.is_fresh(age_s);
-            is_fresh.then(|| ring.free_ahead_m(ranges_m))
+            is_fresh.then(|| ring.free_ahead(ranges_m))
         };
-        self.clear(percept, body, (1.0, current_speed_m_s.max(0.0)), free_m)
+        self.clear(percept, body, (1.0, current_speed_m_s.max(0.0)), free)
     }
 
     /// The proposed motion, slowed down to the limit. A motion in a direction that no range sensor
@@ -96,7 +101,7 @@ impl SpeedGovernor {
             return setpoint;
         }
         let clear = self.clear_along(setpoint, sign, situation, odometry);
-        let free_m = clear.map_or(0.0, |clear| clear.free_m);
+        let free_m = clear.map_or(0.0, |clear| clear.certain_m);
         // A turn towards where the robot could not stop is postponed until it is stationary.
         let can_turn = current_speed_m_s * current_speed_m_s * self.stopping_s2_m <= free_m;
         Motion {
@@ -157,17 +162,18 @@ impl SpeedGovernor {
                 let enough_m =
                     needed_m + self.half_width_m + max_moved_m(body, current_speed_m_s, age_s);
                 let turn_rad = setpoint.turn_rate_rad_s * turning_s;
-                Some(if nearest_m > enough_m {
+                let certain_m = if nearest_m > enough_m {
                     nearest_m
                 } else {
                     ring.free_m(ranges_m, &self.sector(&headings, turn_rad, sign))
-                })
+                };
+                Some(Free::certain(certain_m))
             },
         )
     }
 
-    /// The minimum free distance over all rings with a complete scan, forwards or backwards; `free_m`
-    /// returns that of one ring from the robot's centre, if it is known.
+    /// The minimum free distances over all rings with a complete scan, forwards or backwards; `free`
+    /// returns those of one ring from the robot's centre, if they are known.
     ///
     /// A ring that does not cover the direction may still detect an obstacle beside the robot, but
     /// proves nothing when it detects none.
@@ -177,7 +183,7 @@ impl SpeedGovernor {
         percept: &Percept,
         body: &Body,
         (sign, speed_m_s): (f64, f64),
-        free_m: impl Fn(&Ring, f64, &[f64]) -> Option<f64>,
+        free: impl Fn(&Ring, f64, &[f64]) -> Option<Free>,
     ) -> Option<ClearAhead> {
         let mut nearest: Option<ClearAhead> = None;
         let mut is_covered = false;
@@ -191,17 +197,18 @@ impl SpeedGovernor {
             } else {
                 ring.covers_back
             };
-            let free_m = free_m(ring, age_s, ranges_m);
-            let Some(free_m) = free_m.filter(|free_m| covers || *free_m < ring.range_m()) else {
+            let free = free(ring, age_s, ranges_m);
+            let Some(free) = free.filter(|free| covers || free.certain_m < ring.range_m()) else {
                 continue;
             };
             is_covered |= covers;
-            let free_m = free_m - self.half_width_m - max_moved_m(body, speed_m_s, age_s);
-            let so_far = nearest.unwrap_or(ClearAhead { free_m, age_s });
-            nearest = Some(ClearAhead {
-                free_m: free_m.min(so_far.free_m),
-                age_s: age_s.max(so_far.age_s),
-            });
+            let used_m = self.half_width_m + max_moved_m(body, speed_m_s, age_s);
+            let clear = ClearAhead {
+                free_m: free.flat_m - used_m,
+                certain_m: free.certain_m - used_m,
+                age_s,
+            };
+            nearest = Some(nearest.map_or(clear, |so_far| so_far.and(clear)));
         }
         nearest.filter(|_| is_covered)
     }
@@ -284,7 +291,7 @@ fn max_moved_m(body: &Body, speed_m_s: f64, age_s: f64) -> f64 {
 #[expect(clippy::float_cmp, reason = "exact by construction")]
 mod tests {
     use crate::behaviours::{BehaviourSpec, Cruise};
-    use crate::world_of_walls::{Walk, Wiring, outline, ring, room, rover};
+    use crate::world_of_walls::{Walk, Wiring, outline, ring, room, rover, square};
     use crate::{Body, Brain, BrainSpec, Command, Motion, Percept, Scan};
     use base::geometry::{Point, Segment};
     use core::cell::Cell;
@@ -361,6 +368,24 @@ mod tests {
             let mut walk = Walk::new(body.clone(), room(20.0, 9.0), [x, 4.0], course);
             walk.wiring = wiring;
             walk.run(&mut cruiser(&body), 600);
+            prop_assert!(walk.min_gap_m > 0.0, "{} m", walk.min_gap_m);
+        }
+
+        #[test]
+        fn a_robot_never_hits_a_corner_between_two_rays(
+            corners in proptest::collection::vec((2.0..18.0_f64, 1.0..8.0_f64, 0.0..1.6_f64), 12),
+            rays in 132_usize..240, speed_m_s in 1.0..2.0_f64, wiring in wiring(), course in -3.1_f64..3.1,
+        ) {
+            let body = Body { max_speed_m_s: speed_m_s, rings: vec![ring(rays, 8.0)], ..rover() };
+            let body = wired(body, wiring);
+            let mut walls = room(20.0, 9.0);
+            for (x, y, angle_rad) in corners {
+                walls.extend(square(Point { x, y }, angle_rad, 0.5));
+            }
+            let mut walk = Walk::new(body.clone(), walls, [1.0, 4.5], course);
+            walk.wiring = wiring;
+            prop_assume!(walk.gap_m(walk.at) > 0.0);
+            walk.run(&mut cruiser(&body), 300);
             prop_assert!(walk.min_gap_m > 0.0, "{} m", walk.min_gap_m);
         }
 
@@ -459,9 +484,12 @@ mod tests {
     #[test]
     fn the_limit_matches_its_formula() {
         // v period + v^2 / (2 a) = free, with 0.9 of the body's deceleration.
-        let mut ranges = vec![f64::INFINITY; 16];
+        // The clearance covers corners between rays at this distance.
+        let mut ranges = vec![f64::INFINITY; 360];
         ranges[0] = 0.3 + 0.25 * 1.05;
-        let speed = speed_m_s(&rover(), &scan(0.0, ranges));
+        let mut body = rover();
+        body.rings = vec![ring(360, 3.0)];
+        let speed = speed_m_s(&body, &scan(0.0, ranges));
         let needed_m = 0.1 * speed + speed * speed / (2.0 * 0.9);
         assert!((needed_m - 0.3).abs() < 1e-12, "{speed}");
     }

@@ -1,5 +1,6 @@
 //! The sides of the polygon of free space: chords between the ends of neighbouring rays.
 
+use crate::perception::corners::Protrusion;
 use crate::perception::sector::{Sector, direction};
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
@@ -21,9 +22,11 @@ pub(super) struct Chord {
     /// Angle between the front and the closer ray.
     pub(super) off_front_rad: f64,
     pub(super) gap_rad: f64,
+    pub(super) protrusion: Protrusion,
 }
 
 /// Square of the shortest distance so far.
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
     pub(super) squared_m2: f64,
 }
@@ -36,25 +39,33 @@ impl Nearest {
         }
     }
 
+    /// Takes a chord into account from which an obstacle may protrude.
     #[inline]
-    pub(super) fn update(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
-        let min_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
+    pub(super) fn update(
+        &mut self,
+        chord: &Chord,
+        ends_m: [f64; 2],
+        protrusion_m: f64,
+        sector: &Sector,
+    ) {
+        let min_m = chord.nearest_m(ends_m[0].min(ends_m[1]), protrusion_m);
         if min_m * min_m >= self.squared_m2 {
             return;
         }
         let [from, to] = chord.directions;
-        let part = sector.part(Segment {
+        let side = Segment {
             from: from.times(ends_m[0]),
             to: to.times(ends_m[1]),
-        });
-        if let Some(part) = part {
+        };
+        if let Some(part) = sector.part(side, protrusion_m) {
             let nearest = part.nearest(Point::default());
-            self.squared_m2 = self.squared_m2.min(nearest.length_squared());
+            let nearest_m = (nearest.length() - protrusion_m).max(0.0);
+            self.squared_m2 = self.squared_m2.min(nearest_m * nearest_m);
         }
     }
 
     #[inline]
-    pub(super) fn m(&self) -> f64 {
+    pub(super) fn m(self) -> f64 {
         libm::sqrt(self.squared_m2)
     }
 }
@@ -95,7 +106,14 @@ impl Chord {
             nearest_share: sin_cos(gap_rad / 2.0).1,
             off_front_rad: from.min(to),
             gap_rad,
+            protrusion: Protrusion::default(),
         }
+    }
+
+    /// Lower bound of the distance of an obstacle that protrudes from it, by its shorter ray.
+    #[inline]
+    pub(super) fn nearest_m(&self, shorter_m: f64, protrusion_m: f64) -> f64 {
+        (shorter_m * self.nearest_share - protrusion_m).max(0.0)
     }
 
     /// Infinite where ray lengths do not decide it, or exceed the range of the sensor.
@@ -103,7 +121,7 @@ impl Chord {
         let asides = self.directions.map(|direction| direction.y);
         let is_one_side = asides[0] * asides[1] > 0.0;
         asides.map(|aside| {
-            let beside_m = half_width_m / aside.abs();
+            let beside_m = self.protrusion.beside_m(aside.abs(), half_width_m);
             if is_one_side && beside_m < range_m {
                 beside_m
             } else {

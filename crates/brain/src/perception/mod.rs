@@ -3,6 +3,7 @@
 pub(crate) mod beliefs;
 pub(crate) mod believed;
 mod chords;
+pub(crate) mod corners;
 pub(crate) mod dead_reckoning;
 pub(crate) mod pose_tracker;
 pub(crate) mod rays;

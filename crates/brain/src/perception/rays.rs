@@ -2,12 +2,14 @@
 //!
 //! Nothing is measured between two neighbouring rays. Free space is therefore the polygon through
 //! the ends of the rays: a flat wall that two rays hit is exactly one of its sides, and without a
-//! return it ends at the range of the sensor. An obstacle thinner than the gap between rays may be
-//! inside.
+//! return it ends at the range of the sensor. [Corners](super::corners) of obstacles may be inside;
+//! what is certain to be free is less. An obstacle thinner than the gap between rays may be inside
+//! of that too.
 
 use crate::io::body::RangeRing;
 use crate::io::percept::Scan;
 use crate::perception::chords::{Chord, Nearest, chords};
+use crate::perception::corners::{Protrusion, Width};
 use crate::perception::sector::{Sector, direction};
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -33,6 +35,8 @@ pub(crate) struct Ring {
     chords: Vec<Chord>,
     /// No chord is closer than this fraction of the shortest ray.
     nearest_share: f64,
+    /// The greatest of all chords.
+    protrusion: Protrusion,
     /// Number of chords, the first ones, that can lie ahead.
     ahead: usize,
     /// The area swept straight ahead.
@@ -40,6 +44,25 @@ pub(crate) struct Ring {
     /// Whether its rays cover the front, and the back.
     pub(crate) covers_front: bool,
     pub(crate) covers_back: bool,
+}
+
+/// Distances from the robot's centre to the nearest place that is not known to be free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Free {
+    /// If walls are flat between two rays.
+    pub(crate) flat_m: f64,
+    /// If their corners may protrude.
+    pub(crate) certain_m: f64,
+}
+
+impl Free {
+    /// Both are the same.
+    pub(crate) fn certain(certain_m: f64) -> Self {
+        Self {
+            flat_m: certain_m,
+            certain_m,
+        }
+    }
 }
 
 /// One measured ray of a ring.
@@ -82,11 +105,12 @@ pub(crate) fn free_ranges_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
 }
 
 impl Ring {
-    /// The ring on a body of this half width, with a brain of this period.
-    pub(crate) fn new(ring: &RangeRing, half_width_m: f64, period_s: f64) -> Self {
+    /// The ring on a body of this width, with a brain of this period.
+    pub(crate) fn new(ring: &RangeRing, width: Width, period_s: f64) -> Self {
         let mut chords = chords(&ring.bearings_rad);
         for chord in &mut chords {
-            chord.beside_m = chord.beside_m(half_width_m, ring.range_m);
+            chord.protrusion = Protrusion::new(chord.gap_rad, width);
+            chord.beside_m = chord.beside_m(width.half_m, ring.range_m);
         }
         chords.sort_by(|a, b| a.off_front_rad.total_cmp(&b.off_front_rad));
         let covers = |towards_rad: f64| {
@@ -110,8 +134,12 @@ impl Ring {
                 .iter()
                 .map(|chord| chord.nearest_share)
                 .fold(1.0, f64::min),
+            protrusion: chords
+                .iter()
+                .map(|chord| chord.protrusion)
+                .fold(Protrusion::default(), Protrusion::or),
             chords,
-            lane: Sector::new(0.0, 0.0, half_width_m),
+            lane: Sector::new(0.0, 0.0, width.half_m),
             covers_front: covers(0.0),
             covers_back: covers(PI),
         }
@@ -181,17 +209,17 @@ impl Ring {
         bearing_rad + share * self.gap_rad
     }
 
-    /// Lower bound of the distance from the robot's centre to the nearest obstacle.
+    /// Lower bound of the distance from the robot's centre to the nearest obstacle whose corners may
+    /// protrude between rays.
     #[inline]
     pub(crate) fn nearest_m(&self, ranges_m: &[f64]) -> f64 {
         let nearest_m = ranges_m.iter().fold(self.range_m, |nearest_m, range_m| {
             lesser(valid_m(*range_m), nearest_m)
         });
-        nearest_m * self.nearest_share
+        nearest_m * self.nearest_share - self.protrusion.at_m(nearest_m)
     }
 
-    /// Distance from the robot's centre to the nearest place straight ahead that is not known to be
-    /// free.
+    /// The free distances straight ahead.
     ///
     /// It runs in every step. Chords beside the swept area are skipped at once, and beyond half the
     /// sensor's range a chord counts as being as close as its rays allow. Whether a chord is closer
@@ -199,18 +227,22 @@ impl Ring {
     /// therefore the first pass decides it for all chords without branches, and the second examines
     /// the close ones.
     #[inline]
-    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64]) -> f64 {
-        let mut nearest = Nearest::new(self.range_m);
+    pub(crate) fn free_ahead(&self, ranges_m: &[f64]) -> Free {
+        let mut nearest = [Nearest::new(self.range_m); 2];
         let chords = self.chords.get(..self.ahead).unwrap_or_default();
         for chords in chords.chunks(64) {
             let mut near = self.bound_far(chords, ranges_m, &mut nearest);
             while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
                 let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
-                nearest.update(chord, ends_m, &self.lane);
+                let protrusion_m = chord.protrusion.at_m(lesser(ends_m[0], ends_m[1]));
+                let [flat, certain] = &mut nearest;
+                flat.update(chord, ends_m, 0.0, &self.lane);
+                certain.update(chord, ends_m, protrusion_m, &self.lane);
                 near &= near - 1;
             }
         }
-        nearest.m()
+        let [flat_m, certain_m] = nearest.map(Nearest::m);
+        Free { flat_m, certain_m }
     }
 
     /// Bounds the distance of far chords; returns the near ones as bits.
@@ -219,7 +251,7 @@ impl Ring {
         clippy::needless_bitwise_bool,
         reason = "a branch would be mispredicted"
     )]
-    fn bound_far(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
+    fn bound_far(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut [Nearest; 2]) -> u64 {
         let far_m = self.range_m / 2.0;
         let mut near = 0;
         for (number, chord) in chords.iter().enumerate() {
@@ -231,21 +263,26 @@ impl Ring {
                 continue;
             }
             let is_far = (from > far_m) & (to > far_m);
-            let min_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
-            let squared_m2 = if is_far { min_m * min_m } else { f64::INFINITY };
-            nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
+            let shorter_m = lesser(lesser(from, to), self.range_m);
+            let protrusion_m = chord.protrusion.at_m(shorter_m);
+            for (nearest, protrusion_m) in nearest.iter_mut().zip([0.0, protrusion_m]) {
+                let min_m = chord.nearest_m(shorter_m, protrusion_m);
+                let squared_m2 = if is_far { min_m * min_m } else { f64::INFINITY };
+                nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
+            }
             near |= u64::from(!is_far) << number;
         }
         near
     }
 
-    /// Distance from the robot's centre to the nearest place in a sector that is not known to be
+    /// Distance from the robot's centre to the nearest place in a sector that is not certain to be
     /// free.
     pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
         for chord in &self.chords {
             let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
-            nearest.update(chord, ends_m, sector);
+            let protrusion_m = chord.protrusion.at_m(lesser(ends_m[0], ends_m[1]));
+            nearest.update(chord, ends_m, protrusion_m, sector);
         }
         nearest.m()
     }
@@ -267,13 +304,20 @@ fn lesser(one: f64, other: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world_of_walls::ring;
+    use crate::Body;
+    use crate::world_of_walls::{Walk, ring, rover, square};
     use proptest::prelude::*;
+
+    /// A clearance that covers every corner: walls are flat.
+    const FLAT: Width = Width {
+        half_m: 0.25,
+        clearance_m: f64::INFINITY,
+    };
 
     const AHEAD: (f64, f64) = (0.0, 0.0);
 
     fn free_m(ring: &RangeRing, ranges_m: &[f64], (from, to): (f64, f64)) -> f64 {
-        Ring::new(ring, 0.25, 0.1).free_m(ranges_m, &Sector::new(from, to, 0.25))
+        Ring::new(ring, FLAT, 0.1).free_m(ranges_m, &Sector::new(from, to, 0.25))
     }
 
     #[test]
@@ -324,7 +368,45 @@ mod tests {
         assert!(free_m(&ring, &ranges, (-FRAC_PI_2, 0.0)) > 2.0);
     }
 
+    #[test]
+    fn the_protrusion_of_a_corner_shortens_what_is_certainly_free() {
+        let width = Width {
+            half_m: 0.2625,
+            clearance_m: 0.0125,
+        };
+        let ring = ring(180, 8.0);
+        let mut ranges = [f64::INFINITY; 180];
+        ranges[179] = 2.0;
+        ranges[..=1].fill(2.0);
+        let free = Ring::new(&ring, width, 0.1).free_ahead(&ranges);
+        let protrusion_m = 2.0 * (2.0 * PI / 180.0).sin() - 0.0125;
+        assert!((free.flat_m - 2.0).abs() < 0.001, "{free:?}");
+        assert!((free.flat_m - free.certain_m - protrusion_m).abs() < 1e-3);
+    }
+
     proptest! {
+        #[test]
+        fn the_certainly_free_distance_to_a_corner_is_never_too_long(
+            box_m in (0.4..6.0_f64, -0.5..0.5_f64), course_rad in -3.1..3.1_f64, rays in 132_usize..400,
+        ) {
+            let (radius_m, half_m) = (0.25, 0.2625);
+            let (x, y) = box_m;
+            let walls = square(Point { x, y }, course_rad, 0.5);
+            let ring = ring(rays, 8.0);
+            let mut walk = Walk::new(Body { rings: vec![ring.clone()], ..rover() }, walls.clone(), [0.0; 2], 0.0);
+            let gap_m = |x: f64| {
+                let at = Point { x, y: 0.0 };
+                walls.iter().map(|wall| wall.distance_m(at)).fold(f64::INFINITY, f64::min) - radius_m
+            };
+            prop_assume!(gap_m(0.0) > 0.0);
+            let ranges_m = walk.percept().scans.remove(0).ranges_m;
+            let width = Width { half_m, clearance_m: half_m - radius_m };
+            let certain_m = Ring::new(&ring, width, 0.1).free_ahead(&ranges_m).certain_m;
+            let steps = (0..800).map(|step| 0.01 * f64::from(step));
+            let contact_m = steps.take_while(|x| gap_m(*x) > 0.0).last().unwrap() + 0.01;
+            prop_assert!(certain_m - half_m <= contact_m, "{certain_m} {contact_m}");
+        }
+
         #[test]
         fn the_free_distance_to_a_flat_wall_is_never_too_long(
             wall_m in 0.3..3.0_f64, normal_rad in -1.5..1.5_f64, rays in 8_usize..64,

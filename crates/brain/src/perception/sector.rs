@@ -38,13 +38,13 @@ impl Sector {
         }
     }
 
-    /// The part of a segment that lies inside, if any.
+    /// The part of a segment that lies inside or within `margin_m` of it, if any.
     #[inline]
-    pub(crate) fn part(&self, segment: Segment) -> Option<Segment> {
+    pub(crate) fn part(&self, segment: Segment, margin_m: f64) -> Option<Segment> {
         let (mut first, mut last) = (0.0_f64, 1.0_f64);
         for side in &self.sides {
-            let from = side.normal.dot(segment.from) - side.at;
-            let to = side.normal.dot(segment.to) - side.at;
+            let from = side.normal.dot(segment.from) - side.at - margin_m;
+            let to = side.normal.dot(segment.to) - side.at - margin_m;
             if from > 0.0 && to > 0.0 {
                 return None;
             } else if from > 0.0 {

@@ -19,14 +19,30 @@ const CLEARING_S: f64 = 0.5;
 /// A body may be blocked after this time without an evasion, in seconds.
 const BLOCKED_AFTER_S: f64 = 3.0;
 
+/// With less than this certain to be free, in metres, a body stands or hardly moves.
+const STOPPED_M: f64 = 0.01;
+
 /// Free distance in some direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ClearAhead {
     /// Current distance from the body and its clearance to the nearest place that is not known to
-    /// be free; negative if none of it is certain.
+    /// be free, if walls are flat between two rays; negative if none of it is certain.
     pub(crate) free_m: f64,
+    /// The same if corners of obstacles may protrude between two rays.
+    pub(crate) certain_m: f64,
     /// Age of the oldest scan that contributed.
     pub(crate) age_s: f64,
+}
+
+impl ClearAhead {
+    /// What is free by both.
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            free_m: self.free_m.min(other.free_m),
+            certain_m: self.certain_m.min(other.certain_m),
+            age_s: self.age_s.max(other.age_s),
+        }
+    }
 }
 
 /// The percept of a step, with everything derived from it that behaviours share.
@@ -147,12 +163,21 @@ impl Situation<'_> {
         self.current_speed_m_s * self.current_speed_m_s / (2.0 * self.body.max_acceleration_m_s2)
     }
 
-    /// Whether there is an obstacle within `near_m` straight ahead. Scans from before the last
-    /// `straight_s`, for which the body has moved straight, show another direction and are ignored.
+    /// Whether there is an obstacle within `near_m` straight ahead, or [so little](Self::is_stopped) is
+    /// certain to be free. Scans from before the last `straight_s`, for which the body has moved
+    /// straight, show another direction and are ignored.
     #[inline]
     pub(crate) fn is_obstacle_ahead(&self, near_m: f64, straight_s: f64) -> bool {
+        let is_near = |clear: ClearAhead| clear.free_m < near_m && clear.age_s <= straight_s;
+        self.ahead.is_some_and(is_near) || self.is_stopped(straight_s)
+    }
+
+    /// Whether so little straight ahead is certain to be free that the body does not move on; scans
+    /// count as in [`Self::is_obstacle_ahead`].
+    #[inline]
+    pub(crate) fn is_stopped(&self, straight_s: f64) -> bool {
         self.ahead
-            .is_some_and(|clear| clear.free_m < near_m && clear.age_s <= straight_s)
+            .is_some_and(|clear| clear.certain_m < STOPPED_M && clear.age_s <= straight_s)
     }
 
     /// Whether the body touches something, if its last turn ended `since_s` ago.
