@@ -8,7 +8,7 @@ use base::geometry::Point;
 use base::hashed::Hashed;
 
 /// Relative odometry error, of the distance and of the turn.
-const ODOMETRY_ERROR: f64 = 0.02;
+pub(super) const ODOMETRY_ERROR: f64 = 0.02;
 
 /// The same for commanded motion, besides the errors that are [learnt](super::drive_estimate).
 const COMMANDED_PATH_ERROR: f64 = 0.003;

@@ -59,14 +59,22 @@ pub(crate) struct DriveEstimate {
 impl Default for DriveEstimate {
     fn default() -> Self {
         Self {
-            speed_scale: 1.0,
-            turn_scale: 1.0,
-            curvature_rad_m: 0.0,
             lag_s: PRIOR_LAG_S,
-            speed_m_s: 0.0,
-            turn_rate_rad_s: 0.0,
+            ..Self::EXACT
         }
     }
+}
+
+impl DriveEstimate {
+    /// Of odometry without errors.
+    pub(super) const EXACT: Self = Self {
+        speed_scale: 1.0,
+        turn_scale: 1.0,
+        curvature_rad_m: 0.0,
+        lag_s: 0.0,
+        speed_m_s: 0.0,
+        turn_rate_rad_s: 0.0,
+    };
 }
 
 /// The effect of a commanded displacement with the lag of a drive, before its factors.

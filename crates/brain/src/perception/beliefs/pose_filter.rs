@@ -1,10 +1,11 @@
 //! The filter that estimates the pose of the robot at one moment.
 //!
-//! It is an extended Kalman filter of position and heading. While the robot does not measure its own
-//! motion, it also estimates [how its drive executes commands](super::drive_estimate).
+//! It is an extended Kalman filter of position and heading. It also estimates by which factors the
+//! robot's odometry is wrong or, while the robot does not measure its own motion, [how its drive
+//! executes commands](super::drive_estimate).
 
 use super::covariance::Covariance;
-use super::displacement::Displacement;
+use super::displacement::{Displacement, ODOMETRY_ERROR};
 use super::drive_estimate::{
     CHANGED_DEVIATION, CURVATURE_DEVIATION, DriveEstimate, LAG_DEVIATION_S, Lagged,
     SCALE_DEVIATION, Trend, random_walk,
@@ -44,7 +45,8 @@ const MIN_DRIFT_S: f64 = 0.1;
 #[derive(Debug, Default, Hashed)]
 pub(super) struct PoseFilter {
     pose: PoseState,
-    /// From the first commanded motion on.
+    /// Of the drive from the first commanded motion on, and of the odometry until then, where the
+    /// position sensor is not exact.
     drive: Option<Box<DriveFilter>>,
 }
 
@@ -71,6 +73,8 @@ struct PoseState {
 /// The estimated drive, and the covariance of pose and drive.
 #[derive(Debug, Clone, Copy, Hashed)]
 struct DriveFilter {
+    /// Whether it estimates the drive, and not the odometry.
+    is_commanded: bool,
     estimate: DriveEstimate,
     trend: Trend,
     covariance: Covariance<STATES>,
@@ -94,6 +98,20 @@ impl Default for PoseState {
 }
 
 impl DriveFilter {
+    /// Of odometry: its factors are nearly right, and it has neither curvature nor lag.
+    fn of_odometry(pose: &Covariance<POSE_STATES>) -> Self {
+        let mut covariance = pose.extended();
+        for state in [SPEED_SCALE, TURN_SCALE] {
+            covariance.set_independent(state, ODOMETRY_ERROR * ODOMETRY_ERROR);
+        }
+        Self {
+            is_commanded: false,
+            estimate: DriveEstimate::EXACT,
+            trend: Trend::default(),
+            covariance,
+        }
+    }
+
     /// Nothing of the drive is known yet.
     fn new(pose: &Covariance<POSE_STATES>) -> Self {
         let mut covariance = pose.extended();
@@ -106,6 +124,7 @@ impl DriveFilter {
             covariance.set_independent(state, deviation * deviation);
         }
         Self {
+            is_commanded: true,
             estimate: DriveEstimate::default(),
             trend: Trend::default(),
             covariance,
@@ -147,14 +166,15 @@ impl PoseFilter {
 
     /// How the drive executes commanded motion; `None` while the robot has measured all of its motion.
     pub(super) fn drive(&self) -> Option<&DriveEstimate> {
-        self.drive.as_deref().map(|drive| &drive.estimate)
+        let drive = self.drive.as_deref().filter(|drive| drive.is_commanded)?;
+        Some(&drive.estimate)
     }
 
     /// Whether the body does not move although it is commanded to, as far as positions show.
     pub(super) fn is_blocked(&self) -> bool {
         self.drive.as_deref().is_some_and(|drive| {
             let deviation = libm::sqrt(drive.covariance.get(SPEED_SCALE, SPEED_SCALE));
-            drive.estimate.is_blocked(deviation)
+            drive.is_commanded && drive.estimate.is_blocked(deviation)
         })
     }
 
@@ -179,22 +199,24 @@ impl PoseFilter {
         }
     }
 
-    /// The displacement of the body where this one was commanded.
+    /// The displacement of the body where this one was commanded or measured.
     pub(super) fn executed(&self, moved: &Displacement) -> Displacement {
-        if !moved.is_commanded {
-            return *moved;
-        }
-        let drive = self.drive().copied().unwrap_or_default();
+        let drive = self.drive.as_deref();
+        let drive = match drive.filter(|drive| drive.is_commanded == moved.is_commanded) {
+            Some(drive) => drive.estimate,
+            None if moved.is_commanded => DriveEstimate::default(),
+            None => return *moved,
+        };
         drive.executed(moved, &drive.lagged(moved))
     }
 
     /// Predicts the pose after a displacement.
     pub(super) fn predict(&mut self, moved: &Displacement, body: &Body) {
         self.pose.age_s += moved.elapsed_s;
-        if moved.is_commanded {
-            self.predict_commanded(moved);
-        } else {
-            self.predict_measured(moved);
+        self.prepare_drive(moved, body);
+        match &self.drive {
+            Some(drive) if drive.is_commanded == moved.is_commanded => self.predict_scaled(moved),
+            _ => self.predict_measured(moved),
         }
         self.pose.drift_m2 = body.position_drift_m * body.position_drift_m;
         let followed_m2 =
@@ -224,11 +246,28 @@ impl PoseFilter {
         self.move_by(moved);
     }
 
-    fn predict_commanded(&mut self, moved: &Displacement) {
-        let pose = &self.pose.covariance;
-        let drive = self
-            .drive
-            .get_or_insert_with(|| Box::new(DriveFilter::new(pose)));
+    /// Starts the estimate of the drive with the first commanded motion. Without any, it is that of
+    /// the odometry, where positions could not correct its errors at once.
+    fn prepare_drive(&mut self, moved: &Displacement, body: &Body) {
+        match &mut self.drive {
+            None if moved.is_commanded => {
+                self.drive = Some(Box::new(DriveFilter::new(&self.pose.covariance)));
+            }
+            None if body.position_noise_m > 0.0 => {
+                self.drive = Some(Box::new(DriveFilter::of_odometry(&self.pose.covariance)));
+            }
+            Some(drive) if moved.is_commanded && !drive.is_commanded => {
+                **drive = DriveFilter::new(&drive.covariance.extended());
+            }
+            _ => {}
+        }
+    }
+
+    /// Predicts by the factors of the drive or of the odometry.
+    fn predict_scaled(&mut self, moved: &Displacement) {
+        let Some(drive) = self.drive.as_deref() else {
+            return;
+        };
         let lagged = drive.estimate.lagged(moved);
         let executed = drive.estimate.executed(moved, &lagged);
         let front = turned(executed.front(), direction(self.pose.heading_rad));
@@ -379,7 +418,7 @@ impl PoseFilter {
     /// one: its factor is unknown again, and so is the part of the path since then. A position that
     /// this does not explain either is left to the gate.
     fn notice_changed_speed(&mut self, difference: Point, sensor: f64) {
-        if self.drive.is_none() {
+        if self.drive().is_none() {
             return;
         }
         let own = self.variance_along(difference);
@@ -441,7 +480,9 @@ impl DriveFilter {
         let walk = random_walk(lagged, elapsed_s, &self.trend);
         self.covariance.add_variance(SPEED_SCALE, walk.speed_scale);
         self.covariance.add_variance(TURN_SCALE, walk.turn_scale);
-        self.covariance.add_variance(CURVATURE, walk.curvature);
+        if self.is_commanded {
+            self.covariance.add_variance(CURVATURE, walk.curvature);
+        }
     }
 
     /// Corrects the drive by the difference of a reading, and returns the gains of the pose.
@@ -535,6 +576,52 @@ mod tests {
                 "{drive:?}"
             );
             assert!((drive.lag_s - lag_s).abs() < 0.03, "{drive:?}");
+        }
+    }
+
+    #[test]
+    fn the_factors_of_odometry_are_learnt() {
+        let mut body = rover();
+        (body.position_noise_m, body.heading_noise_rad) = (0.2, 0.05);
+        for [speed_scale, turn_scale] in [[1.05, 1.0], [1.2, 1.0], [0.9, 1.1], [1.0, 0.8]] {
+            let mut filter = PoseFilter::default();
+            let (mut at, mut heading_rad) = (Point::default(), 0.0);
+            for step in 0..1200 {
+                let [speed_m_s, rate_rad_s] = [0.6, if step / 40 % 3 == 0 { 0.8 } else { -0.1 }];
+                let moved = |speed_m_s: f64, rate_rad_s: f64| {
+                    let odometry = Odometry {
+                        elapsed_s: 0.1,
+                        speed_m_s,
+                        turned_rad: 0.1 * rate_rad_s,
+                        is_commanded: false,
+                    };
+                    Displacement::along(0.1 * speed_m_s, &odometry)
+                };
+                let true_chord = moved(speed_m_s, rate_rad_s).chord;
+                at = at.plus(turned(true_chord, direction(heading_rad)));
+                heading_rad = wrapped(heading_rad + 0.1 * rate_rad_s);
+                let measured = moved(speed_scale * speed_m_s, turn_scale * rate_rad_s);
+                filter.predict(&measured, &body);
+                if step % 10 == 9 {
+                    filter.correct_heading(heading_rad, body.heading_noise_rad);
+                    filter.correct_position(at, body.position_noise_m);
+                }
+            }
+            let pose = filter.pose().unwrap();
+            let off_m = pose.at.to(at).length();
+            assert!(
+                off_m < pose.deviation_m,
+                "{speed_scale} {turn_scale} {pose:?}"
+            );
+            let drive = filter.drive.unwrap().estimate;
+            assert!(
+                (drive.speed_scale * speed_scale - 1.0).abs() < 0.02,
+                "{drive:?}"
+            );
+            assert!(
+                (drive.turn_scale * turn_scale - 1.0).abs() < 0.02,
+                "{drive:?}"
+            );
         }
     }
 
