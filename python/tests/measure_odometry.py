@@ -1,7 +1,7 @@
 """Measures how well poses are known where odometry is wrong by constant factors.
 
-A robot drives straight and turns, measures its motion with a scale error, its heading with a compass
-and its position once per second. A brain with beliefs steps with these percepts.
+A robot drives and turns. It measures its motion with a constant factor, and its heading and
+position with noise once per second; a brain with beliefs steps with these percepts.
 """
 
 import argparse

@@ -45,7 +45,7 @@ impl SpeedGovernor {
     pub(crate) fn new(body: &Body) -> Self {
         let half_width_m = body.radius_m * (1.0 + CLEARANCE);
         let width = Width {
-            half_m: half_width_m,
+            half_width_m,
             clearance_m: half_width_m - body.radius_m,
         };
         let ring = |ring| Ring::new(ring, width, body.period_s);

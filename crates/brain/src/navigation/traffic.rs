@@ -165,7 +165,9 @@ fn line((own, lag_m): (&Segment, f64), mover: &Mover, body: &Body, elapsed_s: f6
     }
     let normal = between.times(1.0 / gap_m);
     let error_m = DEVIATIONS * body.neighbour_noise_m;
-    let half_gap_m = (body.radius_m + mover.radius_m + CLEARANCE_M + error_m) / 2.0;
+    let unseen_m = unseen_m(mover, body, elapsed_s);
+    let apart_m = body.radius_m + mover.radius_m + CLEARANCE_M;
+    let half_gap_m = (apart_m + error_m + unseen_m) / 2.0;
     // Robots that are too near already must not come nearer. The same holds for a mover that was
     // observed only once, whose velocity is unknown.
     let free_m = if mover.observations > 1 {
@@ -177,6 +179,26 @@ fn line((own, lag_m): (&Segment, f64), mover: &Mover, body: &Body, elapsed_s: f6
         normal,
         max: normal.dot(here) + free_m,
     })
+}
+
+/// How far another robot may be from where a late observation predicts it, at most.
+///
+/// Since the observation it may have accelerated and turned, and it may brake from the speed that it
+/// has then. What is not known of others is assumed to be as for this robot: the turn rate, and the
+/// maximum speed.
+fn unseen_m(mover: &Mover, body: &Body, elapsed_s: f64) -> f64 {
+    let age_s = mover.age_s;
+    if age_s <= 0.0 {
+        return 0.0;
+    }
+    let max_m_s = body.max_speed_m_s.max(mover.speed_m_s());
+    let faster_m_s = (mover.braking_m_s2 * (age_s + elapsed_s)).min(max_m_s);
+    let then_m_s = (mover.speed_m_s() + faster_m_s).min(max_m_s);
+    let turned = (body.max_turn_rate_rad_s * (age_s + elapsed_s)).min(1.0);
+    let moved_m = f64::midpoint(faster_m_s, then_m_s * turned) * age_s;
+    let stopping_m = |speed_m_s: f64| speed_m_s * speed_m_s / (2.0 * BRAKING * mover.braking_m_s2);
+    let longer_m = stopping_m(then_m_s) - stopping_m(mover.speed_m_s());
+    moved_m + longer_m.max(0.0) + stopping_m(then_m_s) * turned
 }
 
 /// The nearest points of two segments.

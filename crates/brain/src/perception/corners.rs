@@ -16,7 +16,7 @@ use base::trig::sin_cos;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Width {
     /// Half the width of the body, with its clearance.
-    pub(crate) half_m: f64,
+    pub(crate) half_width_m: f64,
     pub(crate) clearance_m: f64,
 }
 
@@ -35,7 +35,7 @@ impl Protrusion {
         let sine = sin_cos(gap_rad).0.abs();
         Self {
             sine,
-            covered_m: width.clearance_m.max(width.half_m * sine),
+            covered_m: width.clearance_m.max(width.half_width_m * sine),
         }
     }
 

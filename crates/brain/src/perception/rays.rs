@@ -110,7 +110,7 @@ impl Ring {
         let mut chords = chords(&ring.bearings_rad);
         for chord in &mut chords {
             chord.protrusion = Protrusion::new(chord.gap_rad, width);
-            chord.beside_m = chord.beside_m(width.half_m, ring.range_m);
+            chord.beside_m = chord.beside_m(width.half_width_m, ring.range_m);
         }
         chords.sort_by(|a, b| a.off_front_rad.total_cmp(&b.off_front_rad));
         let covers = |towards_rad: f64| {
@@ -139,7 +139,7 @@ impl Ring {
                 .map(|chord| chord.protrusion)
                 .fold(Protrusion::default(), Protrusion::or),
             chords,
-            lane: Sector::new(0.0, 0.0, width.half_m),
+            lane: Sector::new(0.0, 0.0, width.half_width_m),
             covers_front: covers(0.0),
             covers_back: covers(PI),
         }
@@ -310,7 +310,7 @@ mod tests {
 
     /// A clearance that covers every corner: walls are flat.
     const FLAT: Width = Width {
-        half_m: 0.25,
+        half_width_m: 0.25,
         clearance_m: f64::INFINITY,
     };
 
@@ -371,7 +371,7 @@ mod tests {
     #[test]
     fn the_protrusion_of_a_corner_shortens_what_is_certainly_free() {
         let width = Width {
-            half_m: 0.2625,
+            half_width_m: 0.2625,
             clearance_m: 0.0125,
         };
         let ring = ring(180, 8.0);
@@ -389,7 +389,7 @@ mod tests {
         fn the_certainly_free_distance_to_a_corner_is_never_too_long(
             box_m in (0.4..6.0_f64, -0.5..0.5_f64), course_rad in -3.1..3.1_f64, rays in 132_usize..400,
         ) {
-            let (radius_m, half_m) = (0.25, 0.2625);
+            let (radius_m, half_width_m) = (0.25, 0.2625);
             let (x, y) = box_m;
             let walls = square(Point { x, y }, course_rad, 0.5);
             let ring = ring(rays, 8.0);
@@ -400,11 +400,11 @@ mod tests {
             };
             prop_assume!(gap_m(0.0) > 0.0);
             let ranges_m = walk.percept().scans.remove(0).ranges_m;
-            let width = Width { half_m, clearance_m: half_m - radius_m };
+            let width = Width { half_width_m, clearance_m: half_width_m - radius_m };
             let certain_m = Ring::new(&ring, width, 0.1).free_ahead(&ranges_m).certain_m;
             let steps = (0..800).map(|step| 0.01 * f64::from(step));
             let contact_m = steps.take_while(|x| gap_m(*x) > 0.0).last().unwrap() + 0.01;
-            prop_assert!(certain_m - half_m <= contact_m, "{certain_m} {contact_m}");
+            prop_assert!(certain_m - half_width_m <= contact_m, "{certain_m} {contact_m}");
         }
 
         #[test]

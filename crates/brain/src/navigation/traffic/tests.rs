@@ -8,6 +8,7 @@ use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::wrapped;
 use core::f64::consts::{PI, TAU};
 use proptest::prelude::*;
+use std::collections::VecDeque;
 
 /// Substeps of a step, after each of which the distances are checked.
 const SUBSTEPS: u32 = 10;
@@ -33,6 +34,9 @@ struct TestRobot {
     proposal: (Motion, u32),
     turned_rad: f64,
     moved_m: f64,
+    /// What it detected in the last steps, and does not know yet.
+    seen: VecDeque<Vec<Neighbour>>,
+    latency: u32,
 }
 
 impl TestRobot {
@@ -47,10 +51,12 @@ impl TestRobot {
             proposal: (Motion::default(), 0),
             turned_rad: 0.0,
             moved_m: 0.0,
+            seen: VecDeque::new(),
+            latency: 0,
         }
     }
 
-    fn percept(&self, own: usize, crowd: &[(u8, Point)]) -> Percept {
+    fn percept(&mut self, own: usize, crowd: &[(u8, Point)]) -> Percept {
         let numbered = (0..).zip(crowd).filter(|(number, _)| *number != own);
         let neighbours = numbered.map(|(number, (kind, at))| {
             let way = self.at.to(*at);
@@ -65,8 +71,16 @@ impl TestRobot {
                 },
             }
         });
+        // All were stationary before the first step.
+        let neighbours: Vec<Neighbour> = neighbours.collect();
+        let missing = self.latency as usize + 1 - self.seen.len();
+        self.seen.extend(vec![neighbours; missing]);
+        let mut neighbours = self.seen.pop_front().unwrap();
+        for neighbour in &mut neighbours {
+            neighbour.age_s = f64::from(self.latency) * self.body.period_s;
+        }
         Percept {
-            neighbours: neighbours.collect(),
+            neighbours,
             ..Percept::default()
         }
     }
@@ -174,7 +188,8 @@ fn simulate(crowd: &mut [TestRobot], random: &mut Stream, steps: u32) -> (f64, f
         let positions: Vec<(u8, Point)> = numbered.map(|(n, one)| (kind(n), one.at)).collect();
         let mut decide = |(own, one): (usize, &mut TestRobot)| {
             let wanted = one.wanted(random);
-            one.decide(&one.percept(own, &positions), wanted)
+            let percept = one.percept(own, &positions);
+            one.decide(&percept, wanted)
         };
         let commands: Vec<Motion> = crowd.iter_mut().enumerate().map(&mut decide).collect();
         crowd.iter_mut().for_each(TestRobot::begin_step);
@@ -237,6 +252,19 @@ proptest! {
     }
 
     #[test]
+    fn robots_that_see_each_other_late_never_touch(
+        seed: u64, count in 2_usize..12, kind in any_body(), latency in 1_u32..10,
+    ) {
+        let mut random = random(seed);
+        let mut crowd = crowd(&mut random, &bodies(&[kind]), count);
+        for one in &mut crowd {
+    one.latency = latency;
+}
+        let (min_m, _) = simulate(&mut crowd, &mut random, 300);
+        prop_assert!(min_m > 0.0, "{min_m}");
+    }
+
+    #[test]
     fn robots_that_are_too_near_already_do_not_come_nearer(seed: u64, overlap_m in 0.01_f64..0.3) {
         let mut random = random(seed);
         let bodies = bodies(&[[0.25, 1.0, 1.0, 1.5, 0.0]]);
@@ -253,13 +281,22 @@ fn random(seed: u64) -> Stream {
     stream(seed, 0, Entity { kind: 0, index: 0 }, Purpose::Start)
 }
 
-#[test]
-fn robots_still_make_progress() {
+/// The mean speed of six robots that see each other late by a number of steps.
+fn mean_speed_m_s(latency: u32) -> f64 {
     let mut random = random(7);
     let mut crowd = crowd(&mut random, &bodies(&[[0.25, 1.0, 1.0, 1.5, 0.0]]), 6);
+    for one in &mut crowd {
+        one.latency = latency;
+    }
     let (_, travelled_m) = simulate(&mut crowd, &mut random, 600);
+    travelled_m / (6.0 * 60.0)
+}
+
+#[test]
+fn robots_still_make_progress() {
     // Many of them want to be at the centre; each alone would move at half its maximum speed.
-    assert!(travelled_m / (6.0 * 60.0) > 0.15, "{travelled_m}");
+    assert!(mean_speed_m_s(0) > 0.15);
+    assert!(mean_speed_m_s(3) > 0.05);
 }
 
 fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {

@@ -20,6 +20,7 @@ mod map;
 pub(crate) mod mover;
 pub(crate) mod occupancy;
 pub(crate) mod others;
+mod own_path;
 pub(crate) mod pose;
 mod pose_filter;
 mod pose_history;

@@ -3,6 +3,7 @@
 use super::displacement::Displacement;
 use super::last_places::LastPlaces;
 use super::mover::Mover;
+use super::own_path::OwnPath;
 use super::pose::{Pose, turned};
 use super::scan_objects::ScanObjects;
 use crate::io::body::{Body, RobotId};
@@ -39,6 +40,7 @@ pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
     objects: ScanObjects,
     last_places: LastPlaces,
+    path: OwnPath,
     /// Scratch memory, to avoid allocations.
     #[hashed(skip)]
     distances_m: Vec<f64>,
@@ -56,6 +58,7 @@ impl Others {
     ) {
         let motion = moved.chord;
         self.movers.retain(|mover| mover.id.is_some());
+        self.path.advance(moved);
         self.predict(motion, moved);
         self.objects
             .predict(motion, moved.turned_rad, moved.elapsed_s);
@@ -132,9 +135,13 @@ impl Others {
         if other.is_some_and(|other| !other.is_in_the_way) || !is_valid(neighbour) {
             return;
         }
-        // This robot has turned since the observation.
-        let since_rad = own.turn_rate_rad_s() * neighbour.age_s;
-        let at = direction(neighbour.bearing_rad - since_rad).times(neighbour.range_m);
+        // This robot has moved since the observation.
+        let then = direction(neighbour.bearing_rad).times(neighbour.range_m);
+        let at = if neighbour.age_s > 0.0 {
+            self.path.now(then, neighbour.age_s, own)
+        } else {
+            then
+        };
         let gain = if body.neighbour_noise_m > 0.0 {
             NOISY_GAIN
         } else {
