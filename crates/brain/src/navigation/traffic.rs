@@ -192,10 +192,11 @@ fn unseen_m(mover: &Mover, body: &Body, elapsed_s: f64) -> f64 {
         return 0.0;
     }
     let max_m_s = body.max_speed_m_s.max(mover.speed_m_s());
-    let faster_m_s = (mover.braking_m_s2 * (age_s + elapsed_s)).min(max_m_s);
-    let then_m_s = (mover.speed_m_s() + faster_m_s).min(max_m_s);
-    let turned = (body.max_turn_rate_rad_s * (age_s + elapsed_s)).min(1.0);
-    let moved_m = f64::midpoint(faster_m_s, then_m_s * turned) * age_s;
+    let gained_m_s = |time_s: f64| (mover.braking_m_s2 * time_s).min(max_m_s);
+    let then_m_s = (mover.speed_m_s() + gained_m_s(age_s + elapsed_s)).min(max_m_s);
+    // Its direction differs by the length of a chord of the unit circle, at most.
+    let turned = (body.max_turn_rate_rad_s * (age_s + elapsed_s)).min(2.0);
+    let moved_m = (gained_m_s(age_s / 2.0 + elapsed_s) + then_m_s * turned / 2.0) * age_s;
     let stopping_m = |speed_m_s: f64| speed_m_s * speed_m_s / (2.0 * BRAKING * mover.braking_m_s2);
     let longer_m = stopping_m(then_m_s) - stopping_m(mover.speed_m_s());
     moved_m + longer_m.max(0.0) + stopping_m(then_m_s) * turned

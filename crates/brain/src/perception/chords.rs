@@ -59,8 +59,13 @@ impl Nearest {
         };
         if let Some(part) = sector.part(side, protrusion_m) {
             let nearest = part.nearest(Point::default());
-            let nearest_m = (nearest.length() - protrusion_m).max(0.0);
-            self.squared_m2 = self.squared_m2.min(nearest_m * nearest_m);
+            let squared_m2 = if protrusion_m > 0.0 {
+                let nearest_m = (nearest.length() - protrusion_m).max(0.0);
+                nearest_m * nearest_m
+            } else {
+                nearest.length_squared()
+            };
+            self.squared_m2 = self.squared_m2.min(squared_m2);
         }
     }
 
