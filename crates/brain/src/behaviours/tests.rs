@@ -295,7 +295,7 @@ fn bayesian_search_observes_the_whole_room_and_then_searches_again() {
         assert!(robot.covered() > 0.9, "{}", robot.covered());
         // In a corner it takes some seconds to abandon an unreachable place.
         let mut ways = robot.track.windows(120);
-        assert!(ways.all(|way| way[0].to(way[119]).length() > 0.05));
+        assert!(ways.all(|way| way.iter().any(|at| way[0].to(*at).length() > 0.05)));
     }
 }
 

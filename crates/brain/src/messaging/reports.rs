@@ -6,27 +6,28 @@
 //! 1. A robot sends its own observations, and relays only reports that it received from their
 //!    observer. So each report names all robots that could have forged it: its sender and its
 //!    observer.
-//! 2. Of the reports of an item that share a robot, as sender or observer, only the strongest
-//!    counts.
-//! 3. With the trust `t` of each counted report, which is the trust in its sender times that in its
-//!    observer (once if they are one robot), the belief before own observations stays within
+//! 2. Of the reports that support the item, those count that have the largest sum of log ratios of all
+//!    sets without a robot, sender or observer, in two reports; the same holds for those that deny it.
+//! 3. With the trust `t` of each counted report of support, which is the trust in its sender times that
+//!    in its observer (once if they are one robot), support raises the belief before own observations to
+//!    at most
 //!
 //! ```text
-//! prior x product of (1 - t) over denials  <=  belief  <=  1 - (1 - prior) x product of (1 - t) over support
+//! 1 - (1 - prior) x product of (1 - t)
 //! ```
 //!
-//!    Reports that support the item move the belief up to the upper bound at most; denials then lower it.
+//!    Denials then lower it, each by at most the factor `(1 - t) (1 - prior)` in the odds.
 //!
 //! Bound: *whatever c robots send, they make the belief in an item that no honest robot detected at
 //! most `1 - (1 - prior) (1 - t1) ... (1 - tc)`, where `ti` is the trust in each of them, at any
-//! number of honest robots that relay, or look and see nothing.* A report joins the reports of an item by its place and kind,
-//! or because its sender sent the same one before, and never because another sender named the same
-//! observations. Proof: a radio names the true sender. A report of an honest
+//! number of honest robots that relay, or look and see nothing.* A report joins the reports of an item
+//! by its place and kind, or because its sender sent the same one before, and never because another
+//! sender named the same observations. Proof: a radio names the true sender. A report of an honest
 //! sender is of its own observations or was received from the observer that it names (1), so a
-//! report that supports the item has one of the c robots as sender or as observer. Counted reports
-//! share no robot (2), so at most c of them support it, each with another one of the c robots, and its
-//! `t` is at most the trust in that robot. The product over support in (3) is then at least that of the
-//! bound, and denials only lower the belief.
+//! report that supports the item has one of the c robots as sender or as observer. Counted reports of
+//! support share no robot (2), so at most c of them count, each with another one of the c robots, and
+//! its `t` is at most the trust in that robot. The product in (3) is then at least that of the bound,
+//! and denials only lower the belief: a further one never raises it.
 //!
 //! At a trust of .5 and a prior of .01 that is .505 for one robot, .75 for two and .88 for three.
 //! The bound is on belief by reports: own observations apply after it.
@@ -267,9 +268,9 @@ impl Track {
         let Some(kinds) = kinds else {
             return probability(self.reported(reception, 0.0) + own);
         };
-        let ranked = Ranked::new(self, reception);
+        let weighted = Weighted::new(self, reception);
         let trust = |source: &Source| {
-            let mut counted = ranked.counted();
+            let mut counted = weighted.counted();
             let report =
                 counted.find(|report| self.sources[report.slot].provenance == source.provenance)?;
             Some(report.trust)
@@ -288,22 +289,21 @@ impl Track {
         }
     }
 
-    /// Log odds by the reports of others, within the bounds of the [module](self); `agreement` is the log ratio by
+    /// Log odds by the reports of others, within the bound of the [module](self); `agreement` is the log ratio by
     /// the kinds that they name.
     fn reported(&self, reception: &Reception, agreement: f64) -> f64 {
-        let (mut support, mut denial) = (Side::default(), Side::default());
-        for report in Ranked::new(self, reception).counted() {
-            if report.log_ratio > 0.0 {
-                support.add(report);
+        let (mut support, mut denial, mut distrust) = (0.0, 0.0, 1.0);
+        for report in Weighted::new(self, reception).counted() {
+            if report.is_support() {
+                support += report.log_ratio;
+                distrust *= 1.0 - report.trust;
             } else {
-                denial.add(report);
+                denial += report.log_ratio;
             }
         }
         let prior = probability(self.prior);
-        let max = log_odds(1.0 - (1.0 - prior) * support.distrust) - self.prior;
-        let min = log_odds(prior * denial.distrust) - self.prior;
-        let raised = (support.log_ratio + agreement).max(0.0).min(max);
-        self.prior + raised + denial.log_ratio.max(min)
+        let max = log_odds(1.0 - (1.0 - prior) * distrust) - self.prior;
+        self.prior + (support + agreement).max(0.0).min(max) + denial
     }
 
     /// Whether a report updates one that its sender sent before. A report of the same observations by
@@ -333,33 +333,41 @@ impl Track {
         let prior = known.map_or(prior, |slot| self.sources[slot].prior);
         let is_credited = self.is_credited(reception.own, report.from);
         let log_ratio = report.log_ratio(prior);
-        let spare = known
-            .is_none()
-            .then(|| self.spare_slot(reception, report))
-            .flatten();
-        let free = || self.free_slot(reception.own, log_ratio);
-        let Some(slot) = known.or(spare).or_else(free) else {
+        let new = Source {
+            provenance,
+            from: report.from,
+            prior,
+            log_ratio: log_ratio.max(-MAX_LOG_ODDS).min(MAX_LOG_ODDS - prior),
+            ..Source::default()
+        };
+        let Some(slot) = known.or_else(|| self.slot_for(reception, &new)) else {
             return false;
         };
-        let source = &mut self.sources[slot];
-        (source.provenance, source.from, source.prior) = (provenance, report.from, prior);
-        source.is_judged |= is_credited;
-        source.log_ratio = log_ratio.max(-MAX_LOG_ODDS).min(MAX_LOG_ODDS - prior);
+        let before = known.map_or(Source::default(), |slot| self.sources[slot]);
+        self.sources[slot] = Source {
+            sent_confidence: before.sent_confidence,
+            is_judged: before.is_judged || is_credited,
+            ..new
+        };
         true
     }
 
-    /// The slot of a report that does not count, if all slots are in use and a new report would
-    /// count: otherwise a liar could occupy all of them.
-    fn spare_slot(&mut self, reception: &Reception, report: &Report) -> Option<usize> {
+    /// The slot of a new report: if all slots are in use, that of one that does not count, or of a weaker one. One that
+    /// would not count itself has none: otherwise a liar could occupy all slots.
+    fn slot_for(&mut self, reception: &Reception, new: &Source) -> Option<usize> {
         if self.count < self.sources.len() {
+            self.count += 1;
+            return Some(self.count - 1);
+        }
+        let weighted = Weighted::new(self, reception);
+        let new = WeightedReport::new(SOURCES, new, reception);
+        let mut counted = weighted.counted();
+        if counted.any(|other| other.is_support() == new.is_support() && other.shares(new.robots)) {
             return None;
         }
-        let ranked = Ranked::new(self, reception);
-        let robots = [report.from, report.provenance.observer];
-        let is_new = !ranked.counted().any(|counted| counted.shares(robots));
-        let slot = ranked.last_not_counted().filter(|_| is_new)?;
-        self.sources[slot] = Source::default();
-        Some(slot)
+        let is_weaker = |other: &WeightedReport| other.log_ratio.abs() < new.log_ratio.abs();
+        let not_counted = weighted.weakest(|other| !other.is_counted);
+        not_counted.or_else(|| weighted.weakest(is_weaker))
     }
 
     /// Whether own observations confirm the item; `None` if they are not decisive.
@@ -458,68 +466,77 @@ impl WeightedReport {
         }
     }
 
+    fn is_support(&self) -> bool {
+        self.log_ratio > 0.0
+    }
+
     /// Whether it comes from one of two robots, or from observations of one of them.
     fn shares(&self, robots: [RobotId; 2]) -> bool {
         robots.iter().any(|robot| self.robots.contains(robot))
     }
 }
 
-/// The counted reports that support an item, or those that deny it.
-struct Side {
-    log_ratio: f64,
-    /// The probability that none of them can be trusted.
-    distrust: f64,
-}
-
-impl Default for Side {
-    fn default() -> Self {
-        Self {
-            log_ratio: 0.0,
-            distrust: 1.0,
-        }
-    }
-}
-
-impl Side {
-    fn add(&mut self, report: &WeightedReport) {
-        self.log_ratio += report.log_ratio;
-        self.distrust *= 1.0 - report.trust;
-    }
-}
-
-/// The reports of other robots in a track, the strongest first.
-struct Ranked {
+/// The reports of other robots in a track.
+struct Weighted {
     reports: [WeightedReport; SOURCES],
     count: usize,
 }
 
-impl Ranked {
+impl Weighted {
     fn new(track: &Track, reception: &Reception) -> Self {
-        let mut ranked = Self {
+        let mut weighted = Self {
             reports: [WeightedReport::default(); SOURCES],
             count: 0,
         };
         for (slot, source) in track.sources[..track.count].iter().enumerate() {
             if source.provenance.observer != reception.own {
-                ranked.reports[ranked.count] = WeightedReport::new(slot, source, reception);
-                ranked.count += 1;
+                weighted.reports[weighted.count] = WeightedReport::new(slot, source, reception);
+                weighted.count += 1;
             }
         }
-        ranked.rank();
-        ranked
+        for is_support in [true, false] {
+            weighted.count_side(is_support);
+        }
+        weighted
     }
 
-    /// Sorts by strength, and counts each report that shares no robot with a stronger counted one.
-    fn rank(&mut self) {
-        let reports = &mut self.reports[..self.count];
-        // Stable: of equally strong reports, the first counts.
-        reports.sort_by(|one, other| other.log_ratio.abs().total_cmp(&one.log_ratio.abs()));
-        for place in 0..reports.len() {
-            let robots = reports[place].robots;
-            let mut stronger = reports[..place].iter();
-            let is_shared = stronger.any(|other| other.is_counted && other.shares(robots));
-            reports[place].is_counted = !is_shared;
+    /// Counts, of the reports that support the item or of those that deny it, those with the largest sum of log ratios of
+    /// all sets without a robot in two reports. So a further report never weakens its side.
+    fn count_side(&mut self, is_support: bool) {
+        let of_side = |report: &WeightedReport| report.is_support() == is_support;
+        let has_conflict = |set: u32| {
+            let mut reports = self.members(set);
+            reports.any(|(place, one)| {
+                let mut others = self.members(set & !(1 << place));
+                !of_side(one) || others.any(|(_, other)| other.shares(one.robots))
+            })
+        };
+        let sum = |set: u32| -> f64 {
+            let reports = self.members(set);
+            reports.map(|(_, report)| report.log_ratio.abs()).sum()
+        };
+        let all = self.side(is_support);
+        let best = if has_conflict(all) {
+            let sets = (0..=all).filter(|set| set & !all == 0 && !has_conflict(*set));
+            sets.max_by(|one, other| sum(*one).total_cmp(&sum(*other)))
+        } else {
+            Some(all)
+        };
+        for place in 0..self.count {
+            self.reports[place].is_counted |= best.unwrap_or_default() >> place & 1 == 1;
         }
+    }
+
+    /// The set of all reports of a side, one bit for each.
+    fn side(&self, is_support: bool) -> u32 {
+        let numbered = self.reports[..self.count].iter().enumerate();
+        let side = numbered.filter(|(_, report)| report.is_support() == is_support);
+        side.fold(0, |set, (place, _)| set | 1 << place)
+    }
+
+    fn members(&self, set: u32) -> impl Iterator<Item = (usize, &WeightedReport)> {
+        let numbered = self.reports[..self.count].iter().enumerate();
+        numbered.filter(move |(place, _)| set >> place & 1 == 1)
     }
 
     fn counted(&self) -> impl Iterator<Item = &WeightedReport> {
@@ -527,10 +544,13 @@ impl Ranked {
         reports.filter(|report| report.is_counted)
     }
 
-    /// The slot of the weakest report that does not count.
-    fn last_not_counted(&self) -> Option<usize> {
-        let mut reports = self.reports[..self.count].iter().rev();
-        Some(reports.find(|report| !report.is_counted)?.slot)
+    /// The slot of the weakest report for which a condition holds.
+    fn weakest(&self, condition: impl Fn(&WeightedReport) -> bool) -> Option<usize> {
+        let reports = self.reports[..self.count].iter();
+        let reports = reports.filter(|report| condition(report));
+        let weakest =
+            reports.min_by(|one, other| one.log_ratio.abs().total_cmp(&other.log_ratio.abs()));
+        Some(weakest?.slot)
     }
 }
 

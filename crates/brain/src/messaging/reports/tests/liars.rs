@@ -145,16 +145,33 @@ fn robots_that_see_nothing_lower_the_belief_in_what_liars_report() {
     }
 }
 
+/// A report by any robot of the observations of any robot.
+fn any_report(confidence: impl Strategy<Value = f64>) -> impl Strategy<Value = Report> {
+    (1_u32..8, 1_u32..8, confidence).prop_map(|(from, observer, confidence)| Report {
+        from: robot(from),
+        ..report(observer, confidence)
+    })
+}
+
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
     #[test]
     fn a_denial_never_raises_belief(
-        trust in 0.01_f64..0.99,
-        liars in 1_u32..4,
-        denials in proptest::collection::vec(1e-6_f64..=MAX_PRIOR, 1..3),
+        initial in 0.01_f64..0.99,
+        before in proptest::collection::vec(any_report(0.0..=1.0), 0..12),
+        denials in proptest::collection::vec(any_report(0.0..=MAX_PRIOR), 1..4),
     ) {
-        let found = denied(trust, liars, &denials);
-        for pair in found.windows(2) {
-            prop_assert!(pair[1] <= pair[0] + 1e-12, "{found:?}");
+        let trust = &Trust::new(&TrustSpec { initial, adaptive: false });
+        let reception = Reception { own: ME, trust };
+        let mut items = Items::new(64, None);
+        let mut last = 1.0;
+        for (number, each) in (0..).zip(before.iter().chain(&denials)) {
+            let provenance = Provenance { track_id: number, ..each.provenance };
+            items.receive(&reception, &Report { provenance, ..*each }, 0.01, &[PER_M2]);
+            let believed = items.tracks[0].confidence(&reception, None);
+            prop_assert!(each.confidence > MAX_PRIOR || number == 0 || believed <= last + 1e-12, "{believed} {last}");
+            last = believed;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::contact::{Look, SeenContact};
 use super::kinds::KindModel;
-use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track};
+use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Source, Track};
 use super::track_set::TrackSet;
 use super::tracks::{Items, density};
 use crate::io::body::{Detector, RobotId};
@@ -185,11 +185,14 @@ impl Track {
                 track_id: *last_track_id,
                 observations: 0,
             };
-            self.free_slot(observer, f64::INFINITY).map_or(0, |slot| {
-                (self.sources[slot].provenance, self.sources[slot].from) = (provenance, observer);
-                self.sources[slot].prior = prior;
-                slot
-            })
+            let slot = self.own_slot();
+            self.sources[slot] = Source {
+                provenance,
+                from: observer,
+                prior,
+                ..Source::default()
+            };
+            slot
         });
         let source = &mut self.sources[slot];
         let log_ratio = match ratio {

@@ -127,23 +127,17 @@ impl Track {
         prior_log_odds(all_m2, per_m2) + distance
     }
 
-    /// A slot for a new source, replacing the weakest one if all are in use; `None` if all others
-    /// are stronger. Own observations are never replaced.
-    pub(crate) fn free_slot(&mut self, own: RobotId, log_ratio: f64) -> Option<usize> {
-        let slot = if self.count < SOURCES {
+    /// The slot of the own observations, replacing the weakest source if all slots are in use.
+    pub(super) fn own_slot(&mut self) -> usize {
+        if self.count < SOURCES {
             self.count += 1;
-            self.count - 1
-        } else {
-            let others = self.sources.iter().enumerate();
-            let others = others.filter(|(_, source)| source.provenance.observer != own);
-            let strengths = others.map(|(number, source)| (source.log_ratio.abs(), number));
-            let weakest = strengths.min_by(|one, other| one.0.total_cmp(&other.0));
-            weakest
-                .filter(|(strength, _)| *strength < log_ratio.abs())?
-                .1
-        };
-        self.sources[slot] = Source::default();
-        Some(slot)
+            return self.count - 1;
+        }
+        let strengths = self.sources.iter().map(|source| source.log_ratio.abs());
+        let weakest = strengths
+            .enumerate()
+            .min_by(|one, other| one.1.total_cmp(&other.1));
+        weakest.map_or(0, |(slot, _)| slot)
     }
 
     pub(crate) fn slot_of(&self, provenance: Provenance) -> Option<usize> {
