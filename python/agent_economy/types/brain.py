@@ -381,11 +381,15 @@ class AboutItem(TypedDict):
         kind: Index of its kind in `Body.item_kinds`.
         at: Its position in the world.
         provenance: The observations behind the report.
+        kind_share: Probability of its kind, given that there is an item: the confidence is that
+            of an item of this kind. None from robots whose detectors are certain of kinds;
+            receivers that are not then estimate it.
     """
 
     kind: int
     at: Point
     provenance: NotRequired[Provenance]
+    kind_share: NotRequired[float | None]
 
 
 class AboutSender(TypedDict):

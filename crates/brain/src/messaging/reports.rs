@@ -40,7 +40,7 @@ use crate::perception::beliefs::items::track::{
     MAX_LOG_ODDS, MAX_PRIOR, SOURCES, Source, Track, log_odds, probability,
 };
 use crate::perception::beliefs::items::track_set::TrackSet;
-use crate::perception::beliefs::items::tracks::{Items, density};
+use crate::perception::beliefs::items::{Items, density};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::LN_10;
@@ -55,7 +55,7 @@ const RESEND_CHANGE: f64 = 0.05;
 /// A report is believed half as much after this age, in seconds.
 const HALF_LIFE_S: f64 = 600.0;
 
-/// Probability that a message of an age still says something about the world: 2^(-age / 10 min).
+/// Probability that a message of an age still carries information: 2^(-age / 10 min).
 pub(super) fn freshness(age_s: f64) -> f64 {
     libm::exp2(-age_s / HALF_LIFE_S)
 }
@@ -69,7 +69,7 @@ pub(crate) struct Report {
     pub(crate) confidence: f64,
     /// Probability of the kind, given that there is an item, if the sender has stated it.
     pub(crate) kind_share: Option<f32>,
-    /// Probability that it still says something about the item: see [`freshness`].
+    /// Probability that it still carries information about the item: see [`freshness`].
     pub(crate) freshness: f64,
     /// The sender.
     pub(crate) from: RobotId,

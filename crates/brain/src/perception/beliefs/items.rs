@@ -22,11 +22,12 @@ mod contact;
 mod duplicates;
 pub(crate) mod kinds;
 mod observations;
+mod own_observation;
 pub(crate) mod track;
 pub(crate) mod track_set;
 pub(crate) mod tracks;
 
-pub(crate) use observations::OwnObservation;
+pub(crate) use own_observation::{OwnObservation, density};
 pub(crate) use tracks::Items;
 
 #[cfg(test)]

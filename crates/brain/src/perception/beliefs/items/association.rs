@@ -15,7 +15,7 @@
 //! So a contact between two items confirms neither, and the stray contacts of a sure item are no item of their own.
 
 use super::contact::{Look, SeenContact};
-use super::observations::OwnRatio;
+use super::own_observation::OwnRatio;
 use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track, probability};
 use crate::io::body::{Detector, RobotId};
 use alloc::vec::Vec;
@@ -254,12 +254,12 @@ impl Track {
             let detection = detector.probability(self.kind.into(), distance_m);
             return if is_kind { detection } else { 0.0 };
         };
-        let of_kind = |kind: usize| {
+        let visible = |kind: usize| {
             let reports = reported.map_or(1.0, |reported| detector.reports(kind, reported.into()));
             let detection = detector.probability(kind, distance_m);
             reports * detection * self.visible_share(kinds, detector, kind)
         };
-        kinds.each_kind().map(of_kind).sum()
+        kinds.each_kind().map(visible).sum()
     }
 
     /// Probability of its item by own observations alone; 0 without any.

@@ -1,7 +1,7 @@
 //! The contacts of one observation: what each may be.
 
 use super::kinds::KindModel;
-use super::observations::OwnObservation;
+use super::own_observation::OwnObservation;
 use super::track::Track;
 use crate::io::percept::Contact;
 use crate::perception::beliefs::map::Map;

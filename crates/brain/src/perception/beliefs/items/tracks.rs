@@ -159,8 +159,3 @@ impl Items {
         }
     }
 }
-
-/// The density of items of a kind.
-pub(crate) fn density(per_m2: &[f64], kind: u16) -> f64 {
-    per_m2.get(usize::from(kind)).copied().unwrap_or_default()
-}
