@@ -39,7 +39,8 @@ impl Nearest {
         }
     }
 
-    /// Takes a chord into account from which an obstacle may protrude.
+    /// Takes a chord into account from which an obstacle may protrude. Returns whether such an obstacle may be in the
+    /// sector, or the chord is too far away to matter.
     #[inline]
     pub(super) fn update(
         &mut self,
@@ -47,17 +48,18 @@ impl Nearest {
         ends_m: [f64; 2],
         protrusion_m: f64,
         sector: &Sector,
-    ) {
+    ) -> bool {
         let min_m = chord.nearest_m(ends_m[0].min(ends_m[1]), protrusion_m);
         if min_m * min_m >= self.squared_m2 {
-            return;
+            return true;
         }
         let [from, to] = chord.directions;
         let side = Segment {
             from: from.times(ends_m[0]),
             to: to.times(ends_m[1]),
         };
-        if let Some(part) = sector.part(side, protrusion_m) {
+        let part = sector.part(side, protrusion_m);
+        if let Some(part) = part {
             let nearest = part.nearest(Point::default());
             let squared_m2 = if protrusion_m > 0.0 {
                 let nearest_m = (nearest.length() - protrusion_m).max(0.0);
@@ -67,6 +69,7 @@ impl Nearest {
             };
             self.squared_m2 = self.squared_m2.min(squared_m2);
         }
+        part.is_some()
     }
 
     #[inline]

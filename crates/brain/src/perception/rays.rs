@@ -228,21 +228,30 @@ impl Ring {
     /// the close ones.
     #[inline]
     pub(crate) fn free_ahead(&self, ranges_m: &[f64]) -> Free {
-        let mut nearest = [Nearest::new(self.range_m); 2];
+        let (mut far, mut flat, mut certain) = (
+            Nearest::new(self.range_m),
+            Nearest::new(self.range_m),
+            Nearest::new(self.range_m),
+        );
         let chords = self.chords.get(..self.ahead).unwrap_or_default();
         for chords in chords.chunks(64) {
-            let mut near = self.bound_far(chords, ranges_m, &mut nearest);
+            let mut near = self.bound_far(chords, ranges_m, &mut far);
             while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
                 let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
                 let protrusion_m = chord.protrusion.at_m(lesser(ends_m[0], ends_m[1]));
-                let [flat, certain] = &mut nearest;
-                flat.update(chord, ends_m, 0.0, &self.lane);
-                certain.update(chord, ends_m, protrusion_m, &self.lane);
+                if certain.update(chord, ends_m, protrusion_m, &self.lane) {
+                    flat.update(chord, ends_m, 0.0, &self.lane);
+                }
                 near &= near - 1;
             }
         }
-        let [flat_m, certain_m] = nearest.map(Nearest::m);
-        Free { flat_m, certain_m }
+        // The nearest far chord is also the one from which a corner may protrude nearest.
+        let far_m = far.m();
+        let certain_far_m = far_m - self.protrusion.at_m(far_m / self.nearest_share);
+        Free {
+            flat_m: lesser(flat.m(), far_m),
+            certain_m: lesser(certain.m(), certain_far_m),
+        }
     }
 
     /// Bounds the distance of far chords; returns the near ones as bits.
@@ -251,7 +260,7 @@ impl Ring {
         clippy::needless_bitwise_bool,
         reason = "a branch would be mispredicted"
     )]
-    fn bound_far(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut [Nearest; 2]) -> u64 {
+    fn bound_far(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
         let far_m = self.range_m / 2.0;
         let mut near = 0;
         for (number, chord) in chords.iter().enumerate() {
@@ -263,13 +272,9 @@ impl Ring {
                 continue;
             }
             let is_far = (from > far_m) & (to > far_m);
-            let shorter_m = lesser(lesser(from, to), self.range_m);
-            let protrusion_m = chord.protrusion.at_m(shorter_m);
-            for (nearest, protrusion_m) in nearest.iter_mut().zip([0.0, protrusion_m]) {
-                let min_m = chord.nearest_m(shorter_m, protrusion_m);
-                let squared_m2 = if is_far { min_m * min_m } else { f64::INFINITY };
-                nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
-            }
+            let min_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
+            let squared_m2 = if is_far { min_m * min_m } else { f64::INFINITY };
+            nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
             near |= u64::from(!is_far) << number;
         }
         near
