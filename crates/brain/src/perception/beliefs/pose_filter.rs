@@ -459,12 +459,15 @@ impl DriveFilter {
         let (speed_m_s, rate_rad_s) = (lagged.speed_change_m_s, lagged.rate_change_rad_s);
         let by_lag_rad = -(turn_scale * rate_rad_s + curvature_rad_m * speed_m_s);
         let half_path_m = speed_scale * lagged.path_m / 2.0;
-        for (state, along_m, turned_rad) in [
+        let parts = [
             (SPEED_SCALE, lagged.path_m, 0.0),
             (TURN_SCALE, 0.0, lagged.turned_rad),
             (CURVATURE, 0.0, lagged.path_m),
             (LAG, -speed_scale * speed_m_s, by_lag_rad),
-        ] {
+        ];
+        // Odometry has only factors.
+        let count = if self.is_commanded { parts.len() } else { 2 };
+        for (state, along_m, turned_rad) in parts.into_iter().take(count) {
             let aside_m = half_path_m * turned_rad;
             let covariance = &mut self.covariance;
             covariance.add_multiple(state, along_m * front.x - aside_m * front.y, X);

@@ -69,6 +69,23 @@ impl View {
         self.holds_within(offset, 0.0)
     }
 
+    /// Whether a relative position is outside of the field of view by more than a margin, as far as single edges show.
+    #[inline]
+    pub(crate) fn is_beyond(&self, offset: Point, margin_m: f64) -> bool {
+        let [right, left] = self.edges;
+        let (is_right, is_left) = (
+            right.cross(offset) < -margin_m,
+            offset.cross(left) < -margin_m,
+        );
+        let is_aside = match self.width {
+            Width::Narrow => is_right || is_left,
+            Width::Wide => is_right && is_left,
+            Width::Round => false,
+        };
+        let max_m = self.range_m + margin_m;
+        is_aside || offset.length_squared() > max_m * max_m
+    }
+
     /// Probability that a relative position is in view that has a standard deviation, along each axis.
     ///
     /// Exact for one straight edge; the edges count as independent.

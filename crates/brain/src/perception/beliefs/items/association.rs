@@ -275,7 +275,8 @@ impl Track {
         let distance_m = observation.pose.at.to(self.at).length();
         let variance_m2 = self.variance_m2 + observation.pose_variance_m2(distance_m);
         let deviation_m = libm::sqrt(variance_m2);
-        if distance_m > observation.detector.range_m + MAX_OUT_OF_VIEW * deviation_m {
+        let offset = observation.pose.at.to(self.at);
+        if look.view.is_beyond(offset, MAX_OUT_OF_VIEW * deviation_m) {
             return 0.0;
         }
         let in_view = look.in_view(self.at, deviation_m);
