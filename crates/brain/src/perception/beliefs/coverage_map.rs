@@ -112,6 +112,8 @@ impl CoverageMap {
         };
         let floor = distrusted(trust);
         let min = floor.max(MIN_MISSED);
+        // The last probability of detection, which is mostly that of the next cell, and the factor by it.
+        let (mut detection, mut factor) = (f64::NAN, 1.0);
         for row in rows {
             for cell in row * field.columns + columns.start..row * field.columns + columns.end {
                 if self.missed[cell] <= min {
@@ -123,9 +125,11 @@ impl CoverageMap {
                 if is_in_view
                     && (!may_be_hidden || occupancy.is_visible(map_field, at, centre, blur_m))
                 {
-                    let detection = detector.min_probability(offset.length());
-                    let above = self.missed[cell] - floor;
-                    self.missed[cell] = floor + above * missed(detection, observations);
+                    let at_cell = detector.min_probability(offset.length());
+                    if at_cell.to_bits() != detection.to_bits() {
+                        (detection, factor) = (at_cell, missed(at_cell, observations));
+                    }
+                    self.missed[cell] = floor + (self.missed[cell] - floor) * factor;
                 }
             }
         }

@@ -180,7 +180,7 @@ pub(super) fn random_walk(lagged: &Lagged, elapsed_s: f64, trend: &Trend) -> Ran
         elapsed_s
     };
     RandomWalk {
-        speed_scale: libm::exp(trend.log_rate2) * driving_s,
+        speed_scale: trend.rate2 * driving_s,
         turn_scale: TURN_SCALE_RATE * TURN_SCALE_RATE * turning_s,
         curvature: CURVATURE_RATE * CURVATURE_RATE * driving_s,
     }
@@ -193,8 +193,10 @@ pub(super) fn random_walk(lagged: &Lagged, elapsed_s: f64, trend: &Trend) -> Ran
 /// they have no trend. The rate grows while there is one, and decays slowly.
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Trend {
-    /// Natural logarithm of the square of the rate.
+    /// Natural logarithm of the square of the rate, and the square itself.
     log_rate2: f64,
+    #[hashed(skip)]
+    rate2: f64,
     smoothed: f64,
     /// Time since the last position, and the distance commanded in it.
     since_s: f64,
@@ -217,8 +219,10 @@ const MAX_DEVIATIONS: f64 = 3.0;
 
 impl Default for Trend {
     fn default() -> Self {
+        let log_rate2 = 2.0 * libm::log(MIN_SCALE_RATE);
         Self {
-            log_rate2: 2.0 * libm::log(MIN_SCALE_RATE),
+            log_rate2,
+            rate2: libm::exp(log_rate2),
             smoothed: 0.0,
             since_s: 0.0,
             since_m: 0.0,
@@ -247,6 +251,7 @@ impl Trend {
         let growth = GROWTH_S * (squared - NO_TREND).clamp(0.0, MAX_TREND);
         let [low, high] = [MIN_SCALE_RATE, MAX_SCALE_RATE].map(|rate| 2.0 * libm::log(rate));
         self.log_rate2 = (self.log_rate2 + (growth - DECAY_S) * elapsed_s).clamp(low, high);
+        self.rate2 = libm::exp(self.log_rate2);
     }
 }
 

@@ -272,10 +272,9 @@ impl Track {
     /// Probability that its item was in view.
     fn probability_in_view(&self, look: &Look) -> f64 {
         let observation = look.observation;
-        let distance_m = observation.pose.at.to(self.at).length();
-        let variance_m2 = self.variance_m2 + observation.pose_variance_m2(distance_m);
-        let deviation_m = libm::sqrt(variance_m2);
         let offset = observation.pose.at.to(self.at);
+        let variance_m2 = self.variance_m2 + observation.pose_variance_m2(offset.length());
+        let deviation_m = libm::sqrt(variance_m2);
         if look.view.is_beyond(offset, MAX_OUT_OF_VIEW * deviation_m) {
             return 0.0;
         }
