@@ -76,7 +76,7 @@ def message(path: tuple[str, ...], chance: random.Random) -> dict[str, Any]:
     """Return a random message of a type."""
     about = sample(content_of(path), chance)
     if path == ("item",):
-        about["kind"] = 0
+        about["kind"], about["kind_share"] = 0, 0.5
         about["provenance"]["observer"] = {"kind": 0, "index": 1}
     for key in reversed(path):
         about = {key: about}

@@ -7,8 +7,9 @@
 //! that ray where it ends. So no obstacle with such corners that is wider than `r sin g` protrudes by
 //! more. A thinner one, such as the end of a thin wall, may be between the rays unseen.
 //!
-//! The clearance of the robot covers a part of it; for widely spaced rays, that at a contact: the
-//! sensor could otherwise not prove that any door is wide enough.
+//! The clearance of the robot covers a part of it. Of rays so widely spaced that it does not cover the
+//! protrusion at a contact, walls count as flat: the sensor could otherwise not prove that any door is
+//! wide enough.
 
 use base::trig::sin_cos;
 
@@ -33,10 +34,16 @@ impl Protrusion {
     /// Between two rays at an angle, for a body of this width.
     pub(super) fn new(gap_rad: f64, width: Width) -> Self {
         let sine = sin_cos(gap_rad).0.abs();
+        let is_covered = width.half_width_m * sine <= width.clearance_m;
         Self {
-            sine,
-            covered_m: width.clearance_m.max(width.half_width_m * sine),
+            sine: if is_covered { sine } else { 0.0 },
+            covered_m: width.clearance_m,
         }
+    }
+
+    /// Whether walls count as flat.
+    pub(super) fn is_flat(self) -> bool {
+        self.sine == 0.0
     }
 
     /// The greater of two.

@@ -233,23 +233,28 @@ impl Ring {
             Nearest::new(self.range_m),
             Nearest::new(self.range_m),
         );
+        let is_flat = self.protrusion.is_flat();
         let chords = self.chords.get(..self.ahead).unwrap_or_default();
         for chords in chords.chunks(64) {
             let mut near = self.bound_far(chords, ranges_m, &mut far);
             while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
                 let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
                 let protrusion_m = chord.protrusion.at_m(lesser(ends_m[0], ends_m[1]));
-                if certain.update(chord, ends_m, protrusion_m, &self.lane) {
+                if is_flat || certain.update(chord, ends_m, protrusion_m, &self.lane) {
                     flat.update(chord, ends_m, 0.0, &self.lane);
                 }
                 near &= near - 1;
             }
         }
-        // The nearest far chord is also the one from which a corner may protrude nearest.
         let far_m = far.m();
+        let flat_m = lesser(flat.m(), far_m);
+        if is_flat {
+            return Free::certain(flat_m);
+        }
+        // The nearest far chord is also the one from which a corner may protrude nearest.
         let certain_far_m = far_m - self.protrusion.at_m(far_m / self.nearest_share);
         Free {
-            flat_m: lesser(flat.m(), far_m),
+            flat_m,
             certain_m: lesser(certain.m(), certain_far_m),
         }
     }

@@ -172,12 +172,13 @@ impl Situation<'_> {
         self.ahead.is_some_and(is_near) || self.is_stopped(straight_s)
     }
 
-    /// Whether so little straight ahead is certain to be free that the body does not move on; scans
-    /// count as in [`Self::is_obstacle_ahead`].
+    /// Whether so little straight ahead is certain to be free, because corners may protrude, that the body does
+    /// not move on; scans count as in [`Self::is_obstacle_ahead`].
     #[inline]
     pub(crate) fn is_stopped(&self, straight_s: f64) -> bool {
-        self.ahead
-            .is_some_and(|clear| clear.certain_m < STOPPED_M && clear.age_s <= straight_s)
+        let is_stopped = |clear: ClearAhead| clear.certain_m < clear.free_m.min(STOPPED_M);
+        let ahead = self.ahead.filter(|clear| clear.age_s <= straight_s);
+        ahead.is_some_and(is_stopped)
     }
 
     /// Whether the body touches something, if its last turn ended `since_s` ago.

@@ -253,9 +253,10 @@ fn beliefs_stay_within_their_documented_size() {
         let bytes = usize::try_from(bytes.bytes_current).unwrap();
         assert!(bytes <= max, "{cells} cells, {rays} rays: {bytes} of {max}");
         let belief_state = kept.unwrap().belief_state().unwrap();
-        assert_eq!(
-            (belief_state.items.len(), belief_state.robots.len()),
-            (64, 16)
+        let counts = (belief_state.items.len(), belief_state.robots.len());
+        assert!(
+            (20..=64).contains(&counts.0) && counts.1 == 16,
+            "{counts:?}"
         );
     }
 }

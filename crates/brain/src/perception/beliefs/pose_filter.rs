@@ -74,6 +74,7 @@ struct PoseState {
 #[derive(Debug, Clone, Copy, Hashed)]
 struct DriveFilter {
     /// Whether it estimates the drive, and not the odometry.
+    #[hashed(skip)]
     is_commanded: bool,
     estimate: DriveEstimate,
     trend: Trend,
