@@ -64,9 +64,11 @@ pub use io::lane::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerd
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
+pub use navigation::speed_governor::stopping_m;
 pub use perception::beliefs::pose::Pose;
 pub use perception::beliefs::{BeliefsSpec, TrustSpec};
 pub use perception::believed::{BelievedItem, BelievedRobot};
+pub use perception::corners::MAX_CORNER_SINE;
 pub use perception::pose_tracker::PoseTracker;
 pub use service::grantor::{Grant, Grantor, wait_s};
 pub use service::holder::{Holder, Lease};

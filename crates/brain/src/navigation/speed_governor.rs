@@ -30,6 +30,18 @@ const CLEARANCE: f64 = 0.05;
 /// still stops in time.
 const BRAKING: f64 = 0.9;
 
+/// The distance in which a robot is relied on to stop from a speed, in metres; `deceleration_m_s2` is its
+/// maximum.
+#[must_use]
+pub fn stopping_m(speed_m_s: f64, deceleration_m_s2: f64) -> f64 {
+    speed_m_s * speed_m_s * stopping_s2_m(deceleration_m_s2)
+}
+
+/// 1 / (2 a).
+fn stopping_s2_m(deceleration_m_s2: f64) -> f64 {
+    0.5 / (BRAKING * deceleration_m_s2)
+}
+
 /// The range rings of a kind of robot, and its speed limit.
 #[derive(Debug, Clone)]
 pub(crate) struct SpeedGovernor {
@@ -55,7 +67,7 @@ impl SpeedGovernor {
             covers_front: rings.iter().any(|ring| ring.covers_front),
             covers_back: rings.iter().any(|ring| ring.covers_back),
             rings,
-            stopping_s2_m: 0.5 / (BRAKING * body.max_acceleration_m_s2),
+            stopping_s2_m: stopping_s2_m(body.max_acceleration_m_s2),
         }
     }
 

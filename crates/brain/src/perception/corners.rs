@@ -7,11 +7,16 @@
 //! that ray where it ends. So no obstacle with such corners that is wider than `r sin g` protrudes by
 //! more. A thinner one, such as the end of a thin wall, may be between the rays unseen.
 //!
-//! The clearance of the robot covers a part of it. Of rays so widely spaced that it does not cover the
-//! protrusion at a contact, walls count as flat: the sensor could otherwise not prove that any door is
-//! wide enough.
+//! The clearance of the robot covers a part of it; for widely spaced rays, that at a contact: the
+//! sensor could otherwise not prove that any door is wide enough. For still wider ones walls count as
+//! flat: in an aisle, the robot would hardly move.
 
 use base::trig::sin_cos;
+use core::f64::consts::FRAC_PI_2;
+
+/// Sine of the largest angle between two rays at which corners between them count: that of 32 rays
+/// around the robot.
+pub const MAX_CORNER_SINE: f64 = 0.2;
 
 /// The width of the path of a body.
 #[derive(Debug, Clone, Copy)]
@@ -33,11 +38,10 @@ pub(super) struct Protrusion {
 impl Protrusion {
     /// Between two rays at an angle, for a body of this width.
     pub(super) fn new(gap_rad: f64, width: Width) -> Self {
-        let sine = sin_cos(gap_rad).0.abs();
-        let is_covered = width.half_width_m * sine <= width.clearance_m;
+        let sine = sin_cos(gap_rad.abs().min(FRAC_PI_2)).0;
         Self {
-            sine: if is_covered { sine } else { 0.0 },
-            covered_m: width.clearance_m,
+            sine: if sine <= MAX_CORNER_SINE { sine } else { 0.0 },
+            covered_m: width.clearance_m.max(width.half_width_m * sine),
         }
     }
 

@@ -255,6 +255,16 @@ impl Ring {
     }
 }
 
+impl RangeSpec {
+    /// The angle between neighbouring rays, if there are several.
+    pub(crate) fn gap_rad(&self) -> Option<f64> {
+        let is_full = self.fov_deg >= 360.0;
+        let gaps = self.rays.checked_sub(u32::from(!is_full));
+        let gaps = gaps.filter(|_| self.rays > 1 && self.fov_deg > 0.0)?;
+        Some(self.fov_deg.to_radians() / f64::from(gaps))
+    }
+}
+
 fn bearings(spec: &RangeSpec) -> Vec<f64> {
     let (width_rad, facing_rad) = (spec.fov_deg.to_radians(), spec.facing_deg.to_radians());
     spread(spec.rays, width_rad, facing_rad)

@@ -11,6 +11,7 @@ mod lane_radios;
 mod narrow_radios;
 mod position_errors;
 mod room;
+mod unseen_corners;
 
 use crate::scenario::{Checked, ScenarioSpec};
 use base::document::{Document, Place, Value};
@@ -22,7 +23,7 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 7] = [
+const EXAMINATIONS: [Examination; 8] = [
     cropped_maps::warnings,
     room::warnings,
     goals::warnings,
@@ -30,6 +31,7 @@ const EXAMINATIONS: [Examination; 7] = [
     narrow_radios::warnings,
     lane_radios::warnings,
     position_errors::warnings,
+    unseen_corners::warnings,
 ];
 
 /// Warnings about `configurations` of a document, each with values by path. Invalid configurations have
@@ -60,3 +62,5 @@ mod economy_tests;
 mod lane_radios_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod unseen_corners_tests;
