@@ -122,8 +122,8 @@ verify-selection: ## Verify the guarantee of the race: 20,000 macro-replications
 verify-requirement: ## Verify the promise of requirements: 20,000 macro-replications per problem
 	cargo run --release --locked -p agent-economy-select --example verify -- requirement
 
-validation: .venv/installed ## Regenerate docs/validation.md and its charts
-	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation
+validation: .venv/installed ## Regenerate docs/validation.md and its charts (takes minutes)
+	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation -- --include-ignored
 	$(BIN)/python scripts/validation.py
 
 brain-comparison: .venv/installed ## Regenerate docs/brain-comparison.md and its charts (takes minutes)

@@ -35,6 +35,12 @@ from plots import (
 
 PAGE = Page("validation")
 
+SUREST = [(0.9, 0.95), (0.95, 0.99), (0.99, 1.0)]
+"""The surest beliefs, by confidence."""
+
+MAX_SIGMAS = 3
+"""Beliefs that are farther from their confidence are not calibrated, in standard errors."""
+
 MEAN_LEFT, CLEARANCE = "mean number left", 0.675
 """A series of the check of mines left, and the share of mines that its search finds."""
 
@@ -46,7 +52,13 @@ def main() -> None:
 
 def made(name: str) -> str:
     """Return a table of the page."""
-    own = {"overview": overview, "poses": poses, "belief_search": belief_search}
+    own = {
+        "overview": overview,
+        "surest_beliefs": surest_beliefs,
+        "calibration_limits": calibration_limits,
+        "poses": poses,
+        "belief_search": belief_search,
+    }
     return own[name]() if name in own else table_of(name.replace("_", "-"))
 
 
@@ -133,6 +145,31 @@ def overview() -> str:
         ],
     ]
     return table(["claim", "simulated", "largest deviation"], lines)
+
+
+def surest_beliefs() -> str:
+    """Return what is held and the true share of the surest beliefs, by detector."""
+    lines = []
+    for series, each in groupby(rows("calibration-limits"), key=lambda row: row.series):
+        held = list(each)
+        groups = [[row for row in held if low <= row.x < high] for low, high in SUREST]
+        lines.append([series, *(", ".join(map(held_and_true, group)) for group in groups)])
+    return table(["held: true", *(f"{low:g} to {high:g}" for low, high in SUREST)], lines)
+
+
+def held_and_true(row: Row) -> str:
+    """Return the mean confidence of a group of beliefs, and the true share with its interval."""
+    return f"{row.x:.4f}: {interval(row.measured, row.standard_error, 4)}"
+
+
+def calibration_limits() -> str:
+    """Return the groups of beliefs that are not calibrated, the worst first."""
+    off = [row for row in rows("calibration-limits") if abs(row.sigmas) > MAX_SIGMAS]
+    lines = [
+        [row.series, f"{row.x:.4f}", f"{row.measured:.4f}", f"{row.sigmas:+.1f}"]
+        for row in sorted(off, key=lambda row: -abs(row.sigmas))
+    ]
+    return table(["", "held", "true", "standard errors"], lines)
 
 
 def poses() -> str:

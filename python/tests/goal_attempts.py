@@ -138,7 +138,8 @@ def outcome(family: str, number: int, *, to_the_end: bool = False) -> Outcome:
 
 def change(simulation: Simulation, world: World) -> None:
     """Make the next change of a world if it is due, as soon as the robot is not in the way."""
-    here = simulation.poses[0, :2]
+    x, y = simulation.poses[0, :2]
+    here = (float(x), float(y))
     due = world.changes[:1] if simulation.time_s >= world.next_change_s else []
     for _, boxes in due:
         if all(distance_m(here, box) > world.radius_m for box in boxes):

@@ -33,7 +33,7 @@ rate_hz = 10
 behaviours = [{{ kind = "cruise" }}, {{ kind = "{way}" }}]
 """)
 
-RAYS = [16, 36, 72, 180, 360]
+RAYS = [16, 24, 36, 48, 72, 90, 120, 180, 360]
 SPEEDS_M_S = [1.0, 1.5, 2.0]
 SCANS = {
     "10 Hz": (10, ""),

@@ -8,8 +8,12 @@ import argparse
 import math
 from itertools import product
 from random import Random
+from typing import TYPE_CHECKING
 
 from agent_economy import Brain
+
+if TYPE_CHECKING:
+    from agent_economy.types.brain import Body, Motion, Percept
 
 SCALES = [1.0, 1.02, 1.05, 1.1, 1.2]
 NOISES_M = [0.2, 0.5, 1.5]
@@ -20,7 +24,7 @@ STEPS, WARM_UP = 1800, 100
 
 def brain(noise_m: float) -> Brain:
     """Return a brain with beliefs."""
-    body = {
+    body: Body = {
         "radius_m": 0.25,
         "max_speed_m_s": 1.0,
         "max_acceleration_m_s2": None,
@@ -46,8 +50,8 @@ def deviations(scales: tuple[float, float], noise_m: float, seed: int) -> list[f
         heading += rate * PERIOD_S
         x += speed * PERIOD_S * math.cos(heading - rate * PERIOD_S / 2)
         y += speed * PERIOD_S * math.sin(heading - rate * PERIOD_S / 2)
-        motion = {"speed_m_s": speed * scales[0], "turn_rate_rad_s": rate * scales[1]}
-        percept = {
+        motion: Motion = {"speed_m_s": speed * scales[0], "turn_rate_rad_s": rate * scales[1]}
+        percept: Percept = {
             "time_s": step * PERIOD_S,
             "motion": {"value": motion, "age_s": 0.0},
         }
@@ -57,7 +61,8 @@ def deviations(scales: tuple[float, float], noise_m: float, seed: int) -> list[f
             measured_rad = math.remainder(heading + random.gauss(0, NOISE_RAD), math.tau)
             percept["heading_rad"] = {"value": measured_rad, "age_s": 0.0}
         robot.step(percept)
-        pose = robot.belief_state()["pose"]
+        state = robot.belief_state()
+        pose = state["pose"] if state else None
         if pose and step >= WARM_UP:
             away_m = math.dist(pose["at"], (x, y))
             off.append(away_m / pose["deviation_m"])

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use sim::simulation::Simulation;
 use std::ops::Range;
 
-const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
+pub(crate) const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
 
-const UNCERTAIN: &str = include_str!("../../../../docs/validation/uncertain-kinds.toml");
+pub(crate) const UNCERTAIN: &str = include_str!("../../../../docs/validation/uncertain-kinds.toml");
 
 const RUNS: u64 = 64;
 
@@ -30,15 +30,15 @@ const MIN_RUNS: usize = 20;
 
 /// The confidence of a belief, and whether it is true.
 #[derive(Debug, Clone, Copy)]
-struct Belief {
+pub(crate) struct Belief {
     confidence: f64,
     is_true: bool,
 }
 
 /// Changed values of the scenario, by path.
-type Changes = Vec<(&'static str, Value)>;
+pub(crate) type Changes = Vec<(&'static str, Value)>;
 
-fn camera() -> [(&'static str, Changes); 3] {
+pub(crate) fn camera() -> [(&'static str, Changes); 3] {
     let set = |path, value| vec![(path, Value::Float(value))];
     [
         ("sharp", vec![]),
@@ -53,7 +53,7 @@ fn camera() -> [(&'static str, Changes); 3] {
     ]
 }
 
-fn radio(range_m: f64) -> (&'static str, Value) {
+pub(crate) fn radio(range_m: f64) -> (&'static str, Value) {
     ("robots.rover.radio.range_m", Value::Float(range_m))
 }
 
@@ -77,7 +77,7 @@ fn evaluated(simulation: &Simulation) -> Vec<Belief> {
 }
 
 /// The beliefs of each run.
-fn believed(text: &str, changes: &[(&str, Value)]) -> Vec<Vec<Belief>> {
+pub(crate) fn believed(text: &str, changes: &[(&str, Value)], runs: u64) -> Vec<Vec<Belief>> {
     let scenario = scenario(text, changes);
     let of_run = |number| {
         let mut simulation = run(&scenario, 1, number);
@@ -90,7 +90,7 @@ fn believed(text: &str, changes: &[(&str, Value)]) -> Vec<Vec<Belief>> {
         }
         all
     };
-    (0..RUNS).into_par_iter().map(of_run).collect()
+    (0..runs).into_par_iter().map(of_run).collect()
 }
 
 /// Of a run's beliefs in a bin: the number, the number of true ones, and the sum of confidences.
@@ -133,13 +133,12 @@ fn share(series: &str, runs: &[Vec<Belief>], bin: &Range<f64>) -> Option<Row> {
 }
 
 fn rows(series: &str, changes: &[(&str, Value)]) -> Vec<Row> {
-    rows_of(TEXT, series, changes)
+    rows_of(series, &believed(TEXT, changes, RUNS))
 }
 
-fn rows_of(text: &str, series: &str, changes: &[(&str, Value)]) -> Vec<Row> {
-    let runs = believed(text, changes);
+pub(crate) fn rows_of(series: &str, runs: &[Vec<Belief>]) -> Vec<Row> {
     let bins = EDGES.windows(2).map(|edges| edges[0]..edges[1]);
-    bins.filter_map(|bin| share(series, &runs, &bin)).collect()
+    bins.filter_map(|bin| share(series, runs, &bin)).collect()
 }
 
 #[test]
@@ -175,8 +174,10 @@ fn a_tenfold_prior_count_is_detected() {
 
 #[test]
 fn the_share_of_true_beliefs_in_uncertain_kinds_equals_their_confidence() {
-    let alone = rows_of(UNCERTAIN, "alone", &[radio(0.0)]);
-    let together = rows_of(UNCERTAIN, "with radio", &[radio(100.0)]);
+    let alone = believed(UNCERTAIN, &[radio(0.0)], RUNS);
+    let alone = rows_of("alone", &alone);
+    let together = believed(UNCERTAIN, &[radio(100.0)], RUNS);
+    let together = rows_of("with radio", &together);
     let all = [alone, together].concat();
     assert_published("uncertain-kinds.csv", &all);
     assert_right(&all);

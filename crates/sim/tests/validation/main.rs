@@ -10,6 +10,7 @@ mod battery;
 mod belief_search;
 mod blind;
 mod calibration;
+mod calibration_limits;
 mod collisions;
 mod effort;
 mod false_alarms;
