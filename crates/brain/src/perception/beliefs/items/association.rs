@@ -227,9 +227,10 @@ impl Track {
     }
 
     /// Corrects the position by each contact, as far as it is of this item. `all` is the sum of the likelihoods, that of a
-    /// miss included.
+    /// miss included. However many contacts there are, the error of the pose remains.
     fn move_to(&mut self, contacts: &Contacts, all: f64) {
         let (mut moved, mut square_m2, mut gain_sum) = (Point::default(), 0.0, 0.0);
+        let mut min_m2 = self.variance_m2;
         for (hit, seen) in contacts.hits() {
             let share = hit / all;
             let gain = self.variance_m2 / (self.variance_m2 + seen.variance_m2);
@@ -237,11 +238,12 @@ impl Track {
             moved = moved.plus(way.times(share));
             square_m2 += share * way.length_squared();
             gain_sum += share * gain;
+            min_m2 = min_m2.min(seen.pose_variance_m2);
         }
         // Not knowing which of the contacts is right adds to the variance.
         let spread_m2 = (square_m2 - moved.length_squared()).max(0.0) / 2.0;
         let variance_m2 = self.variance_m2 * (1.0 - gain_sum) + spread_m2;
-        self.variance_m2 = variance_m2.max(MIN_DEVIATION_M * MIN_DEVIATION_M);
+        self.variance_m2 = variance_m2.max(min_m2.max(MIN_DEVIATION_M * MIN_DEVIATION_M));
         self.at = self.at.plus(moved);
     }
 

@@ -31,6 +31,8 @@ pub(crate) struct SeenContact {
     pub(super) at: Point,
     /// Variance of `at`, along each axis.
     pub(super) variance_m2: f64,
+    /// The part of it by the pose, which contacts at about the same time have in common.
+    pub(super) pose_variance_m2: f64,
     /// Probability that no observation so far would have detected an item there.
     pub(super) unseen: f64,
     /// Density of false alarms of its kind.
@@ -80,6 +82,7 @@ impl<'l> Look<'l> {
             range_m: contact.range_m,
             at,
             variance_m2,
+            pose_variance_m2: observation.pose_variance_m2(contact.range_m),
             unseen,
             false_per_m2: self.false_per_m2(contact, at),
             untracked_per_m2: unseen * observation.untracked_per_m2(contact),
