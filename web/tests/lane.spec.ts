@@ -11,7 +11,7 @@ const small = fileURLToPath(new URL("small_lane.toml", import.meta.url));
 const view: View = [26, 7, 16];
 const layers = ["Remaining risk", "Cleared path", "Marks"];
 
-/** Opens the small lane at a tick; the run is over after 491 steps. */
+/** Opens the small lane at a tick; the run is over after 496 steps. */
 async function openLane(page: Page, server: RealServer, tick: number): Promise<void> {
   await copyFile(small, join(server.folder, "small_lane.toml"));
   const run = `scenario=small_lane.toml&seed=1&run=1&tick=${tick}&${opens(view)}`;
@@ -94,8 +94,8 @@ test("the panel has the belief of the chosen controller, and the truth unless it
 });
 
 test("what a controller has declared is shown beside the truth", async ({ page, server }) => {
-  const panel = await openPanel(page, server, 491);
-  await expect(panel.getByText(/^Declared clear at 98\.0 s, at a risk of 2\.\d%\.$/)).toBeVisible();
+  const panel = await openPanel(page, server, 496);
+  await expect(panel.getByText(/^Declared clear at 99\.0 s, at a risk of 2\.\d%\.$/)).toBeVisible();
   await expect(panel.getByText("No mines left in the lane.")).toBeVisible();
   // The outcome has declared and declared_s, which have the same name.
   await openTab(page, "Results");

@@ -14,11 +14,12 @@ import {
 const sections = ["Command", "Percept", "Goals", "Headings", "Items", "Map"];
 
 /** Opens a run and makes five steps: a selected robot has a percept from its next decision on. */
-async function open(page: Page, server: RealServer, scenario = "search-beliefs"): Promise<void> {
-  await openRun(page, server, `scenario=${scenario}&seed=7&robot=rover/1&tick=90`, "9.0 s");
+async function open(page: Page, server: RealServer, scenario = "search-beliefs", [seed, tick] = [7, 90]): Promise<void> {
+  const time = (steps: number) => `${((tick + steps) / 10).toFixed(1)} s`;
+  await openRun(page, server, `scenario=${scenario}&seed=${seed}&robot=rover/1&tick=${tick}`, time(0));
   for (let i = 1; i <= 5; i += 1) {
     await page.keyboard.press(".");
-    await expect(status(page)).toContainText(`9.${i} s`);
+    await expect(status(page)).toContainText(time(i));
   }
 }
 
@@ -32,16 +33,17 @@ test("percept, command, goals and beliefs of the selected robot are displayed", 
     for (const goal of belief_state?.goals ?? []) goal.stuck_s = 6.2;
     return message;
   });
-  await open(page, server);
+  // It sees an item.
+  await open(page, server, "search-beliefs", [1, 83]);
   const panel = page.getByRole("tabpanel");
   await expect(panel.getByRole("row", { name: /bayesian_search active/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /avoid held for 1.5 s/ })).toBeVisible();
-  await expect(panel.getByText("0.96 m/s").first()).toBeVisible();
+  await expect(panel.getByText("0.97 m/s").first()).toBeVisible();
   await expect(panel.getByText("1 about the sender")).toBeVisible();
   await expect(panel.getByRole("img", { name: /^Percept around the robot/ })).toBeVisible();
-  await expect(panel.getByRole("row", { name: /Item: mine 1\.8 m, 3° right 0\.20$/ })).toBeVisible();
+  await expect(panel.getByRole("row", { name: /Item: mine 0\.8 m, 15° left 0\.20$/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /Touch no reading/ })).toBeVisible();
-  await expect(panel.getByText(/Pursued: 0\.8 m left/)).toBeVisible();
+  await expect(panel.getByText(/Pursued: 1\.2 m left/)).toBeVisible();
   await expect(panel.getByText(/no progress for 6 s/)).toBeVisible();
 });
 
