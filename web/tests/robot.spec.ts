@@ -14,7 +14,12 @@ import {
 const sections = ["Command", "Percept", "Goals", "Headings", "Items", "Map"];
 
 /** Opens a run and makes five steps: a selected robot has a percept from its next decision on. */
-async function open(page: Page, server: RealServer, scenario = "search-beliefs", [seed, tick] = [7, 90]): Promise<void> {
+async function open(
+  page: Page,
+  server: RealServer,
+  scenario = "search-beliefs",
+  [seed, tick] = [7, 90],
+): Promise<void> {
   const time = (steps: number) => `${((tick + steps) / 10).toFixed(1)} s`;
   await openRun(page, server, `scenario=${scenario}&seed=${seed}&robot=rover/1&tick=${tick}`, time(0));
   for (let i = 1; i <= 5; i += 1) {
