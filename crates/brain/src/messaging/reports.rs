@@ -164,7 +164,7 @@ impl Items {
         let is_new = !track.has_report_from(report.from);
         if track.replace(reception, report, prior) {
             if !track.is_observed_by(reception.own) {
-                track.correct_by_report(report.at, variance_m2, is_new);
+                track.correct_by_report(report, variance_m2, is_new);
             }
             if let Some(kinds) = &kinds {
                 track.set_reported_kind(report, *kind_share);
@@ -353,7 +353,8 @@ impl Track {
     }
 
     /// The slot of a new report: if all slots are in use, that of one that does not count, or of a weaker one. One that
-    /// would not count itself has none: otherwise a liar could occupy all slots.
+    /// would not count itself has none: otherwise a liar could occupy all slots. Where kinds are uncertain, support that
+    /// is forgotten may have contradicted the kind of the others: a denial does not take its place.
     fn slot_for(&mut self, reception: &Reception, new: &Source) -> Option<usize> {
         if self.count < self.sources.len() {
             self.count += 1;
@@ -365,7 +366,11 @@ impl Track {
         if counted.any(|other| other.is_support() == new.is_support() && other.shares(new.robots)) {
             return None;
         }
-        let is_weaker = |other: &WeightedReport| other.log_ratio.abs() < new.log_ratio.abs();
+        let has_kinds = !self.evidence.is_empty();
+        let is_weaker = |other: &WeightedReport| {
+            let may_leave = !has_kinds || new.is_support() || !other.is_support();
+            may_leave && other.log_ratio.abs() < new.log_ratio.abs()
+        };
         let not_counted = weighted.weakest(|other| !other.is_counted);
         not_counted.or_else(|| weighted.weakest(is_weaker))
     }
@@ -388,13 +393,13 @@ impl Track {
         sources.any(|source| source.from == sender)
     }
 
-    /// Corrects the position with a report if it is the first of its sender: with any number of
-    /// them, a liar could move the item to any place.
-    fn correct_by_report(&mut self, at: Point, variance_m2: f64, is_new: bool) {
+    /// Corrects the position with a report if it supports the item, as far as it is fresh, and if it is the first of its
+    /// sender: with any number of them, a liar could move the item to any place.
+    fn correct_by_report(&mut self, report: &Report, variance_m2: f64, is_new: bool) {
         if self.count == 1 {
-            (self.at, self.variance_m2) = (at, variance_m2);
-        } else if is_new {
-            self.correct_position(at, variance_m2);
+            (self.at, self.variance_m2) = (report.at, variance_m2);
+        } else if is_new && report.confidence > MAX_PRIOR {
+            self.correct_position(report.at, variance_m2 / report.freshness);
         }
     }
 }

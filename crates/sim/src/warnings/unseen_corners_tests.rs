@@ -41,12 +41,13 @@ fn of(text: &str) -> Vec<String> {
 fn thin_obstacles_between_two_rays_have_a_warning_and_the_advised_number_of_rays_has_none() {
     for thin in THIN {
         let found = with(thin, "rays = 36");
-        let expected = "t.toml:10: robots.rover.sensors.scanner.rays = 36: 36 rays are 0.15 m apart at 0.86 m, where the \
-                        robot must see an obstacle to stop from 1 m/s: it may touch corners and obstacles of 0.10 m \
+        let expected = "t.toml:10: robots.rover.sensors.scanner.rays = 36: 36 rays are 0.149 m apart at 0.86 m, where the \
+                        robot must see an obstacle to stop from 1 m/s: it may touch corners and obstacles of 0.100 m \
                         between them; set at least 54 rays, or a lower speed";
         assert_eq!(found, [expected], "{thin}");
         assert_eq!(with(thin, "rays = 54").len(), 0);
-        assert_eq!(with(thin, "rays = 20, fov_deg = 180").len(), 1);
+        let half = with(thin, "rays = 20, fov_deg = 180");
+        assert!(half[0].contains("set at least 28 rays"), "{half:?}");
         assert_eq!(with(thin, "rays = 28, fov_deg = 180").len(), 0);
     }
 }
@@ -74,4 +75,44 @@ fn what_does_not_depend_on_rays_has_no_warning() {
         of(&text.replace("max_speed_m_s = 1,", "max_speed_m_s = 0.1,")).len(),
         0
     );
+}
+
+#[test]
+fn only_rays_ahead_that_reach_far_enough_count() {
+    let behind = |range_m: f64, facing_deg: f64| {
+        let rear = format!(
+            "\nsensors.rear = {{ kind = \"range\", rays = 90, fov_deg = 90, range_m = {range_m}, facing_deg = {facing_deg} }}"
+        );
+        let text = ROVER
+            .replace("OBSTACLE", BOX)
+            .replace("SCANNER", "rays = 16");
+        of(&text.replace("\nbrain.behav", &format!("{rear}\nbrain.behav"))).len()
+    };
+    assert_eq!(behind(8.0, 180.0), 1);
+    assert_eq!(behind(0.3, 0.0), 1);
+    assert_eq!(behind(8.0, 0.0), 0);
+}
+
+#[test]
+fn the_rate_of_the_brain_counts_and_flying_robots_have_no_warning() {
+    let text = ROVER.replace("OBSTACLE", THIN[2]);
+    let text = text.replace("SCANNER", "rays = 54");
+    assert_eq!(of(&text).len(), 0);
+    let slow = of(&text.replace("\nbrain.behav", "\nbrain.rate_hz = 1\nbrain.behav"));
+    assert_eq!(slow.len(), 1);
+    let flying = text.replace("rays = 54", "rays = 16");
+    let flying = flying.replace("radius_m = 0.2", "radius_m = 0.2\nlayer = \"air\"");
+    assert_eq!(of(&flying).len(), 0);
+}
+
+#[test]
+fn what_cannot_help_is_not_advised() {
+    let tiny = "{ circle = { at_m = [5, 5], radius_m = 0.001 } }";
+    assert!(with(tiny, "rays = 1000")[0].ends_with("set a lower speed"));
+    assert!(with(tiny, "rays = 100")[0].ends_with("set up to 1440 rays and a lower speed"));
+    let slow = ROVER
+        .replace("OBSTACLE", BOX)
+        .replace("SCANNER", "rays = 4");
+    let slow = of(&slow.replace("max_speed_m_s = 1,", "max_speed_m_s = 0.001,"));
+    assert!(slow[0].ends_with("set at least 32 rays"), "{slow:?}");
 }

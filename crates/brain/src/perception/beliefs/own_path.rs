@@ -44,9 +44,15 @@ impl OwnPath {
             .places
             .iter()
             .filter(|place| place.age_s > self.depth_s);
-        let stale = stale.count().saturating_sub(1);
-        let surplus = (self.places.len() + 1).saturating_sub(MAX_PLACES);
-        self.places.drain(..stale.max(surplus));
+        self.places.drain(..stale.count().saturating_sub(1));
+        if self.places.len() == MAX_PLACES {
+            // The oldest one stays, and the path reaches as far back.
+            let mut is_kept = false;
+            self.places.retain(|_| {
+                is_kept = !is_kept;
+                is_kept
+            });
+        }
         if self.places.capacity() == 0 {
             self.places.reserve_exact(MAX_PLACES);
         }

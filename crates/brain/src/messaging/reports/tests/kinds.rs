@@ -22,7 +22,7 @@ fn eye() -> Detector {
     }
 }
 
-fn receiver() -> Items {
+pub(super) fn receiver() -> Items {
     let body = Body {
         detectors: vec![eye()],
         ..Body::default()

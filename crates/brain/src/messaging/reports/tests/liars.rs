@@ -147,10 +147,15 @@ fn robots_that_see_nothing_lower_the_belief_in_what_liars_report() {
 
 /// A report by any robot of the observations of any robot.
 fn any_report(confidence: impl Strategy<Value = f64>) -> impl Strategy<Value = Report> {
-    (1_u32..8, 1_u32..8, confidence).prop_map(|(from, observer, confidence)| Report {
-        from: robot(from),
-        ..report(observer, confidence)
-    })
+    let share = proptest::option::of(0.01_f32..=1.0);
+    (1_u32..8, 1_u32..8, confidence, 0_u16..2, share).prop_map(
+        |(from, observer, confidence, kind, kind_share)| Report {
+            from: robot(from),
+            kind,
+            kind_share,
+            ..report(observer, confidence)
+        },
+    )
 }
 
 proptest! {
@@ -161,15 +166,18 @@ proptest! {
         initial in 0.01_f64..0.99,
         before in proptest::collection::vec(any_report(0.0..=1.0), 0..12),
         denials in proptest::collection::vec(any_report(0.0..=MAX_PRIOR), 1..4),
+        has_kinds in any::<bool>(),
     ) {
         let trust = &Trust::new(&TrustSpec { initial, adaptive: false });
         let reception = Reception { own: ME, trust };
-        let mut items = Items::new(64, None);
+        let mut items = if has_kinds { kinds::receiver() } else { Items::new(64, None) };
+        let model = items.kinds.clone();
         let mut last = 1.0;
         for (number, each) in (0..).zip(before.iter().chain(&denials)) {
             let provenance = Provenance { track_id: number, ..each.provenance };
-            items.receive(&reception, &Report { provenance, ..*each }, 0.01, &[PER_M2]);
-            let believed = items.tracks[0].confidence(&reception, None);
+            let kind = if has_kinds { each.kind } else { 0 };
+            items.receive(&reception, &Report { kind, provenance, ..*each }, 0.01, &[PER_M2, PER_M2]);
+            let believed = items.tracks[0].confidence(&reception, model.as_deref());
             prop_assert!(each.confidence > MAX_PRIOR || number == 0 || believed <= last + 1e-12, "{believed} {last}");
             last = believed;
         }
@@ -195,4 +203,67 @@ fn a_denial_that_own_observations_refute_costs_trust_and_one_that_they_confirm_e
     items.learn(ME, &mut trust);
     assert!(trust.of(robot(7)) < TrustSpec::default().initial);
     assert!((trust.of(robot(8)) - TrustSpec::default().initial).abs() < 1e-6);
+}
+
+/// Six reports fill all slots; two of them name another kind than the most probable one.
+#[test]
+fn a_denial_does_not_take_the_slot_of_support_that_contradicts_the_kind() {
+    let spec = TrustSpec {
+        initial: 0.978,
+        adaptive: false,
+    };
+    let trust = &Trust::new(&spec);
+    let reception = Reception { own: ME, trust };
+    let mut items = kinds::receiver();
+    let model = items.kinds.clone();
+    let support = [
+        (0.12, 0, Some(0.95)),
+        (0.12, 1, Some(0.95)),
+        (0.6, 1, None),
+        (0.11, 0, None),
+        (0.6, 1, None),
+        (0.6, 0, None),
+    ];
+    for (number, (confidence, kind, kind_share)) in (1..).zip(support) {
+        let named = Report {
+            kind,
+            kind_share,
+            ..report(number, confidence)
+        };
+        items.receive(&reception, &named, 4.0, &[PER_M2, PER_M2]);
+    }
+    let before = items.tracks[0].confidence(&reception, model.as_deref());
+    items.receive(&reception, &report(7, 1e-6), 4.0, &[PER_M2, PER_M2]);
+    let after = items.tracks[0].confidence(&reception, model.as_deref());
+    assert!(
+        items.tracks.len() == 1 && after <= before,
+        "{before} {after}"
+    );
+}
+
+#[test]
+fn reports_that_deny_and_those_that_are_too_old_do_not_move_an_item() {
+    let mut items = Items::new(64, None);
+    receive(&mut items, ME, &report(1, 0.9));
+    let of = |items: &Items| (items.tracks[0].at, items.tracks[0].variance_m2);
+    let before = of(&items);
+    let beside = POSITION.plus(Point { x: 0.1, y: 0.0 });
+    for (number, confidence, freshness) in [(2, 0.05, 1.0), (3, 0.9, 0.0), (4, 0.9, 1e-9)] {
+        let other = Report {
+            at: beside,
+            freshness,
+            ..report(number, confidence)
+        };
+        receive(&mut items, ME, &other);
+    }
+    assert!((of(&items).1 - before.1).abs() < 1e-9 && of(&items).0.to(before.0).length() < 1e-6);
+    receive(
+        &mut items,
+        ME,
+        &Report {
+            at: beside,
+            ..report(5, 0.9)
+        },
+    );
+    assert!(of(&items).1 < before.1);
 }

@@ -2,7 +2,6 @@
 
 use super::association::Contacts;
 use super::kinds::KindModel;
-
 use super::track::Track;
 use super::track_set::{MAX_TRACKS, TrackSet};
 use crate::io::body::RobotId;
