@@ -1,5 +1,5 @@
-//! Warnings about range sensors whose rays are so far apart where the robot stops that it may touch what is
-//! between them. docs/brains.md has the measured rates.
+//! Warnings about range sensors whose rays are, where the robot must see an obstacle to stop, farther apart than what it
+//! may then touch. docs/brains.md has the measured rates.
 
 use crate::bodies::{Layer, RobotSpec};
 use crate::scenario::Checked;
