@@ -28,7 +28,7 @@ const CLEARANCE: f64 = 0.05;
 
 /// Fraction of the maximum deceleration that is relied on: a robot whose ranges are 10% too long
 /// still stops in time.
-const BRAKING: f64 = 0.9;
+pub(super) const BRAKING: f64 = 0.9;
 
 /// The distance in which a robot is relied on to stop from a speed, in metres; `deceleration_m_s2` is its
 /// maximum.

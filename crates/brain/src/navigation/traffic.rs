@@ -27,6 +27,7 @@
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
+use crate::navigation::speed_governor::BRAKING;
 use crate::perception::beliefs::mover::Mover;
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::sector::direction;
@@ -36,9 +37,6 @@ use base::hashed::Hashed;
 
 /// Clearance between two robots in addition to the sensor error, in metres.
 const CLEARANCE_M: f64 = 0.02;
-
-/// Fraction of the maximum deceleration that is relied on, of this robot and of others.
-const BRAKING: f64 = 0.9;
 
 /// Allowance for the error of positions, in standard deviations.
 const DEVIATIONS: f64 = 3.0;

@@ -7,8 +7,12 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
 
-/// Maximum number of places. At a higher rate of the brain, the path is kept for a shorter time.
+/// Maximum number of places.
 const MAX_PLACES: usize = 32;
+
+/// Intervals between places, at least, in the age of the latest detection. The places of more steps are
+/// farther apart than a step; one more is older than that age, and another is new.
+const INTERVALS: f64 = 30.0;
 
 /// A pose of the robot some time ago, in its current frame.
 #[derive(Debug, Clone, Copy, Default, Hashed)]
@@ -18,8 +22,7 @@ pub(super) struct Place {
     heading_rad: f64,
 }
 
-/// The places at the ends of the last steps, the oldest first. None are kept before the first late
-/// detection.
+/// Places at ends of recent steps, the oldest first. None are kept before the first late detection.
 #[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct OwnPath {
     places: Vec<Place>,
@@ -45,18 +48,17 @@ impl OwnPath {
             .iter()
             .filter(|place| place.age_s > self.depth_s);
         self.places.drain(..stale.count().saturating_sub(1));
-        if self.places.len() == MAX_PLACES {
-            // The oldest one stays, and the path reaches as far back.
-            let mut is_kept = false;
-            self.places.retain(|_| {
-                is_kept = !is_kept;
-                is_kept
-            });
-        }
         if self.places.capacity() == 0 {
             self.places.reserve_exact(MAX_PLACES);
         }
-        self.places.push(Place::default());
+        let spacing_s = self.depth_s / INTERVALS;
+        if self
+            .places
+            .last()
+            .is_none_or(|last| last.age_s >= spacing_s)
+        {
+            self.places.push(Place::default());
+        }
     }
 
     /// Transforms a position that was detected some time ago from the frame of the robot then.

@@ -75,16 +75,17 @@ impl<'l> Look<'l> {
         let observation = self.observation;
         let relative = direction(contact.bearing_rad).times(contact.range_m);
         let at = observation.pose.in_world(relative);
-        let variance_m2 = observation.variance_m2(contact.range_m);
+        let pose_variance_m2 = observation.pose_variance_m2(contact.range_m);
+        let variance_m2 = observation.variance_m2(pose_variance_m2);
         let unseen = self.unseen(at, variance_m2);
         Some(SeenContact {
             kind: contact.kind,
             range_m: contact.range_m,
             at,
             variance_m2,
-            pose_variance_m2: observation.pose_variance_m2(contact.range_m),
+            pose_variance_m2,
             unseen,
-            false_per_m2: self.false_per_m2(contact, at),
+            false_per_m2: self.false_per_m2(contact.kind, at, pose_variance_m2),
             untracked_per_m2: unseen * observation.untracked_per_m2(contact),
             tracked_per_m2: 0.0,
             is_of_track: false,
@@ -110,10 +111,10 @@ impl<'l> Look<'l> {
     }
 
     /// Density of false alarms at a contact. They are in the field of view, also if errors place an item outside.
-    fn false_per_m2(&self, contact: &Contact, at: Point) -> f64 {
+    fn false_per_m2(&self, kind: u16, at: Point, pose_variance_m2: f64) -> f64 {
         let detector = self.observation.detector;
-        let per_m2 = detector.false_alarms_per_m2.get(usize::from(contact.kind));
-        let deviation_m = libm::sqrt(self.observation.pose_variance_m2(contact.range_m));
+        let per_m2 = detector.false_alarms_per_m2.get(usize::from(kind));
+        let deviation_m = libm::sqrt(pose_variance_m2);
         let in_view = self.in_view(at, deviation_m.max(MIN_VIEW_DEVIATION_M));
         (per_m2.copied().unwrap_or_default() * in_view.max(MIN_FALSE_SHARE)).max(1e-12)
     }

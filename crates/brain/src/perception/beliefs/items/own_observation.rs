@@ -56,13 +56,13 @@ impl OwnObservation<'_> {
         own / least
     }
 
-    /// Variance of the position of a contact at a distance, along each axis.
-    pub(super) fn variance_m2(&self, range_m: f64) -> f64 {
+    /// Variance of the position of a contact, along each axis; the pose adds its part.
+    pub(super) fn variance_m2(&self, pose_variance_m2: f64) -> f64 {
         let noise_m = self.detector.noise_m.max(MIN_DEVIATION_M);
-        noise_m * noise_m + self.pose_variance_m2(range_m)
+        noise_m * noise_m + pose_variance_m2
     }
 
-    /// The part of it by the pose.
+    /// Variance that the pose adds to the position of a contact at a distance, along each axis.
     pub(super) fn pose_variance_m2(&self, range_m: f64) -> f64 {
         let lateral_m = range_m * self.pose.deviation_rad;
         lateral_m * lateral_m + self.pose.deviation_m * self.pose.deviation_m

@@ -129,6 +129,50 @@ fn a_delayed_observation_is_compensated() {
     assert!((mover.velocity_m_s.x - 1.0).abs() < 1e-9 && (mover.at.x - 2.35).abs() < 1e-9);
 }
 
+/// Greatest error, in metres, of the position of a robot that stands 3 m beside a curving one, which detects
+/// it a number of steps late and updates its beliefs 100 times per second.
+fn max_error_of_late_detections_m(late: u16) -> f64 {
+    let mut others = Others::default();
+    let step = Odometry {
+        elapsed_s: 0.01,
+        turned_rad: 0.015,
+        ..STILL
+    };
+    let moved = Displacement::along(0.01, &step);
+    let parked = Point { x: 1.0, y: 3.0 };
+    let (mut at, mut heading_rad) = (Point::default(), 0.0);
+    let mut seen = Vec::new();
+    let age_s = f64::from(late) * step.elapsed_s;
+    let late = usize::from(late);
+    let mut error_m: f64 = 0.0;
+    for number in 0..500 {
+        at = at.plus(turned(moved.chord, direction(heading_rad)));
+        heading_rad += step.turned_rad;
+        let truth = turned(at.to(parked), direction(-heading_rad));
+        seen.push(truth);
+        let arrived = number >= late && number % 10 == 0;
+        let detection = arrived.then(|| Neighbour {
+            age_s,
+            ..neighbour(OTHER, seen[number - late])
+        });
+        let percept = percept(detection.into_iter().collect());
+        others.update(&percept, &rover(), &moved, None);
+        // The first detections find no path yet.
+        if number >= 3 * late {
+            error_m = error_m.max(others.movers[0].at.to(truth).length());
+        }
+    }
+    error_m
+}
+
+#[test]
+fn a_detection_of_more_steps_ago_than_places_are_kept_is_compensated() {
+    for late in [20, 40, 80] {
+        let error_m = max_error_of_late_detections_m(late);
+        assert!(error_m < 0.02, "{late} steps late: {error_m} m");
+    }
+}
+
 #[test]
 fn invalid_neighbours_and_flying_ones_are_ignored() {
     let mut body = rover();
