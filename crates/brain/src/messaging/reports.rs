@@ -225,15 +225,12 @@ impl Items {
             let at = track.at;
             let own = self.kinds.as_ref().map(|kinds| track.own_kind(kinds));
             let certain = track.kind;
-            // Own ones first: of too many messages, a radio receives the first of each sender.
-            let is_own = |source: &Source| source.provenance.observer == reception.own;
-            let mut slots: [usize; SOURCES] = core::array::from_fn(|slot| slot);
-            slots[..track.count].sort_by_key(|slot| !is_own(&track.sources[*slot]));
-            for slot in &slots[..track.count] {
-                let source = &mut track.sources[*slot];
+            for source in &mut track.sources[..track.count] {
                 let (kind, share) = match own {
                     None => (certain, None),
-                    Some((kind, share)) if is_own(source) => (kind, Some(share)),
+                    Some((kind, share)) if source.provenance.observer == reception.own => {
+                        (kind, Some(share))
+                    }
                     Some(_) => (source.kind, Some(source.kind_share.into())),
                 };
                 let confidence = probability(source.log_odds()) * share.unwrap_or(1.0);

@@ -137,19 +137,6 @@ fn denied(trust: f64, liars: u32, denials: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn own_observations_are_sent_before_reports_of_others() {
-    let mut items = Items::new(64, None);
-    for observer in [5, 6, 7] {
-        receive(&mut items, ME, &report(observer, 1.0));
-    }
-    miss(&mut items, ME);
-    items.repeat_next();
-    let observers = sent(&mut items).into_iter();
-    let observers: Vec<RobotId> = observers.map(|sent| sent.provenance.observer).collect();
-    assert_eq!(observers, [ME, robot(5), robot(6), robot(7)]);
-}
-
-#[test]
 fn robots_that_see_nothing_lower_the_belief_in_what_liars_report() {
     for denial in [1e-6, 1e-5, 1e-4] {
         let found = denied(0.5, 2, &[denial; 2]);
