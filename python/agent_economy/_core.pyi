@@ -23,6 +23,7 @@ __all__ = [
     "MetricScenario",
     "NoRoomError",
     "Procedure",
+    "RequirementSearch",
     "Simulation",
     "Snapshot",
     "assignment",
@@ -59,7 +60,6 @@ __all__ = [
     "recorded_moment",
     "recorded_setting",
     "refusal",
-    "requirement",
     "run_block",
     "run_one",
     "scenario_warnings",
@@ -167,6 +167,10 @@ class Procedure:
     @property
     def certified(self) -> NDArray[np.int64]: ...
     @property
+    def below(self) -> NDArray[np.int64]: ...
+    @property
+    def is_settled(self) -> bool: ...
+    @property
     def runs(self) -> NDArray[np.int64]: ...
     @property
     def survivors(self) -> NDArray[np.int64]: ...
@@ -183,9 +187,21 @@ def selection(
     confidence: float,
     guarantee: Literal["indifference", "pgs"],
 ) -> Procedure: ...
-def requirement(
-    costs: NDArray[np.float64], *, probability: float, tolerance: float, confidence: float
-) -> Procedure: ...
+
+@final
+class RequirementSearch:
+    def __new__(
+        cls,
+        costs: NDArray[np.float64],
+        *,
+        probability: float,
+        tolerance: float,
+        finer: float | None,
+        confidence: float,
+    ) -> RequirementSearch: ...
+    def procedure(self) -> Procedure: ...
+    def runs_to_decide(self, share: float, runs: int) -> int: ...
+
 def equal_allocation(configurations: int, runs: int) -> Procedure: ...
 def mean_bounds(
     values: NDArray[np.float64], lowest: float, highest: float, alpha: float

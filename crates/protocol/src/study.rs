@@ -59,6 +59,9 @@ pub enum RequirementStatus {
     /// It does not meet it with tolerance to spare.
     #[serde(rename = "refuted")]
     Refuted,
+    /// It does not meet it with tolerance to spare; without, it may.
+    #[serde(rename = "may meet")]
+    MayMeet,
     /// Neither is shown.
     #[serde(rename = "open")]
     Open,

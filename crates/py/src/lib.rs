@@ -84,7 +84,7 @@ mod _core {
     };
     #[pymodule_export]
     use crate::selection::{
-        Procedure, equal_allocation, mean_bounds, mean_exceeds, quantile_bounds, requirement,
+        Procedure, RequirementSearch, equal_allocation, mean_bounds, mean_exceeds, quantile_bounds,
         selection,
     };
     #[pymodule_export]

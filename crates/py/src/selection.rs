@@ -68,6 +68,18 @@ impl Procedure {
         indices(py, self.with(|procedure| procedure.certified()))
     }
 
+    /// Configurations that are shown not to meet a requirement at all, ascending.
+    #[getter]
+    fn below<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        indices(py, self.with(|procedure| procedure.below()))
+    }
+
+    /// Whether its promise holds; it may request further runs that make it more precise.
+    #[getter]
+    fn is_settled(&self) -> bool {
+        self.with(|procedure| procedure.is_settled())
+    }
+
     /// Number of runs per configuration.
     #[getter]
     fn runs<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
@@ -194,23 +206,43 @@ pub(crate) fn mean_exceeds(
     py.detach(|| exceeds(&values, Bounds { min, max }, candidate, alpha))
 }
 
-/// The cheapest configuration that meets a requirement with `probability`; `record` takes 1 for each run
-/// that does, and 0 for each that does not.
-#[pyfunction]
-#[pyo3(signature = (costs, *, probability, tolerance, confidence))]
-pub(crate) fn requirement(
-    costs: &Bound<PyArray1<f64>>,
-    probability: f64,
-    tolerance: f64,
-    confidence: f64,
-) -> Procedure {
-    let procedure = Requirement::new(RequirementProblem {
-        costs: costs.readonly().as_array().to_vec(),
-        probability,
-        tolerance,
-        confidence,
-    });
-    Procedure(Mutex::new(Box::new(procedure)))
+/// The cheapest configuration that meets a requirement, and how precisely it is found.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct RequirementSearch(RequirementProblem);
+
+#[pymethods]
+impl RequirementSearch {
+    /// `costs` has one number per configuration. With `finer`, a smaller tolerance, cheaper configurations
+    /// that may meet the requirement are decided up to that.
+    #[new]
+    #[pyo3(signature = (costs, *, probability, tolerance, finer, confidence))]
+    fn new(
+        costs: &Bound<PyArray1<f64>>,
+        probability: f64,
+        tolerance: f64,
+        finer: Option<f64>,
+        confidence: f64,
+    ) -> Self {
+        Self(RequirementProblem {
+            costs: costs.readonly().as_array().to_vec(),
+            probability,
+            tolerance,
+            finer,
+            confidence,
+        })
+    }
+
+    /// A procedure without runs; `record` takes 1 for each run that meets the requirement, and 0 for each that
+    /// does not.
+    fn procedure(&self) -> Procedure {
+        Procedure(Mutex::new(Box::new(Requirement::new(self.0.clone()))))
+    }
+
+    /// The number of runs, from `runs` on, after which a configuration is decided at the finer tolerance if
+    /// `share` of them meet the requirement; at most 10^9.
+    fn runs_to_decide(&self, share: f64, runs: u64) -> u64 {
+        self.0.runs_to_decide(share, runs)
+    }
 }
 
 /// Equal allocation: `runs` of each configuration, without a guarantee.

@@ -46,6 +46,16 @@ pub trait Procedure {
         Vec::new()
     }
 
+    /// Configurations that are shown not to meet a requirement at all, ascending.
+    fn below(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Whether its promise holds. There may be further runs that make it more precise.
+    fn is_settled(&self) -> bool {
+        self.next().is_none()
+    }
+
     /// The eliminated configurations, in the order of their elimination.
     fn eliminations(&self) -> Vec<Elimination>;
 }

@@ -27,13 +27,30 @@
 //! an eighth of the runs of the one before it.
 //!
 //! More expensive is never assumed to be better.
+//!
+//! A configuration whose probability is between `probability` and `probability + tolerance` may be
+//! refuted. With a *finer* tolerance, a second question follows about those that are cheaper than the
+//! selected one: until one of them is certified, or all are refuted at the finer tolerance. Its tests
+//! have errors of their own, half as large; together with the certification by the first question,
+//! both statements at the finer tolerance hold with `confidence` again. As long as it is open, those
+//! of the first question hold.
+//!
+//! A third test shows that the probability of a configuration is *below* `probability` itself. With
+//! `confidence`, as a statement of its own, the cheapest configuration that meets the requirement is not
+//! among those of which it shows that: as in refuting, only the error of one configuration matters. The
+//! finer question needs it where the share of runs is below `probability` by more than the tolerance.
 
+mod stage;
+
+use self::stage::{Limits, Stage, Status, Tests};
 use crate::interim_analyses::next_analysis;
 use crate::procedure::{Elimination, Exclude, Procedure, Request};
-use crate::proportion_test::ProportionTest;
 
 /// Runs of a configuration per run of the next dearer one, until it is decided.
 const RUNS_PER_DEARER_RUN: usize = 8;
+
+/// Maximum number of runs that is predicted.
+const MAX_RUNS: u64 = 1_000_000_000;
 
 /// A requirement, and the cost of each configuration.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,21 +61,10 @@ pub struct RequirementProblem {
     pub probability: f64,
     /// Above 0, at most 1 - `probability`.
     pub tolerance: f64,
+    /// That of the second question, if there is one; above 0, below `tolerance`.
+    pub finer: Option<f64>,
     /// The probability that the statement holds: above 0, below 1.
     pub confidence: f64,
-}
-
-/// What is known of a configuration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Status {
-    /// Neither of the others yet.
-    Open,
-    /// It meets the requirement.
-    Certified,
-    /// It does not meet it with tolerance to spare.
-    Refuted,
-    /// It cannot be run.
-    Excluded,
 }
 
 /// The procedure, between two of its rounds.
@@ -67,42 +73,29 @@ pub struct Requirement {
     costs: Vec<f64>,
     /// Configurations by cost; of equals, the first one first.
     order: Vec<usize>,
-    certify: ProportionTest,
-    /// Evidence that certifies, as a logarithm.
-    certified_at: f64,
-    /// By exchanging successes and failures, a test against a high probability.
-    refute: ProportionTest,
-    refuted_at: f64,
+    first: Stage,
+    finer: Option<Stage>,
     /// By configuration, the number of runs that met the requirement, and of those that did not.
     met: Vec<u64>,
     missed: Vec<u64>,
-    statuses: Vec<Status>,
     eliminations: Vec<Elimination>,
 }
 
 impl Requirement {
     /// A procedure without any runs.
     #[must_use]
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "configurations are far fewer than 2^53"
-    )]
     pub fn new(problem: RequirementProblem) -> Self {
         let count = problem.costs.len();
-        let spare = problem.probability + problem.tolerance;
-        let half_error = (1.0 - problem.confidence) / 2.0;
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by(|a, b| problem.costs[*a].total_cmp(&problem.costs[*b]));
+        let finer = problem.finer;
         Self {
+            first: Stage::new(problem.limits()),
+            finer: finer.map(|tolerance| Stage::new(problem.finer_limits(tolerance))),
             costs: problem.costs,
             order,
-            certify: ProportionTest::new(problem.probability, spare.min(1.0)),
-            certified_at: libm::log(count as f64 / half_error),
-            refute: ProportionTest::new((1.0 - spare).max(0.0), 1.0 - problem.probability),
-            refuted_at: libm::log(1.0 / half_error),
             met: vec![0; count],
             missed: vec![0; count],
-            statuses: vec![Status::Open; count],
             eliminations: Vec::new(),
         }
     }
@@ -111,14 +104,40 @@ impl Requirement {
         usize::try_from(self.met[configuration] + self.missed[configuration]).unwrap_or(usize::MAX)
     }
 
-    /// Open configurations that are cheaper than every certified one, the cheapest first.
-    fn candidates(&self) -> impl Iterator<Item = usize> {
-        let max = self
-            .selected()
-            .map_or(f64::INFINITY, |each| self.costs[each]);
+    /// The cheapest configuration that one of some stages has certified; of equals, the first.
+    fn cheapest(&self, stages: &[&Stage]) -> Option<usize> {
+        let is_certified = |each: &usize| {
+            stages
+                .iter()
+                .any(|stage| stage.statuses[*each] == Status::Certified)
+        };
+        self.order.iter().copied().find(is_certified)
+    }
+
+    /// The configurations that a stage has still to decide, the cheapest first: its open ones that are
+    /// cheaper than a selected one.
+    fn open<'s>(
+        &'s self,
+        stage: &'s Stage,
+        selected: Option<usize>,
+    ) -> impl Iterator<Item = usize> + use<'s> {
+        let max = selected.map_or(f64::INFINITY, |each| self.costs[each]);
         let order = self.order.iter().copied();
         let cheaper = order.take_while(move |each| self.costs[*each] < max);
-        cheaper.filter(|each| self.statuses[*each] == Status::Open)
+        cheaper.filter(|each| stage.statuses[*each] == Status::Open)
+    }
+
+    /// The question that is open: the first one, then the finer one.
+    fn stage(&self) -> &Stage {
+        match &self.finer {
+            Some(finer) if self.is_settled() => finer,
+            _ => &self.first,
+        }
+    }
+
+    /// The configurations that it has still to decide.
+    fn candidates(&self) -> impl Iterator<Item = usize> {
+        self.open(self.stage(), self.selected())
     }
 
     /// The configuration that runs next.
@@ -136,25 +155,67 @@ impl Requirement {
     }
 
     fn add(&mut self, configuration: usize, is_met: bool) {
-        let (met, missed) = (
-            &mut self.met[configuration],
-            &mut self.missed[configuration],
-        );
-        *(if is_met { &mut *met } else { &mut *missed }) += 1;
-        let (met, missed) = (*met, *missed);
-        if self.statuses[configuration] != Status::Open {
-            return;
+        let counted = if is_met {
+            &mut self.met
+        } else {
+            &mut self.missed
+        };
+        counted[configuration] += 1;
+        let (met, missed) = (self.met[configuration], self.missed[configuration]);
+        if let Some(finer) = &mut self.finer {
+            finer.decide(configuration, met, missed);
         }
-        if self.certify.reaches(self.certified_at, met, missed) {
-            self.statuses[configuration] = Status::Certified;
-        } else if self.refute.reaches(self.refuted_at, missed, met) {
-            self.statuses[configuration] = Status::Refuted;
+        if self.first.decide(configuration, met, missed) {
             self.eliminations.push(Elimination {
                 configuration,
                 by: None,
                 runs: met + missed,
             });
         }
+    }
+}
+
+impl RequirementProblem {
+    fn limits(&self) -> Limits {
+        Limits {
+            probability: self.probability,
+            tolerance: self.tolerance,
+            error: (1.0 - self.confidence) / 2.0,
+            below_error: 1.0 - self.confidence,
+            count: self.costs.len(),
+            needs_below: false,
+        }
+    }
+
+    fn finer_limits(&self, tolerance: f64) -> Limits {
+        Limits {
+            tolerance,
+            error: (1.0 - self.confidence) / 4.0,
+            needs_below: true,
+            ..self.limits()
+        }
+    }
+
+    /// The number of runs, from `runs` on, after which the finer question decides a configuration if
+    /// `share` of them meet the requirement; at most 10^9.
+    #[must_use]
+    #[expect(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "runs are far fewer than 2^53, and a share of them is not negative"
+    )]
+    pub fn runs_to_decide(&self, share: f64, runs: u64) -> u64 {
+        let tests = Tests::new(self.finer_limits(self.finer.unwrap_or(self.tolerance)));
+        let is_open = |runs: u64| {
+            let met = (runs as f64 * share).round() as u64;
+            tests.status(met, runs - met) == Status::Open
+        };
+        let mut runs = runs.max(1);
+        while runs < MAX_RUNS && is_open(runs) {
+            runs += runs.div_ceil(50);
+        }
+        runs
     }
 }
 
@@ -180,8 +241,10 @@ impl Procedure for Requirement {
 
     /// The cheapest certified configuration; of equals, the first.
     fn selected(&self) -> Option<usize> {
-        let mut order = self.order.iter().copied();
-        order.find(|each| self.statuses[*each] == Status::Certified)
+        match &self.finer {
+            Some(finer) if self.is_settled() => self.cheapest(&[&self.first, finer]),
+            _ => self.cheapest(&[&self.first]),
+        }
     }
 
     fn runs(&self) -> Vec<u64> {
@@ -197,8 +260,25 @@ impl Procedure for Requirement {
     }
 
     fn certified(&self) -> Vec<usize> {
-        let certified = |each: &usize| self.statuses[*each] == Status::Certified;
-        (0..self.statuses.len()).filter(certified).collect()
+        let finer = self.finer.as_ref().filter(|_| self.is_settled());
+        let stages = core::iter::once(&self.first).chain(finer);
+        let is_certified = |each: &usize| {
+            stages
+                .clone()
+                .any(|stage| stage.statuses[*each] == Status::Certified)
+        };
+        (0..self.costs.len()).filter(is_certified).collect()
+    }
+
+    /// Those of the smallest tolerance.
+    fn below(&self) -> Vec<usize> {
+        let below = &self.finer.as_ref().unwrap_or(&self.first).below;
+        (0..below.len()).filter(|each| below[*each]).collect()
+    }
+
+    fn is_settled(&self) -> bool {
+        let selected = self.cheapest(&[&self.first]);
+        self.open(&self.first, selected).next().is_none()
     }
 
     fn eliminations(&self) -> Vec<Elimination> {
@@ -208,94 +288,13 @@ impl Procedure for Requirement {
 
 impl Exclude for Requirement {
     fn exclude(&mut self, configurations: &[usize]) {
-        for each in configurations {
-            self.statuses[*each] = Status::Excluded;
+        for stage in core::iter::once(&mut self.first).chain(&mut self.finer) {
+            for each in configurations {
+                stage.statuses[*each] = Status::Excluded;
+            }
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn problem(costs: &[f64]) -> RequirementProblem {
-        RequirementProblem {
-            costs: costs.to_vec(),
-            probability: 0.9,
-            tolerance: 0.05,
-            confidence: 0.95,
-        }
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "few")]
-    fn count(runs: u64, share: f64) -> f64 {
-        (runs as f64 * share).floor()
-    }
-
-    /// Runs a procedure in which the share of runs that meet the requirement is exactly the given one.
-    fn ended(problem: RequirementProblem, shares: &[f64]) -> Requirement {
-        let mut procedure = Requirement::new(problem);
-        while let Some(request) = procedure.next() {
-            let share = shares[request.configurations[0]];
-            let runs = request.first_run..request.first_run + request.runs as u64;
-            let met = runs.map(|run| count(run + 1, share) - count(run, share));
-            procedure.record(&met.collect::<Vec<f64>>());
-        }
-        procedure
-    }
-
-    #[test]
-    fn the_cheapest_that_meets_it_is_selected_whatever_the_order() {
-        let shares = [1.0, 0.2, 0.99, 0.5];
-        assert_eq!(
-            ended(problem(&[4.0, 1.0, 3.0, 2.0]), &shares).selected(),
-            Some(2)
-        );
-        assert_eq!(
-            ended(problem(&[1.0, 2.0, 3.0, 4.0]), &shares).selected(),
-            Some(0)
-        );
-    }
-
-    #[test]
-    fn nothing_is_selected_if_none_meets_it() {
-        let procedure = ended(problem(&[1.0, 2.0]), &[0.5, 0.8]);
-        assert_eq!(procedure.selected(), None);
-        assert_eq!(procedure.eliminations().len(), 2);
-        assert!(procedure.survivors().is_empty() && procedure.certified().is_empty());
-    }
-
-    #[test]
-    fn those_that_are_dearer_than_a_certified_one_are_not_run() {
-        let procedure = ended(problem(&[1.0, 2.0, 3.0, 3.0]), &[0.3, 1.0, 1.0, 1.0]);
-        assert_eq!(procedure.selected(), Some(1));
-        assert_eq!(procedure.runs()[2..], [0, 0]);
-        assert_eq!(procedure.survivors(), [1]);
-    }
-
-    #[test]
-    fn of_equal_costs_one_is_enough() {
-        let procedure = ended(problem(&[1.0, 1.0]), &[1.0, 1.0]);
-        assert_eq!((procedure.certified(), procedure.runs()[1]), (vec![0], 0));
-        assert_eq!(procedure.next(), None);
-    }
-
-    #[test]
-    fn a_hard_configuration_does_not_keep_a_dearer_one_from_being_certified() {
-        let mut procedure = Requirement::new(problem(&[1.0, 2.0]));
-        let mut runs = 0;
-        while procedure.selected().is_none() {
-            let request = procedure.next().expect("the first is never decided");
-            runs += request.runs;
-            assert!(runs < 5000);
-            // Exactly between the limits, so that neither test gets far.
-            let is_first = request.configurations == [0];
-            let is_met = |run: u64| !is_first || !run.is_multiple_of(13);
-            let runs = request.first_run..request.first_run + request.runs as u64;
-            let met: Vec<f64> = runs.map(|run| f64::from(u8::from(is_met(run)))).collect();
-            procedure.record(&met);
-        }
-        assert_eq!(procedure.selected(), Some(1));
-        assert_eq!(procedure.survivors(), [0, 1]);
-    }
-}
+mod tests;

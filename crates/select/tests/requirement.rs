@@ -8,6 +8,7 @@ fn procedure() -> Requirement {
         costs: vec![1.0, 2.0, 3.0],
         probability: 0.9,
         tolerance: 0.05,
+        finer: None,
         confidence: 0.95,
     })
 }

@@ -17,10 +17,10 @@ from agent_economy.cli.options import ScenarioArgument, Sets, overrides
 from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.scenario import Override, Scenario, TomlValue
 from agent_economy.study.answer.labels import label
-from agent_economy.study.api import answer_so_far
+from agent_economy.study.api import answer_so_far, resumed_plan
 from agent_economy.study.description import Description, usual_folder
 from agent_economy.study.engine import Engine
-from agent_economy.study.plan import Plan, with_confidence
+from agent_economy.study.plan import Plan, decided
 from agent_economy.study.run_block import Compute
 from agent_economy.study.store.folder import REPORT
 
@@ -128,6 +128,15 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             rich_help_panel=PRECISION,
         ),
     ] = None,
+    decide: Annotated[
+        bool,
+        typer.Option(
+            "--decide",
+            help="With a requirement, continue until cheaper teams that may meet it are decided at "
+            "a quarter of the tolerance, or --max-runs is reached; also with --resume.",
+            rich_help_panel=PRECISION,
+        ),
+    ] = False,
     guarantee: Annotated[
         Literal["indifference", "pgs"] | None,
         typer.Option(
@@ -194,6 +203,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     Example: agent-economy study classic --vary robots.wanderer.count=1..12
 
     Example: agent-economy study search --require 'time_s <= 100' --probability 0.9
+
+    Example: agent-economy study --resume studies/warehouse --decide --max-runs 20000
     """
     with error_exits():
         options: dict[str, TomlValue | None] = {
@@ -220,13 +231,15 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             if confidence is not None:
                 settings["confidence"] = confidence
             plan = studies.make_plan(Scenario.load(required(scenario), changes), **settings)
+            if decide:
+                plan = decided(plan, max_runs=max_runs)
             folder = out or usual_folder(plan)
         else:
+            budget = settings.pop("max_runs", None) if decide else None
             others = {"SCENARIO": scenario, "--out": out} | settings
             refuse_with_resume(others, changes)
-            plan, folder = studies.load_plan(resume), resume
-            if confidence is not None:
-                plan = with_confidence(plan, confidence)
+            folder = resume
+            plan = resumed_plan(folder, confidence=confidence, decide=decide, max_runs=budget)
         if minimize is not None and plan.question.requirement is None:
             message = "--minimize: needs a requirement: --require, or [require] of the scenario"
             raise InputError(message)
@@ -353,6 +366,7 @@ def refuse_with_resume(others: dict[str, Any], changes: tuple[Override, ...]) ->
     if given:
         message = (
             f"--resume: cannot be combined with {', '.join(given)}: the folder already has the "
-            "question; only --confidence, --workers, --dask and --json are allowed"
+            "question; only --confidence, --decide (with --max-runs), --workers, --dask and --json "
+            "are allowed"
         )
         raise InputError(message)

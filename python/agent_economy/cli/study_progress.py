@@ -108,8 +108,7 @@ class ProgressDisplay:
         more = len(progress.eliminated) - MAX_NAMED
         if more > 0:
             words.append(f"{more} more")
-        verb = "eliminated" if progress.certified is None else "refuted"
-        return f"; {verb}: {', '.join(words)}" if words else ""
+        return f"; eliminated: {', '.join(words)}" if words else ""
 
 
 def known_of(leader: Leader) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ from agent_economy.study import plan as plans
 from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import word
+from agent_economy.study.answer.requirement import RequirementAnswer
 from agent_economy.study.arguments import Guarantee
 from agent_economy.study.errors import NoMoreRunsError
 from agent_economy.study.plan import Plan
@@ -42,6 +43,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     delta: float | None = None,
     confidence: float | None = None,
     guarantee: Guarantee | None = None,
+    decide: bool = False,
     runs: int | None = None,
     max_runs: int | None = None,
     seed: int = 0,
@@ -74,9 +76,11 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             merit's range.
         confidence: Confidence of the guarantee, 0.5 to below 1; None for the scenario's.
         guarantee: As in `select_best`; None for "indifference".
+        decide: With a requirement, whether to continue until cheaper teams that may meet it
+            are decided at a quarter of the tolerance.
         runs: Fixed number of runs per configuration; None to stop when the answer is settled.
         max_runs: Run budget of all configurations together; if it is reached first, the answer has
-            no guarantee. None for no limit.
+            no guarantee, or that of the tolerance that was reached. None for no limit.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
         out: Folder of the study; None stores nothing.
         compute: Computes blocks of runs, always the same for the same block. `Workers.columns`
@@ -120,6 +124,8 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         runs=runs,
         max_runs=max_runs,
     )
+    if decide:
+        plan = plans.decided(plan, max_runs=max_runs)
     if out is not None:
         return run_plan(plan, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
@@ -140,22 +146,61 @@ def factor_changes(vary: Mapping[str, str | Iterable[Value]], *, only_vary: bool
     return [Override(("study", "vary"), table, "vary")]
 
 
-def resume(
+def resume(  # noqa: PLR0913  (keywords with defaults)
     folder: str | Path,
     *,
     confidence: float | None = None,
+    decide: bool = False,
+    max_runs: int | None = None,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
 ) -> AnyAnswer:
-    """Resume a study, or raise the confidence of a finished one; all its runs are reused.
+    """Resume a study, or make a finished one more precise; all its runs are reused.
+
+    Args:
+        folder: Folder of the study.
+        confidence: A higher confidence; None for the study's.
+        decide: With a requirement, whether to continue until cheaper teams that may meet it
+            are decided at a quarter of the tolerance so far.
+        max_runs: With `decide`, the run budget of all configurations together, stored runs
+            included; None for no limit.
+        compute: As in `run`.
+        on_progress: As in `run`.
 
     Raises:
         InputError: As in `run`; or if the folder contains no study.
     """
+    plan = resumed_plan(folder, confidence=confidence, decide=decide, max_runs=max_runs)
+    return run_plan(plan, folder, compute=compute, on_progress=on_progress)
+
+
+def resumed_plan(
+    folder: str | Path,
+    *,
+    confidence: float | None = None,
+    decide: bool = False,
+    max_runs: int | None = None,
+) -> Plan:
+    """Return the plan of a study that is resumed, as `resume` takes it.
+
+    Raises:
+        InputError: As in `resume`.
+    """
     plan = load_plan(folder)
     if confidence is not None:
         plan = plans.with_confidence(plan, confidence)
-    return run_plan(plan, folder, compute=compute, on_progress=on_progress)
+    if max_runs is not None and not decide:
+        message = f"max_runs = {max_runs}: must be left out without decide"
+        raise InputError(message)
+    if not decide:
+        return plan
+    answer = answer_so_far(folder)
+    if not isinstance(answer, RequirementAnswer):
+        return plans.decided(plan, max_runs=max_runs)
+    if answer.is_guaranteed and answer.runs_to_decide is None:
+        # There is nothing to decide.
+        return plan
+    return plans.decided(plan, reached=answer.requirement.tolerance, max_runs=max_runs)
 
 
 def rebuild(folder: str | Path) -> AnyAnswer:

@@ -19,8 +19,8 @@ from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
 from agent_economy.scenario import Override, Scenario, ScenarioWarning, Source, warnings
 from agent_economy.scenario.validation import of_type, whole
-from agent_economy.study.arguments import Guarantee, confidence_errors
-from agent_economy.study.check.arguments import raise_all
+from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS, Guarantee, confidence_errors
+from agent_economy.study.check.arguments import check_max_runs, raise_all
 from agent_economy.study.check.request import StudyRequest
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
@@ -170,7 +170,7 @@ def planned(request: StudyRequest, *, is_new: bool) -> Plan:
     scenario, engine = request.scenario, request.checked(is_new=is_new)
     question: Question
     if scenario.requirement is not None and not request.is_about_merit:
-        question = Cheapest(scenario.requirement, scenario.cost)
+        question = Cheapest(scenario.requirement, scenario.cost, request.finer)
     else:
         question = Best(
             request.delta_of(engine, is_new=is_new), request.guarantee or "indifference"
@@ -198,6 +198,26 @@ def with_confidence(plan: Plan, confidence: float) -> Plan:
         errors = [f"confidence = {confidence:g}: must be above the study's {plan.confidence:g}"]
     raise_all(errors)
     return replace(plan, confidence=float(confidence))
+
+
+def decided(plan: Plan, *, reached: float | None = None, max_runs: int | None = None) -> Plan:
+    """Return a plan that continues until cheaper teams are decided at a smaller tolerance.
+
+    Args:
+        plan: A plan of a requirement.
+        reached: The tolerance at which it is answered; None for that of the requirement.
+        max_runs: Run budget of all configurations together, the runs so far included; None for no
+            limit.
+
+    Raises:
+        InputError: If the plan is of the best by merit, or the budget is invalid.
+    """
+    if not isinstance(plan.question, Cheapest):
+        message = "decide: needs a requirement; the best by merit has no tolerance"
+        raise InputError(message)
+    check_max_runs(max_runs, None, FIRST_ANALYSIS_RUNS * len(plan.configurations))
+    tolerance = plan.question.requirement.tolerance if reached is None else reached
+    return replace(plan, question=plan.question.decided(tolerance), max_runs=max_runs)
 
 
 def digest(data: bytes) -> str:
@@ -258,6 +278,7 @@ def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) ->
         guarantee=question.get("guarantee"),
         runs=data.get("runs"),
         max_runs=question.get("max_runs"),
+        finer=question.get("finer"),
     )
     return planned(request, is_new=False)
 

@@ -56,6 +56,8 @@ class Progress:
             configurations that have runs, the cheapest first.
         eliminated: Configurations that the completed round eliminated.
         certified: With a requirement, the certified configurations; else None.
+        may_meet: With a requirement, those that are eliminated, but may meet it without tolerance
+            to spare.
         is_over: Whether it was the last round.
         estimate_remaining: Returns the range of the number of runs left; None if it is unknown.
             Takes milliseconds.
@@ -71,6 +73,7 @@ class Progress:
     leaders: tuple[Leader, ...]
     eliminated: tuple[Elimination, ...]
     certified: tuple[int, ...] | None
+    may_meet: frozenset[int]
     is_over: bool
     estimate_remaining: Callable[[], Range | None]
     intervals: Callable[[], tuple[LeaderInterval, ...]]
@@ -105,9 +108,10 @@ class Progress:
             computed=computed,
             seconds=seconds,
             survivors=facts["survivors"],
-            leaders=tuple(Leader(*each) for each in facts["leaders"]),
+            leaders=(leaders := tuple(Leader(*each) for each in facts["leaders"])),
             eliminated=tuple(Elimination(*each) for each in facts["eliminated"]),
             certified=tuple(facts["certified"]) if "certified" in facts else None,
+            may_meet=frozenset(each.configuration for each in leaders if each.status == "may meet"),
             is_over=facts["is_over"],
             estimate_remaining=lambda: None,
             intervals=tuple,

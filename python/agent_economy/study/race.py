@@ -68,7 +68,7 @@ def run_race(
         except KeyboardInterrupt:
             if plan.question.certifies:
                 # What its runs prove already can be read: a promise, too.
-                store.answered(answered(plan))
+                record_questions(plan, store)
             raise
         if finish:
             finish(answer, evidence)
@@ -131,7 +131,7 @@ class Race:
         plan, evidence = self._plan, self.evidence()
         obstacle = self._obstacle(impossible[0]) if impossible else ""
         answer = plan.question.conclude(plan.engine, evidence, self._procedure, plan.runs, obstacle)
-        return replace(answer, questions=self._store.answered(answered(plan))), evidence
+        return replace(answer, questions=record_questions(plan, self._store)), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure
@@ -230,6 +230,7 @@ class Race:
             leaders=best[question.shown_leaders],
             eliminated=new,
             certified=tuple(procedure.certified.tolist()) if question.certifies else None,
+            may_meet=frozenset(self._eliminated).difference(procedure.below.tolist()),
             is_over=self._is_over(),
             estimate_remaining=self._estimate_remaining,
             intervals=lambda: self._intervals(best),
@@ -265,10 +266,13 @@ class Race:
         return max(0.0, low - pending), max(0.0, high - pending)
 
 
-def answered(plan: Plan) -> Answered:
-    """Return the question of a plan; other questions about the same runs have other words."""
-    words = plan.question.words(plan.scenario, plan.confidence)
-    return Answered(", ".join(f"{key} {value}" for key, value in words.items()), plan.confidence)
+def record_questions(plan: Plan, store: Store | StoredRuns) -> tuple[Answered, ...]:
+    """Record that the questions of a plan were answered; return all that were from these runs."""
+    questions: tuple[Answered, ...] = ()
+    for identity in plan.question.identities(plan.scenario, plan.confidence):
+        words = ", ".join(f"{key} {value}" for key, value in identity.items())
+        questions = store.answered(Answered(words, plan.confidence))
+    return questions
 
 
 def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:

@@ -43,7 +43,8 @@ def costs(engine: Engine, cost: str) -> Floats:
         found = evaluated(expression, engine)
         if not np.isfinite(found).all():
             raise expression.error(NOT_FINITE)
-        engine.costs[cost] = found
+        # Costs that are equal must not differ by the rounding of their sums.
+        engine.costs[cost] = np.array([rounded(each) for each in found.tolist()])
     return engine.costs[cost]
 
 
@@ -110,6 +111,6 @@ def price(engine: Engine, configuration: int) -> float:
     raise InputError(message)
 
 
-def rounded(price: float) -> float:
-    """Return the price of a team without the error of its sum: equal prices must not differ."""
-    return float(f"{price:.12g}")
+def rounded(cost: float) -> float:
+    """Return a cost or a price without the error of its sum, as all output states it."""
+    return float(f"{cost:.12g}")

@@ -718,7 +718,7 @@ class Refused(TypedDict):
     errors: Sequence[InputError]
 
 
-RequirementStatus: TypeAlias = Literal["certified", "refuted", "open", "not needed"]
+RequirementStatus: TypeAlias = Literal["certified", "refuted", "may meet", "open", "not needed"]
 """What is known of a configuration in a study of a requirement."""
 
 
@@ -1001,6 +1001,7 @@ StudyVerdict: TypeAlias = Literal[
     "impossible",
     "certified",
     "refuted",
+    "may meet",
     "open",
     "not needed",
 ]

@@ -208,7 +208,7 @@ class ProgressReporter:
         if leader.configuration in self._eliminated:
             if status is None:
                 return None
-            status = "refuted"
+            status = "may meet" if leader.configuration in now.may_meet else "refuted"
         elif leader.configuration in (now.certified or ()):
             status = "certified"
         return [leader.configuration, leader.runs, leader.merit, merit.low, merit.high, status]

@@ -61,10 +61,15 @@ def word(value: float | str) -> str:
 
 
 def recommendation(values: Values) -> str:
-    """Return the recommendation: "Send 4 rovers", "Choose contact touch", or both."""
+    """Return the recommendation: "Send 4 rovers", "Choose contact touch", or both.
+
+    Kinds whose number is 0 are left out, unless all are.
+    """
     values = present(values)
     teams = {path: value for path, value in values.items() if robot_kind(path) is not None}
     others = {path: value for path, value in values.items() if path not in teams}
+    sent = {path: value for path, value in teams.items() if counted_kind(path) is None or value}
+    teams = sent or teams
     if not values:
         return "One configuration, the scenario"
     if not teams:

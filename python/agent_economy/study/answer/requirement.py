@@ -27,6 +27,8 @@ class RequirementAnswer(StudyAnswer):
         confidence: Confidence of the promise; and, as a statement of its own, of all intervals.
         requirement: The requirement.
         cost: What a configuration costs, as an expression.
+        runs_to_decide: About how many further runs decide whether cheaper configurations meet it;
+            None if none may.
         selected: Index of the cheapest certified configuration; None if none is certified.
         results: Result of each configuration.
         questions: The questions that were answered from the same runs, this one included.
@@ -43,6 +45,7 @@ class RequirementAnswer(StudyAnswer):
     cost: str
     selected: int | None
     results: tuple[RequirementResult, ...]
+    runs_to_decide: int | None = None
     questions: tuple[Answered, ...] = ()
 
     # The verdict contains all that they would state.
@@ -64,14 +67,19 @@ class RequirementAnswer(StudyAnswer):
         return frozenset((*near, *known[:end][-1:]))
 
     def foremost(self, count: int) -> list[RequirementResult]:
-        """Return the teams by their cost; of many, the selected one and those next to it."""
+        """Return the teams by their cost; of many, the selected one and those next to it.
+
+        Without a selected one, those that come closest.
+        """
         ordered = sorted(self.results, key=lambda result: result.cost)
-        if len(ordered) <= count:
-            return ordered
-        known = max((at for at, result in enumerate(ordered) if result.runs), default=0)
-        at = known if self.chosen is None else ordered.index(self.chosen)
+        if self.chosen is None:
+            closest = sorted(ordered, key=lambda each: each.met.value if each.met else -1.0)[
+                -count:
+            ]
+            return [each for each in ordered if each in closest]
+        at = ordered.index(self.chosen)
         last = min(len(ordered), max(count, at + count // 4))
-        return ordered[last - count : last]
+        return ordered[max(0, last - count) : last]
 
     @property
     def heads(self) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from agent_economy.study.answer.ties import Verdict
 from agent_economy.study.arguments import Floats
 from agent_economy.study.teams import rounded
 
-Known = Literal["certified", "refuted", "open", "not needed", "impossible"]
+Known = Literal["certified", "may meet", "refuted", "open", "not needed", "impossible"]
 Status = Literal["selected"] | Known
 
 
@@ -26,8 +26,10 @@ class RequirementEnding:
         costs: The cost of each configuration.
         selected: Index of the cheapest certified configuration; None if none is certified.
         certified: The certified configurations.
-        refuted: The refuted configurations.
-        is_over: Whether it ended by itself, so that its promise holds.
+        refuted: Those that are shown not to meet the requirement with tolerance to spare.
+        below: Those that are shown not to meet the requirement, tolerance or not.
+        is_over: Whether its promise holds: all that are cheaper than the selected one are refuted.
+        is_finest: Whether it ended by itself: its promise holds at a finer tolerance, too.
         obstacle: Why some configurations cannot be run; empty if all can.
     """
 
@@ -35,7 +37,9 @@ class RequirementEnding:
     selected: int | None
     certified: frozenset[int]
     refuted: frozenset[int]
+    below: frozenset[int]
     is_over: bool
+    is_finest: bool
     obstacle: str = ""
 
     @classmethod
@@ -46,7 +50,9 @@ class RequirementEnding:
             selected=procedure.selected,
             certified=frozenset(procedure.certified.tolist()),
             refuted=frozenset(each for each, _, _ in procedure.eliminations),
-            is_over=procedure.next() is None,
+            below=frozenset(procedure.below.tolist()),
+            is_over=procedure.is_settled,
+            is_finest=procedure.next() is None,
             obstacle=obstacle,
         )
 
@@ -55,7 +61,7 @@ class RequirementEnding:
         if index in self.certified:
             return "certified"
         if index in self.refuted:
-            return "refuted"
+            return "refuted" if index in self.below else "may meet"
         is_cheaper = self.selected is None or self.costs[index] < self.costs[self.selected]
         return "open" if is_cheaper else "not needed"
 
@@ -72,9 +78,10 @@ class RequirementResult:
         runs: Number of runs.
         quarantined: Number of quarantined runs, which count as not met.
         status: "selected": the cheapest certified one. "certified": it meets the requirement.
-            "refuted": its share is below probability + tolerance. "open": neither is shown. "not
-            needed": neither is shown either, but one that is not dearer is certified.
-            "impossible": all its runs are quarantined, so that it is refuted or will be.
+            "refuted": its share is shown to be below probability. "may meet": it is shown to be
+            below probability + tolerance only. "open": nothing is shown. "not needed": nothing is
+            shown, but one that is not dearer is certified. "impossible": all its runs are
+            quarantined, so that it is refuted or will be.
         met: The share of runs that meet the requirement; the intervals of all configurations hold
             simultaneously. None without runs.
         failing: The share of runs in which each condition does not hold, in their order;
@@ -146,8 +153,9 @@ def status(sample: Sample, ending: RequirementEnding, index: int) -> Status:
     if index == ending.selected:
         return "selected"
     known = ending.status(index)
-    is_impossible = sample.runs and not sample.is_possible
-    return "impossible" if is_impossible and known != "certified" else known
+    if sample.runs and not sample.is_possible and known != "certified":
+        return "impossible"
+    return known
 
 
 def quantile_columns(requirement: Requirement) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from functools import cached_property
 from agent_economy.scenario import Requirement
 from agent_economy.study.answer import clearance
 from agent_economy.study.answer.condition_words import in_words
-from agent_economy.study.answer.labels import first, listed, recommendation
+from agent_economy.study.answer.labels import alternatives, first, listed, recommendation
 from agent_economy.study.answer.requirement_results import (
     RequirementEnding,
     RequirementResult,
@@ -37,6 +37,7 @@ class RequirementWords:
         results: Result of each configuration.
         confidence: Confidence of the promise.
         ending: The end of the study.
+        runs_to_decide: About how many runs decide the cheaper teams that may meet it.
     """
 
     requirement: Requirement
@@ -44,6 +45,7 @@ class RequirementWords:
     results: Sequence[RequirementResult]
     confidence: float
     ending: RequirementEnding
+    runs_to_decide: int | None
 
     def verdict(self) -> Verdict:
         """Return the answer in four lines."""
@@ -126,7 +128,27 @@ class RequirementWords:
         """Return what is known of cheaper teams; only a study that is over makes a promise."""
         below = f"met in fewer than {spare_of(self.requirement)} of missions"
         words = below if self.ending.is_over else "refuted so far, without a guarantee"
-        return refuted(self.cheaper, words) + named(self.cheaper, "open", "not decided")
+        return [
+            *self.may_meet(),
+            *refuted(self.cheaper, words),
+            *named(self.cheaper, "open", "not decided"),
+        ]
+
+    def may_meet(self) -> list[str]:
+        """Return which cheaper teams may meet it, and how many runs would decide that."""
+        found = [(each.met.value, each) for each in self.cheaper if each.met and may_meet(each)]
+        if not found:
+            return []
+        found.sort(key=lambda pair: -pair[0])
+        near = self.requirement.probability - self.requirement.tolerance
+        count = max(1, sum(share >= near for share, _ in found[:MAX_NAMED]))
+        near_teams = [f"{each.label}{seen(each, self.requirement)}" for _, each in found[:count]]
+        as_well = " as well" if self.chosen else ""
+        others = len(found) - count
+        more = f", and so may {others} other{'s' if others > 1 else ''}" if others else ""
+        runs = in_figures(self.runs_to_decide)
+        may = f"{upper(alternatives(near_teams))} may meet it{as_well}{more}"
+        return [f"{may}; about {runs} more runs would decide (--decide)"]
 
     def impossible(self, results: Sequence[RequirementResult]) -> list[str]:
         """Return which of some teams cannot be run, and why."""
@@ -158,6 +180,16 @@ class RequirementWords:
             f"{closest}: {nearest.label}, met in {of_missions}",
             f"The condition that fails most often there: {failing}",
         ]
+
+
+def may_meet(result: RequirementResult) -> bool:
+    """Return whether a team is refuted with the tolerance to spare only."""
+    return result.status == "may meet"
+
+
+def in_figures(number: int | None) -> str:
+    """Return a number with two significant figures."""
+    return f"{float(f'{number or 0:.2g}'):,.0f}"
 
 
 def seen(result: RequirementResult, requirement: Requirement) -> str:

@@ -9,6 +9,9 @@ from agent_economy.study import teams
 from agent_economy.study.check.arguments import raise_all
 from agent_economy.study.engine import Engine
 
+ROUNDING = 1e-12
+"""What the sum of a probability and a tolerance may be off by."""
+
 
 def expression_errors(scenario: Scenario) -> list[str]:
     """Return the errors of the expressions on teams."""
@@ -44,6 +47,19 @@ def check_conditions(scenario: Scenario, engine: Engine) -> None:
         for number, fault in found
     ]
     raise_all(lines)
+
+
+def tolerance_errors(scenario: Scenario) -> list[str]:
+    """Return the error of a tolerance with which a single failure refutes a configuration."""
+    requirement = scenario.requirement
+    if requirement is None or requirement.probability + requirement.tolerance < 1 - ROUNDING:
+        return []
+    probability, tolerance = requirement.probability, requirement.tolerance
+    where = with_origin(scenario.source, "require", "tolerance")
+    fault = (
+        f"{where} = {tolerance:g}: must be below {1 - probability:.12g}, which is 1 - probability"
+    )
+    return [f"{fault}: at 100%, a single mission that fails would refute a team"]
 
 
 def error_of(check: Callable[[], object]) -> list[str]:

@@ -7,7 +7,13 @@ from agent_economy.scenario.validation import is_whole
 from agent_economy.study import design, teams
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS, Guarantee
 from agent_economy.study.check.arguments import MAX_SEED, check_max_runs, check_question, raise_all
-from agent_economy.study.check.expressions import check_conditions, error_of, expression_errors
+from agent_economy.study.check.expressions import (
+    check_conditions,
+    error_of,
+    expression_errors,
+    tolerance_errors,
+)
+from agent_economy.study.check.prices import price_errors
 from agent_economy.study.engine import Engine
 
 PART_OF_RANGE = 0.02
@@ -25,6 +31,7 @@ class StudyRequest:
     guarantee: Guarantee | None
     runs: int | None
     max_runs: int | None
+    finer: float | None = None
 
     @property
     def is_about_merit(self) -> bool:
@@ -64,8 +71,10 @@ class StudyRequest:
         if is_new and self.is_about_merit:
             _ = engine.merit_limits
         elif is_new:
-            costs = error_of(lambda: teams.costs(engine, scenario.cost))
-            raise_all(costs + error_of(lambda: check_conditions(scenario, engine)))
+            found = error_of(lambda: teams.costs(engine, scenario.cost))
+            found = found or price_errors(scenario, engine.configurations)
+            found += tolerance_errors(scenario)
+            raise_all(found + error_of(lambda: check_conditions(scenario, engine)))
         return engine
 
     def _first_errors(self) -> list[str]:

@@ -56,9 +56,9 @@ class Best:
         """Return the question as study.toml stores it."""
         return {"delta": self.delta, "confidence": confidence, "guarantee": self.guarantee}
 
-    def words(self, scenario: Scenario, confidence: float) -> dict[str, Any]:
+    def identities(self, scenario: Scenario, confidence: float) -> tuple[dict[str, Any], ...]:
         """Return what distinguishes it from other questions about the same runs."""
-        return {**self.as_dict(confidence), "merit": scenario.merit.name}
+        return ({**self.as_dict(confidence), "merit": scenario.merit.name},)
 
     def procedure(self, engine: Engine, confidence: float, runs: int | None) -> _core.Procedure:
         """Return the procedure that selects the best, or that allots a fixed number of runs."""

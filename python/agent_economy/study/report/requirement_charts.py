@@ -36,6 +36,7 @@ STATUSES: Codes = {
     "selected": (BLUE, "circle"),
     "certified": (TEAL, "square"),
     "open": (ORANGE, "diamond"),
+    "may meet": (ORANGE, "triangle-up"),
     "refuted": (GREY, "triangle-down"),
     "not needed": (GREY, "triangle-right"),
 }

@@ -47,12 +47,13 @@ def share(view: RequirementView) -> Section:
     lines = (
         f"The line is the required share, {low}; the band above it is the tolerance, up to {high}. "
         f"A team is certified when its share is shown to be at least {low}, and refuted when it is "
-        f"shown to be below {high}."
+        f"shown to be below {low}. One that is shown to be below {high} only may meet the "
+        "requirement."
     )
     statements = (
-        "These are two statements, each with its own confidence: certified and refuted belong to "
-        f"the promise above; the intervals hold simultaneously for all teams, {confidently}, and "
-        "decide nothing."
+        f"These are statements of their own: what is certified, and what is below {high}, belongs "
+        f"to the promise above; the intervals hold simultaneously for all teams, {confidently}, "
+        "and decide nothing."
     )
     some = (
         f"{MAX_SHOWN} of {len(view.known):,} teams with runs are shown; answer.json contains all."

@@ -517,7 +517,7 @@ export interface Requirement {
 }
 
 /** What is known of a configuration in a study of a requirement. */
-export type RequirementStatus = "certified" | "refuted" | "open" | "not needed";
+export type RequirementStatus = "certified" | "refuted" | "may meet" | "open" | "not needed";
 
 /** The rays of a range ring. */
 export interface RingView {
@@ -1046,7 +1046,7 @@ export interface StudyTable {
 }
 
 /** What is known of a configuration: by merit from `best` to `worse`, with a requirement `best` for the selected one and the status of the others. */
-export type StudyVerdict = "best" | "tied" | "not better" | "undecided" | "worse" | "impossible" | "certified" | "refuted" | "open" | "not needed";
+export type StudyVerdict = "best" | "tied" | "not better" | "undecided" | "worse" | "impossible" | "certified" | "refuted" | "may meet" | "open" | "not needed";
 
 /** The unit of a world. */
 export type Unit = "m" | "px";

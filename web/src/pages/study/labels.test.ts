@@ -50,7 +50,7 @@ test("the race is summarised in a sentence", () => {
 
 test("a race with a requirement is summarised by its statuses", () => {
   expect(raceSummary(required, 3, labels)).toBe(
-    "Running: 1 certified, 1 refuted, 2,031 runs. Cheapest certified: 3 wanderers.",
+    "Running: 1 certified, 1 eliminated, 2,031 runs. Cheapest certified: 3 wanderers.",
   );
   expect(bestOf({ ...required, standings: required.standings.slice(0, 2) })).toBe(null);
 });

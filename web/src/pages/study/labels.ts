@@ -35,7 +35,7 @@ function remaining(race: StudyProgress, total: number): Figure[] {
 function decided({ certified, eliminated }: StudyProgress): Figure[] {
   return [
     [count(certified ?? 0), "certified"],
-    [count(eliminated.length), "refuted"],
+    [count(eliminated.length), "eliminated"],
   ];
 }
 

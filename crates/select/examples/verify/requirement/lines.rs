@@ -4,7 +4,7 @@ use crate::binomial::lower_bound;
 use crate::random::Place;
 use crate::requirement::problems::{self, Known};
 use crate::requirement::reference::{self, FeasibilityCheck, FixedDesign, Reference, Wald};
-use crate::requirement::study::{self, Batches, Outcome, Setup};
+use crate::requirement::study::{self, Batches, Outcome, Setup, Statement};
 use rayon::prelude::*;
 
 pub(crate) const CONFIDENCE: f64 = 0.95;
@@ -108,6 +108,8 @@ const CORRECT: Setup = Setup {
     batches: Batches::Requested,
     confidence: CONFIDENCE,
     probability_off: 0.0,
+    finer: 1.0,
+    statement: Statement::Promise,
 };
 
 /// All lines, in the table's order.
@@ -117,6 +119,7 @@ pub(crate) fn all() -> Vec<Line> {
         .iter()
         .map(|each| Line::new(each.name, each, CORRECT))
         .collect();
+    lines.extend(finer(&problems));
     lines.extend(batches(&problems));
     lines.extend(broken(&problems));
     for problem in problems.iter().take(4) {
@@ -124,6 +127,32 @@ pub(crate) fn all() -> Vec<Line> {
     }
     let inside = problems.iter().filter(|each| each.name == "8 teams inside");
     lines.extend(inside.flat_map(anchors));
+    lines
+}
+
+/// Teams at each limit of the finer question, which follows at a quarter of the tolerance.
+fn finer(problems: &[Known]) -> Vec<Line> {
+    let setup = Setup {
+        finer: 0.25,
+        ..CORRECT
+    };
+    let eight = problems
+        .iter()
+        .filter(|each| each.name.starts_with("8 teams"));
+    let mut finer: Vec<Known> = eight.cloned().collect();
+    finer.extend(finer.first().cloned().map(|first| Known {
+        name: "8 teams at p0 + t / 4",
+        met: vec![first.probability + first.tolerance / 4.0; 8],
+        ..first
+    }));
+    let line = |each: &Known| Line::new(&format!("{}, finer", each.name), each, setup);
+    let mut lines: Vec<Line> = finer.iter().map(line).collect();
+    let below = Setup {
+        statement: Statement::Below,
+        ..setup
+    };
+    let at_the_limit = problems.iter().filter(|each| each.name.starts_with("7 "));
+    lines.extend(at_the_limit.map(|each| Line::new(&format!("{}, below", each.name), each, below)));
     lines
 }
 

@@ -53,11 +53,19 @@ impl Known {
         }
     }
 
-    /// Whether a study that selects this keeps the promise.
-    pub(crate) fn is_kept(&self, selected: Option<usize>) -> bool {
+    /// Whether the cheapest that meets the requirement is not among those that are shown not to.
+    pub(crate) fn is_below_right(&self, below: &[usize]) -> bool {
+        let meets = |each: &usize| self.met[*each] >= self.probability;
+        (0..self.met.len())
+            .find(meets)
+            .is_none_or(|cheapest| !below.contains(&cheapest))
+    }
+
+    /// Whether a study that selects this keeps the promise at a tolerance.
+    pub(crate) fn is_kept(&self, selected: Option<usize>, tolerance: f64) -> bool {
         // What lies at a limit itself was rounded.
         let rounding = 1e-12;
-        let spare = self.probability + self.tolerance - rounding;
+        let spare = self.probability + tolerance - rounding;
         let max = selected.map_or(f64::INFINITY, |each| self.costs[each]);
         let misses_cheaper = self
             .met

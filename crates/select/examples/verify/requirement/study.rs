@@ -13,6 +13,15 @@ pub(crate) enum Batches {
     Random(u32),
 }
 
+/// What a study states.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Statement {
+    /// The promise.
+    Promise,
+    /// Which configurations do not meet the requirement at all.
+    Below,
+}
+
 /// What a study takes as given, which differs from the truth if it is broken on purpose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Setup {
@@ -20,6 +29,9 @@ pub(crate) struct Setup {
     pub(crate) confidence: f64,
     /// Added to p0.
     pub(crate) probability_off: f64,
+    /// The tolerance of the finer question, as a part of the problem's; 1 for none.
+    pub(crate) finer: f64,
+    pub(crate) statement: Statement,
 }
 
 /// The outcome of one study.
@@ -31,10 +43,12 @@ pub(crate) struct Outcome {
 
 /// Runs the macro-replication at `start`.
 pub(crate) fn run(problem: &Known, setup: Setup, start: Place) -> Outcome {
+    let tolerance = setup.finer * problem.tolerance;
     let mut procedure = Requirement::new(RequirementProblem {
         costs: problem.costs.clone(),
         probability: problem.probability + setup.probability_off,
         tolerance: problem.tolerance,
+        finer: (setup.finer < 1.0).then_some(tolerance),
         confidence: setup.confidence,
     });
     let mut sizes = Place {
@@ -55,7 +69,10 @@ pub(crate) fn run(problem: &Known, setup: Setup, start: Place) -> Outcome {
         procedure.record(&met);
     }
     Outcome {
-        is_kept: problem.is_kept(procedure.selected()),
+        is_kept: match setup.statement {
+            Statement::Promise => problem.is_kept(procedure.selected(), tolerance),
+            Statement::Below => problem.is_below_right(&procedure.below()),
+        },
         runs: procedure.runs().iter().sum(),
     }
 }

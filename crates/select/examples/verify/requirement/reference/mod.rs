@@ -31,7 +31,7 @@ pub(crate) fn run(reference: &dyn Reference, problem: &Known, start: Place) -> O
         is_feasible
     });
     Outcome {
-        is_kept: problem.is_kept(selected),
+        is_kept: problem.is_kept(selected, problem.tolerance),
         runs,
     }
 }
