@@ -216,12 +216,12 @@ def test_the_map_of_a_requirement_has_the_status_of_each_team_as_a_shape(tmp_pat
     status = {(each["across"], each["down"]): each["mark"] for each in cells}
     assert status == {
         (0, 1): "refuted",
-        (1, 1): "refuted",
+        (1, 1): "may meet",
         (0, 2): "refuted",
         (1, 2): "selected",
     }
     scale = marks["encoding"]["shape"]["scale"]
-    assert len(set(scale["range"])) == len(scale["domain"]) == 2
+    assert len(set(scale["range"])) == len(scale["domain"]) == 3
     heading = "Missions that meet it by oavs and ugvs"
     (table,) = next(each.tables for each in parts.sections if each.heading == heading)
     assert [cell.range for each in table.rows for cell in each.cells[1:]].count("selected") == 1

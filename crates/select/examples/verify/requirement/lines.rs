@@ -145,14 +145,20 @@ fn finer(problems: &[Known]) -> Vec<Line> {
         met: vec![first.probability + first.tolerance / 4.0; 8],
         ..first
     }));
-    let line = |each: &Known| Line::new(&format!("{}, finer", each.name), each, setup);
+    let line = |each: &Known| Line {
+        replications: FEW,
+        ..Line::new(&format!("{}, finer", each.name), each, setup)
+    };
     let mut lines: Vec<Line> = finer.iter().map(line).collect();
     let below = Setup {
         statement: Statement::Below,
         ..setup
     };
     let at_the_limit = problems.iter().filter(|each| each.name.starts_with("7 "));
-    lines.extend(at_the_limit.map(|each| Line::new(&format!("{}, below", each.name), each, below)));
+    lines.extend(at_the_limit.map(|each| Line {
+        replications: FEW,
+        ..Line::new(&format!("{}, below", each.name), each, below)
+    }));
     lines
 }
 
