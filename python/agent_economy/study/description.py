@@ -58,7 +58,7 @@ def in_words(question: Mapping[str, Any]) -> str:
     confidence = f"confidence {question['confidence']:g}"
     if "delta" in question:
         return f"delta {question['delta']:g}, {confidence}, {question['guarantee']}"
-    finer = f"; decided at a tolerance of {question['finer']:g}" if "finer" in question else ""
+    finer = f"; then decided at a tolerance of {question['finer']:g}" if "finer" in question else ""
     return f"least {question['cost']} with {question['requirement']}{finer}; {confidence}"
 
 
