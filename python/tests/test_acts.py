@@ -153,7 +153,7 @@ def test_outcomes_of_acts_are_columns_of_runs_and_studies(tmp_path: Path) -> Non
     means = {column["column"]: column["mean"] for column in columns}
     assert means["robots_lost"] == 1
     text = LANE + '[study]\nvary = { "robots.ugv.count" = "1..2" }\n'
-    text += '[require]\nall = ["robots_lost <= 1"]\nprobability = 0.9\ntolerance = 0.1\n'
+    text += '[require]\nall = ["robots_lost <= 1"]\nprobability = 0.9\ntolerance = 0.05\n'
     text = text.replace('kind = "fixed", at_m = [[4, 5]], heading_deg = [0]', 'kind = "uniform"')
     out = tmp_path / "study"
     ae.study.run(Scenario.loads(text), out=out, max_runs=40)
