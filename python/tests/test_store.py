@@ -107,9 +107,11 @@ def test_a_value_that_cannot_be_stored_is_rejected(tmp_path: Path, name: str, va
 
 def test_other_columns_of_a_task_are_rejected(tmp_path: Path) -> None:
     with opened(tmp_path) as store:
-        with pytest.raises(ValueError, match="not those of the store"):
+        with pytest.raises(
+            ValueError, match="compute returned lack failed, lack paints: must be time_s, "
+        ):
             store.block(AREA, lambda _: {"time_s": np.zeros((3, 40))})
-        with pytest.raises(ValueError, match="has shape"):
+        with pytest.raises(ValueError, match="numbers of shape"):
             store.block(AREA, lambda area: {each: v[:2] for each, v in outcomes(area).items()})
         assert same(store.block(AREA, outcomes), outcomes(AREA))
 

@@ -19,9 +19,10 @@ from concurrent.futures import (
 from dataclasses import dataclass, field, replace
 from typing import Self, TypeAlias
 
+from agent_economy._core import InputError
 from agent_economy.build import own_build
 from agent_economy.study.errors import StudyError
-from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock, check_shape
+from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock, outcomes
 
 CHUNK_S = 1.0
 """Intended duration of a chunk."""
@@ -114,7 +115,7 @@ class Workers:
         """Returns the outcomes of a block, the same as from a single call of the task.
 
         It raises a StudyError if a chunk failed three times, or the executor is lost; and an
-        InputError if the executor cannot be created.
+        InputError if the executor cannot be created, or what the task returns is not its columns.
         """
         return Partwise(self._parts)
 
@@ -166,7 +167,7 @@ class Workers:
         try:
             columns, seconds = future.result()
             job.put(chunk, columns)
-        except StudyError:
+        except (StudyError, InputError):
             raise
         except CancelledError:
             job.retries.append(chunk)  # Not started, or lost with a scheduler that may return.
@@ -248,13 +249,13 @@ class Job:
         """Take the outcomes of a chunk.
 
         Raises:
-            ValueError: If they have another shape, or other columns than the first chunk.
+            InputError: If they have other columns than the first chunk.
         """
-        check_shape(chunk.runs, columns)
         self.names = self.names or tuple(columns)
-        if not columns or {*columns} != {*self.names}:
-            message = f"columns {', '.join(columns)} differ from those of other chunks"
-            raise ValueError(message)
+        if {*columns} != {*self.names}:
+            given, allowed = ", ".join(columns), ", ".join(self.names)
+            message = f"compute returned the columns {given} for {chunk.runs}: must be {allowed}"
+            raise InputError(message)
         self.finished.append((chunk.runs, columns))
         self.computed += chunk.runs.rows
 
@@ -300,5 +301,5 @@ def run(task: Compute, runs: RunBlock, study_build: str) -> Result:
         )
         raise RuntimeError(message)
     start = time.perf_counter()
-    columns = task(runs)
+    columns = outcomes(task, runs)
     return columns, time.perf_counter() - start

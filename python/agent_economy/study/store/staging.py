@@ -19,6 +19,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import arrow
+from agent_economy._core import InputError
 from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import Columns, Gathered, Part, RunBlock
 from agent_economy.study.store import folder as files
@@ -70,7 +71,7 @@ class Staging:
 
         Raises:
             StoreError: If they cannot be written.
-            ValueError: If a value does not fit the type of its column.
+            InputError: If a value does not fit the type of its column.
         """
         self._waiting.append((part, data))
         if time.monotonic() - self._since_s > STAGE_S:
@@ -83,7 +84,7 @@ class Staging:
             yield
         except BaseException:
             # What interrupted it is reported, also if the disk is full.
-            with suppress(StoreError, ValueError):
+            with suppress(StoreError, InputError):
                 self.flush()
             raise
 
@@ -91,7 +92,7 @@ class Staging:
         """Write the runs that are only in memory.
 
         Raises:
-            StoreError, ValueError: As `add`.
+            StoreError, InputError: As `add`.
         """
         if not self._waiting:
             return
