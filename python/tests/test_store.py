@@ -2,6 +2,7 @@
 
 import errno
 import os
+import resource
 import sqlite3
 import subprocess
 import sys
@@ -338,22 +339,16 @@ def test_only_one_process_writes(study: Path) -> None:
         assert store.rows == 120
 
 
-def test_a_full_disk_is_an_error_and_the_study_can_continue(
-    study: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_is_an_error_and_the_study_can_continue(study: Path) -> None:
     other = RunBlock((0, 1), 50, 10)
-    write = os.write
-
-    def full(descriptor: int, data: memoryview) -> int:
-        if len(data) < 1000:
-            raise OSError(errno.ENOSPC, "No space left on device")
-        return write(descriptor, data[:-500])
-
     with opened(study) as store:
-        with monkeypatch.context() as patch:
-            patch.setattr(os, "write", full)
-            with pytest.raises(InputError, match=r"blocks/.* \(No space left on device\)"):
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, limits[1]))
+        try:
+            with pytest.raises(InputError, match=r"blocks/.* \(File too large\)"):
                 store.block(other, outcomes)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
         assert [path.name[0] for path in (study / "blocks").iterdir()] == ["0"]
         assert store.rows == 120
         assert same(store.block(other, outcomes), outcomes(other))
