@@ -287,9 +287,14 @@ def executor(engine: Engine, workers: int | None, dask: str | None) -> Iterator[
         if workers is not None:
             yield stack.enter_context(engine.in_processes(workers)).columns
         elif dask is not None:
-            yield stack.enter_context(engine.on_dask(dask)).columns
+            yield stack.enter_context(engine.on_dask(dask, print_wait)).columns
         else:
             yield None
+
+
+def print_wait(sentence: str) -> None:
+    """Print that runs wait for workers."""
+    typer.echo(sentence, err=True)
 
 
 def merit_options(settings: Mapping[str, Any]) -> dict[str, Any]:

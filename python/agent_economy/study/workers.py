@@ -89,7 +89,8 @@ class Workers:
 
         Args:
             make_executor: Called for the first block, and after an executor broke.
-            count: Number of chunks that it computes at a time, 1 or more.
+            count: Number of chunks that it computes at a time, 1 or more; of an executor with an
+                attribute `count`, that is the number.
             task: Computes the outcomes of a block; pickled with every chunk.
         """
         self._make = make_executor
@@ -133,8 +134,10 @@ class Workers:
 
     def _submit(self, job: "Job") -> None:
         """Submit chunks until every worker has one more pending."""
-        while len(job.pending) < job.max_pending(self._count):
-            chunk = job.next_chunk(self._throughput, self._count)
+        if self._executor is None:
+            self._executor = self._make()
+        while len(job.pending) < job.max_pending(self._workers):
+            chunk = job.next_chunk(self._throughput, self._workers)
             if chunk is None:
                 return
             if self._executor is None:
@@ -149,6 +152,11 @@ class Workers:
                 self._replace_executor(job)
             else:
                 job.pending[future] = chunk
+
+    @property
+    def _workers(self) -> int:
+        """Number of workers now: those of a cluster come and go."""
+        return max(1, getattr(self._executor, "count", self._count))
 
     def _collect(self, job: "Job") -> None:
         """Wait for at least one chunk and store the results."""
