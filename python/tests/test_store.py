@@ -503,6 +503,19 @@ ODD_NAMES = [
     "back\\slash",
     "%20",
     "é",
+    "file:t",
+    "file:/t",
+    "file:t?mode=memory",
+    ":memory:",
+    "s3:",
+    "{a,b}",
+    "-x",
+    "#",
+    "a&immutable=1",
+    "a\nb",
+    "a\x01b",
+    "...",
+    " ",
 ]
 
 
@@ -510,12 +523,12 @@ ODD_NAMES = [
 def test_a_folder_of_any_name_has_its_own_runs_only(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for sibling in ("night1", "starX", "qA", "b", "v"):
-        with opened(tmp_path / sibling) as store:
-            store.block(RunBlock((1,), 0, 7), outcomes)
-    with opened(tmp_path / name) as store:
-        store.block(AREA, outcomes)
     monkeypatch.chdir(tmp_path)
+    for sibling in ("night1", "starX", "qA", "b", "v", "t"):
+        with opened(Path(sibling)) as store:
+            store.block(RunBlock((1,), 0, 7), outcomes)
+    with opened(Path(name)) as store:
+        store.block(AREA, outcomes)
     for folder in (Path(name), tmp_path / name):
         runs = read(folder).runs()
         assert runs.columns == ["configuration", "run", *outcomes(AREA), "quarantined"]

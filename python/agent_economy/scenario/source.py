@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 from agent_economy import _core
 from agent_economy.regular_file import open_regular
 from agent_economy.scenario import validation
+from agent_economy.shell_word import shell_word
 
 Value = str | int | float
 """A value of a factor. Booleans are integers in Python."""
@@ -161,6 +161,6 @@ def decode(file: Path, data: bytes) -> str:
 def not_text(file: Path, error: UnicodeDecodeError) -> str:
     """Return the error message for a file that is not UTF-8 text."""
     if error.object.startswith(RECORDING_MAGIC):
-        command = f"agent-economy replay {quote(str(file))}"
+        command = f"agent-economy replay {shell_word(file)}"
         return f"{file}: expected a scenario, got a recording; to replay it: {command}"
     return f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"

@@ -4,12 +4,12 @@ import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Value, as_scenario, validation
 from agent_economy.scenario.source import check_path
+from agent_economy.shell_word import shell_word
 from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.any_answer import AnyAnswer
@@ -265,7 +265,7 @@ def refuse(folder: str | Path) -> Compute:
     """Return a `compute` for finished studies: it raises an error if runs are missing."""
 
     def compute(_: RunBlock) -> Any:
-        command = f"agent-economy study --resume {quote(str(folder))}"
+        command = f"agent-economy study --resume {shell_word(folder)}"
         message = f"{folder}: is not finished: resume it with {command}"
         raise InputError(message)
 
