@@ -41,6 +41,9 @@ LeaderInterval = tuple[Leader, Interval]
 Range = tuple[float, float]
 """The lower and the upper end of an estimate."""
 
+NOTHING: Range = (0.0, 0.0)
+"""What is left of a study that is over."""
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -57,8 +60,8 @@ class Progress:
         eliminated: Configurations that the completed round eliminated.
         certified: With a requirement, the certified configurations; else None.
         is_over: Whether it was the last round.
-        estimate_remaining: Returns the range of the number of runs left; None if it is unknown.
-            Takes milliseconds.
+        estimate_remaining: Returns the range of the number of runs left, which is 0 after the last
+            round; None if it is unknown. Takes milliseconds.
         intervals: Returns more of the leaders, each with its mean merit and bounds that hold
             simultaneously with all of the answer's. Takes milliseconds.
     """
@@ -88,6 +91,8 @@ class Progress:
 
     def time_left_s(self, remaining: Range | None) -> Range | None:
         """Return the range of the time in which a range of runs is computed; None if unknown."""
+        if remaining == NOTHING:
+            return NOTHING
         if remaining is None or not (self.computed and self.seconds):
             return None
         low, high = remaining
@@ -98,7 +103,7 @@ class Progress:
     def of_facts(
         cls, number: int, facts: Mapping[str, Any], computed: int, seconds: float
     ) -> "Progress":
-        """Return a round from the ledger, without intervals and an estimate of remaining work."""
+        """Return a round from the ledger, without intervals; what remains is known of the last."""
         return cls(
             round=number + 1,
             runs=facts["runs"],
@@ -109,7 +114,7 @@ class Progress:
             eliminated=tuple(Elimination(*each) for each in facts["eliminated"]),
             certified=tuple(facts["certified"]) if "certified" in facts else None,
             is_over=facts["is_over"],
-            estimate_remaining=lambda: None,
+            estimate_remaining=lambda: NOTHING if facts["is_over"] else None,
             intervals=tuple,
         )
 

@@ -160,8 +160,8 @@ def write_question(
         return
     if existing is None or may_replace(existing.decode(errors="replace"), question):
         # Removed first: whenever this is killed, an existing answer belongs to study.toml.
-        with disk_errors(folder):
-            for name in (ANSWER, REPORT):
+        for name in (ANSWER, REPORT):
+            with disk_errors(folder / name):
                 (folder / name).unlink(missing_ok=True)
         write_whole(path, question.encode())
     else:
