@@ -19,8 +19,11 @@ from agent_economy.build import own_build
 from agent_economy.scenario.validation import check, is_text
 from agent_economy.study.loop_thread import LoopThread
 
+ANSWER_S = 2.0
+"""Time limit for the answer of a scheduler that is connected."""
+
 CLOSE_S = 2.0
-"""Time limit for a scheduler to take leave."""
+"""Time limit for a connection to close."""
 
 CONNECTING = 0.9
 """The part of the time limit in which the client itself gives up, with a reason."""
@@ -43,10 +46,10 @@ class Cluster:
         client: A `distributed.Client`, whose loop runs in a thread of its own.
     """
 
-    def __init__(self, address: str, client: Any, loop: LoopThread, limit_s: float) -> None:
-        """Take over a client and its loop; each call of it has a time limit."""
+    def __init__(self, address: str, client: Any, loop: LoopThread) -> None:
+        """Take over a client and its loop."""
         self.address, self.client = address, client
-        self._loop, self._limit_s = loop, limit_s
+        self._loop = loop
 
     @property
     def is_lost(self) -> bool:
@@ -57,9 +60,9 @@ class Cluster:
         """Return the current number of threads of the cluster's workers.
 
         Raises:
-            Exception: If the scheduler does not answer.
+            Exception: If the scheduler does not answer within `ANSWER_S`.
         """
-        return self._loop.call(threads_of(self.client), self._limit_s)
+        return self._loop.call(threads_of(self.client), ANSWER_S)
 
     def close(self) -> None:
         """Disconnect, also from a scheduler that does not answer any more."""
@@ -92,7 +95,7 @@ def connected(address: str, limit_s: float) -> Cluster:
         if not isinstance(error, Exception) or isinstance(error, InputError):
             raise
         raise no_scheduler(address, reason(error, limit_s)) from None
-    return Cluster(address, client, loop, limit_s)
+    return Cluster(address, client, loop)
 
 
 def no_scheduler(address: str, why: str, advice: str = ADVICE) -> InputError:

@@ -113,7 +113,8 @@ class DaskExecutor(Executor):
         self._on_wait = on_wait
         self._executor = cluster.client.get_executor(pure=False)
         self._waiting: set[Future[Any]] = set()
-        self._count = cluster.threads()
+        self._count = 0
+        self._ask()
         self._ended = threading.Event()
         threading.Thread(target=self._watch, daemon=True).start()
 
@@ -151,12 +152,16 @@ class DaskExecutor(Executor):
                     with contextlib.suppress(InvalidStateError):
                         future.set_exception(self._lost())
                 continue
-            with contextlib.suppress(Exception):  # It is lost, or answers next time.
-                self._count = self._cluster.threads()
+            self._ask()
             is_waiting = self._count == 0 and bool(self._waiting)
             if is_waiting and not is_reported:
                 self._on_wait(f"{self._cluster.address}: {WITHOUT_WORKERS}")
             is_reported = is_waiting
+
+    def _ask(self) -> None:
+        """Ask how many workers there are."""
+        with contextlib.suppress(Exception):  # The scheduler is lost, or answers next time.
+            self._count = self._cluster.threads()
 
     def _lost(self) -> StudyError:
         """Return the error for a lost scheduler."""

@@ -32,9 +32,14 @@ class LoopThread:
         """Run a coroutine and return its result; it is cancelled when its caller stops waiting.
 
         Raises:
-            TimeoutError: If it takes longer than its limit; or any error that it raises.
+            TimeoutError: If it takes longer than its limit.
+            RuntimeError: If the loop has ended; or any error that the coroutine raises.
         """
-        future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+        try:
+            future = asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+        except RuntimeError:  # It has ended.
+            coroutine.close()
+            raise
         try:
             return future.result(limit_s)
         except BaseException:
