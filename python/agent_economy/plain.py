@@ -31,6 +31,7 @@ BARE = (np.ndarray, np.memmap, np.matrix)
 LISTS = (list, tuple, range, deque)
 PYTHON_NUMBERS = frozenset({bool, int, float})
 LEAVES = PYTHON_NUMBERS | {str, type(None)}
+CONTAINERS = frozenset({dict, list})
 
 FIX = "use numpy.asarray(x, dtype=float) if its numbers mean what is expected"
 UNIT = "use plain numbers in the unit that is expected, as in x.to(unit).value or .magnitude"
@@ -73,12 +74,15 @@ class NotPlainError(ValueError):
 
 def is_plain(given: object, deep: int = MAX_DEPTH) -> bool:
     """Return whether `plain` would change nothing of a dict or list; False in doubt."""
-    parts: Any = given.values() if type(given) is dict else given
-    if type(given) not in {dict, list} or not deep:
+    if type(given) not in CONTAINERS or not deep:
         return False
-    # A loop takes half the time of an expression, and all commands of brains come through here.
-    for each in parts:  # noqa: SIM110
-        if type(each) not in LEAVES and not is_plain(each, deep - 1):
+    parts: Any = given.values() if type(given) is dict else given
+    # All commands of brains come through here, and empty lists are frequent.
+    for each in parts:
+        kind = type(each)
+        if kind not in LEAVES and (
+            kind not in CONTAINERS or (each and not is_plain(each, deep - 1))
+        ):
             return False
     return True
 
