@@ -23,7 +23,7 @@ from agent_economy.study.workers import Workers
 
 pytest.importorskip("distributed", reason="Dask is an extra")
 
-LIMIT_S = 1.0
+LIMIT_S = 0.5
 MARGIN_S = 5.0
 """A busy machine takes long."""
 
@@ -84,7 +84,7 @@ def black_hole() -> Iterator[str]:
 
 
 ANSWERS: list[tuple[Answer, str]] = [
-    (lambda _: time.sleep(60), "what accepts the connection there does not answer within 1 s"),
+    (lambda _: time.sleep(60), "what accepts the connection there does not answer within 0.5 s"),
     (lambda it: it.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n"), "has another protocol"),
     (lambda it: it.sendall(b"SSH-2.0-OpenSSH_9.0\r\n"), "has another protocol"),
     (lambda it: it.sendall(LENGTH), r"another protocol|does not answer"),
@@ -123,7 +123,7 @@ def test_what_is_no_scheduler_is_named_in_time(answer: Answer, words: str) -> No
 
 def test_an_address_where_nothing_accepts_a_connection_is_named_in_time() -> None:
     with black_hole() as address:
-        check_refused(address, "nothing accepts a connection within 1 s")
+        check_refused(address, "nothing accepts a connection within 0.5 s")
 
 
 ADDRESSES = [
@@ -152,14 +152,14 @@ def test_a_lookup_of_a_name_that_takes_long_is_not_waited_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(socket, "getaddrinfo", lambda *_: time.sleep(60))
-    check_refused("tcp://somewhere:8786", "the lookup of its name takes more than 1 s")
+    check_refused("tcp://somewhere:8786", "the lookup of its name takes more than 0.5 s")
 
 
 FAILS = """
 import sys
 from agent_economy import InputError
 from agent_economy.study import executors
-executors.CONNECT_S = 1
+executors.CONNECT_S = 0.5
 for address in sys.argv[1:]:
     try:
         executors.dask_executor(address)

@@ -33,7 +33,7 @@ def is_name(text: str) -> bool:
 NAMES = st.lists(st.sampled_from(SPECIAL), min_size=1, max_size=8).map("".join).filter(is_name)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(name=NAMES)
 @example("file:t")
 @example("file:t?mode=memory")
@@ -54,7 +54,7 @@ def test_a_study_is_in_the_folder_of_its_name_and_read_from_there(name: str) -> 
             assert same(read(folder).stored().block(block, lambda _: {}), outcomes(block))
 
 
-@pytest.mark.parametrize("name", ["file:t", "g[1]", "-x", "a\nb", "%41#?", "~x", "ü 'b\""])
+@pytest.mark.parametrize("name", ["file:t", "g[1]", "-x", "a\nb%41#"])
 def test_the_command_takes_names_literally(name: str, tmp_path: Path) -> None:
     (tmp_path / "t").mkdir()
     (tmp_path / "g1").mkdir()

@@ -28,6 +28,8 @@ Floats = NDArray[np.float64]
 SHARES: Floats = np.array([[0.2], [0.9], [0.5]])
 """The merit of every run of three configurations."""
 
+SEARCH = ae.Scenario.load("search")
+
 BODY: Any = {"radius_m": 0.25, "max_speed_m_s": 1, "max_turn_rate_rad_s": 1.5, "period_s": 0.1}
 
 
@@ -345,24 +347,20 @@ def test_numbers_in_commands_and_arguments_are_refused_unless_they_are_plain(
 
     given: Any = number
     calls: dict[str, Callable[[], object]] = {
-        r'brains."rover/0".step\(\)': lambda: Simulation("search", brains={"rover": Brain}).step(),
+        r'brains."rover/0".step\(\)': lambda: Simulation(SEARCH, brains={"rover": Brain}).step(),
         r"brains.rover\(\)": lambda: Simulation(
-            "search", brains={"rover": Batch(lambda *_: command)}
+            SEARCH, brains={"rover": Batch(lambda *_: command)}
         ).step(),
-        "commands.rover/0": lambda: Simulation("search").step(commands={"rover/0": command}),
+        "commands.rover/0": lambda: Simulation(SEARCH).step(commands={"rover/0": command}),
         "percept.time_s": lambda: ae.Brain(None, BODY).step({"time_s": given}),
         "body.max_speed_m_s": lambda: ae.Brain(None, BODY | {"max_speed_m_s": given}),
         "settings.auction_s": lambda: ae.Controller({"auction_s": given}),
         "costs": lambda: assignment([[given]]),
-        "replace: clock.time_limit_s": lambda: ae.Scenario.load("search").replace(
-            "clock.time_limit_s", given
-        ),
-        "vary: clock.time_limit_s": lambda: study.run(
-            "search", vary={"clock.time_limit_s": [given]}
-        ),
-        "seed": lambda: Simulation("search", seed=given),
-        "steps": lambda: Simulation("search").step(given),
-        "runs": lambda: ae.replicate("search", given),
+        "replace: clock.time_limit_s": lambda: SEARCH.replace("clock.time_limit_s", given),
+        "vary: clock.time_limit_s": lambda: study.run(SEARCH, vary={"clock.time_limit_s": [given]}),
+        "seed": lambda: Simulation(SEARCH, seed=given),
+        "steps": lambda: Simulation(SEARCH).step(given),
+        "runs": lambda: ae.replicate(SEARCH, given),
     }
     for name, call in calls.items():
         with pytest.raises(InputError, match=f"^{name}.* = .*{words}"):
@@ -379,7 +377,7 @@ def test_a_number_of_a_batch_is_for_all_robots_or_for_one() -> None:
         {"acts": places | {"at": np.ones((2, 3))}},
     ]
     for commands in wrong:
-        simulation = Simulation("search", brains={"rover": Batch(lambda *_, it=commands: it)})
+        simulation = Simulation(SEARCH, brains={"rover": Batch(lambda *_, it=commands: it)})
         with pytest.raises(InputError, match="must be one (value|place) for all, or an array of"):
             simulation.step()
 
