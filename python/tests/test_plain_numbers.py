@@ -270,8 +270,11 @@ def test_a_study_takes_outcomes_of_any_type_of_numbers() -> None:
 
 
 OUTCOMES: list[tuple[Callable[[Columns], Any], str]] = [
-    (lambda columns: columns | {"time_s": masked(columns["time_s"])}, "time_s of .* masked"),
-    (lambda columns: columns | {"time_s": columns["time_s"].view(Kilometres)}, "time_s of .*in km"),
+    (lambda columns: columns | {"time_s": masked(columns["time_s"])}, "column time_s .* masked"),
+    (
+        lambda columns: columns | {"time_s": columns["time_s"].view(Kilometres)},
+        "column time_s .*in km",
+    ),
     (lambda columns: columns | {"time_s": columns["time_s"][:, 0]}, r"numbers of shape \(\d,\)"),
     (lambda columns: columns | {"time_s": 3.0}, r"numbers of shape \(\)"),
     (lambda columns: columns | {"time_s": columns["time_s"].astype(str)}, "type <U32"),
@@ -313,7 +316,10 @@ def test_workers_refuse_outcomes_with_rows_and_columns_exchanged() -> None:
 
     with (
         Workers(lambda: ThreadPoolExecutor(1), 1, exchanged) as workers,
-        pytest.raises(InputError, match="column time_s of .*exchange rows and columns"),
+        pytest.raises(
+            InputError,
+            match="runs .*: compute returned for column time_s .*exchange rows and columns",
+        ),
     ):
         workers.columns(RunBlock((0, 1, 2, 3), 0, 4))
 

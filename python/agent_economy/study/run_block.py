@@ -129,13 +129,15 @@ def checked(block: RunBlock, columns: object) -> Columns:
         given = "no columns" if isinstance(columns, Mapping) else described(columns)
         message = f"compute returned {given} for {block}: must be a dict of columns by name"
         raise InputError(message)
-    meaning = "a row for each configuration, a column for each run"
-    return {
-        name: number_array(
-            f"compute returned for column {name} of {block}", values, block.shape, meaning
-        )
-        for name, values in columns.items()
-    }
+    meaning, found = "a row for each configuration, a column for each run", {}
+    for name, values in columns.items():
+        try:
+            subject = f"compute returned for column {name}"
+            found[name] = number_array(subject, values, block.shape, meaning)
+        except InputError as error:
+            message = f"{block}: {error}"
+            raise InputError(message) from None
+    return found
 
 
 class Gathered:
