@@ -51,8 +51,8 @@ python-lint: .venv/installed target/page.schema.json
 # Only the generator of types reads this schema.
 target/page.schema.json: $(RUST) crates/protocol/examples/page_schema.rs
 	mkdir -p $(@D)
-	cargo run --locked --quiet -p agent-economy-protocol --example page_schema > $@.new
-	mv $@.new $@
+	new=$@.$$$$; cargo run --locked --quiet -p agent-economy-protocol --example page_schema > $$new && mv $$new $@ \
+		|| { rm -f $$new; false; }
 
 # A toolchain without rustup may lack the target: the check is then skipped with a message.
 wasm: ## Check that the metric simulator and the brain compile for browsers

@@ -13,9 +13,16 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+
+try:
+    import fcntl
+except ImportError:  # On such systems, one build at a time is up to the user.
+    fcntl = None  # type: ignore[assignment]
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "web"
@@ -98,11 +105,32 @@ def build_page() -> None:
     """
     if not is_stale():
         return
-    install_packages()
-    npm("run build")
-    shutil.rmtree(PAGE, ignore_errors=True)
-    shutil.copytree(SOURCE / "dist", PAGE)
-    MARK.write_text(source_hash(), encoding="utf-8")
+    with alone():
+        # Another build may have ended meanwhile.
+        if is_stale():
+            install_packages()
+            npm("run build")
+            replace_page()
+
+
+def replace_page() -> None:
+    """Put the built page in the place of the old one, which a server may be serving."""
+    with tempfile.TemporaryDirectory(prefix=".web-", dir=PAGE.parent) as folder:
+        new, old = Path(folder) / "new", Path(folder) / "old"
+        shutil.copytree(SOURCE / "dist", new)
+        (new / MARK.name).write_text(source_hash(), encoding="utf-8")
+        if PAGE.exists():
+            PAGE.rename(old)
+        new.rename(PAGE)
+
+
+@contextmanager
+def alone() -> Iterator[None]:
+    """Wait until no other process builds the page of this clone: npm writes to fixed folders."""
+    with (SOURCE / "package-lock.json").open("rb") as file:
+        if fcntl:
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def install_packages() -> None:
@@ -158,5 +186,6 @@ def sources(folder: Path) -> Iterator[Path]:
 
 
 if __name__ == "__main__":
-    install_packages()
+    with alone():
+        install_packages()
     build_page()

@@ -27,6 +27,8 @@ from schema_parts import (
     tag,
 )
 
+from agent_economy.whole_file import write_whole
+
 ROOT = Path(__file__).resolve().parent.parent
 BRAIN_SCHEMA = ROOT / "schemas/brain.schema.json"
 PAGE_SCHEMA = ROOT / "target/page.schema.json"
@@ -70,7 +72,7 @@ def main() -> None:
             print(f"{path.relative_to(ROOT)} differs from its schema: run make schemas")
         else:
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(wanted[path], encoding="utf-8")
+            write_whole(path, wanted[path].encode())
     sys.exit(is_check and bool(stale))
 
 

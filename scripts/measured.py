@@ -5,6 +5,7 @@ folder next to the page that has its name.
 """
 
 import csv
+import io
 import re
 import sys
 import time
@@ -15,6 +16,8 @@ from typing import Any, TypeVar
 
 import msgspec
 from plots import Spec, picture
+
+from agent_economy.whole_file import replacing, write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -33,15 +36,15 @@ class Page:
         return ROOT / "docs" / self.name
 
     def write(self, name: str, kind: type, rows: Iterable[Any]) -> None:
-        """Write rows of a dataclass to a CSV as they come, with six digits, and print them."""
+        """Write rows of a dataclass to a CSV with six digits, and print them as they come."""
         began_s = time.monotonic()
-        with (self.folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+        with replacing(self.folder / f"{name}.csv") as stream:
+            file = io.TextIOWrapper(stream, encoding="utf-8", newline="", write_through=True)
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(field.name for field in fields(kind))
             for row in rows:
                 short = [float(f"{x:.6g}") if isinstance(x, float) else x for x in astuple(row)]
                 writer.writerow(short)
-                file.flush()
                 print(f"{time.monotonic() - began_s:.0f} s:", *short, flush=True)
 
     def read(self, name: str, kind: type[Kind]) -> list[Kind]:
@@ -64,7 +67,7 @@ class Page:
                 sys.exit(f"not what `make {self.name}` writes: {names}")
             return
         for file, text in stale.items():
-            file.write_text(text, encoding="utf-8")
+            write_whole(file, text.encode())
             print(file.relative_to(ROOT))
 
     def made(

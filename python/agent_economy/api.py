@@ -50,6 +50,7 @@ def run(
         row = replicate(scenario, 1, seed, first_run=run, brains=brains)
         return Outcome.of(row.to_pylist()[0])
     configuration = scenario.configuration({})
+    seed, run = validation.plain_value("seed", seed), validation.plain_value("run", run)
     outcome = _core.run_one(configuration, seed=seed, run=run)
     values = {name: np.array([value]) for name, value in outcome.items()}
     return Outcome.of(table(configuration.columns, values, scenario.merit, run).to_pylist()[0])
@@ -91,12 +92,16 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     """
     scenario = as_scenario(scenario)
     configuration = scenario.configuration({})
+    runs = validation.plain_value("runs", runs)
+    first_run = validation.plain_value("first_run", first_run)
     if brains is not None:
         create = partial(Simulation, scenario, seed, threads=threads, brains=brains)
         rows = run_in_sequence(create, first_run, runs)
         names = [name for name, *_ in configuration.columns]
         values = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
     else:
+        seed = validation.plain_value("seed", seed)
+        threads = validation.plain_value("threads", threads)
         block = _core.run_block(
             [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads
         )

@@ -24,7 +24,8 @@ def free_port() -> int:
 
 def started(stack: ExitStack, *arguments: str) -> subprocess.Popen[bytes]:
     """Start a process of a Dask cluster, which ends with the stack."""
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    folders = [str(Path(__file__).parent), *filter(None, [os.environ.get("PYTHONPATH")])]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(folders)}
     process = subprocess.Popen(
         [sys.executable, "-m", *arguments],
         stdout=subprocess.DEVNULL,

@@ -134,7 +134,7 @@ RECEIVED = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
             {"random_words": [1, 2, 3]},
             "percept.random_words = [1, 2, 3]: must be a list of 4 whole",
         ),
-        ({"time_s": object}, "percept.time_s = <class 'object'>: must be a number"),
+        ({"time_s": object}, "percept.time_s = type: must be a number"),
         ("far", 'percept = "far": must be a dict'),
     ],
 )

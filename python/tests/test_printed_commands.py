@@ -44,9 +44,16 @@ def test_the_command_that_resumes_a_study_can_be_pasted(
     assert printed == ["agent-economy", "study", "--resume", str(unfinished)]
 
 
-def test_the_command_that_replays_a_recording_can_be_pasted(tmp_path: Path) -> None:
-    file = tmp_path / f"{NAME}.toml"
+@pytest.mark.parametrize("name", [NAME, "-x", "a\nb", "~x", "g*", "%d", "#"])
+def test_the_command_that_replays_a_recording_can_be_pasted(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    file = Path(f"{name}.toml")
     file.write_bytes(RECORDING_MAGIC)
     with pytest.raises(ae.InputError) as caught:
         ae.Scenario.load(file)
-    assert words(str(caught.value)) == ["agent-economy", "replay", str(file)]
+    program, command, printed = words(str(caught.value))
+    assert (program, command) == ("agent-economy", "replay")
+    assert not printed.startswith("-")
+    assert Path(printed).samefile(file)

@@ -24,6 +24,7 @@ from agent_economy.live.emulator.log import opened
 from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.recording.output import BLOCK_BYTES, MARK, create_new
 from agent_economy.server.recordings.writer import rename_complete
+from agent_economy.whole_file import temporary_file
 
 DRIVE = [sys.executable, "-m", "agent_economy", "drive", "bender", "--headless", "--arm"]
 
@@ -77,15 +78,19 @@ def test_a_link_to_the_recording_of_a_drive_protects_it_too(
 
 
 def test_a_saved_run_of_a_page_replaces_no_drive(drive: bytes, tmp_path: Path) -> None:
-    (file := tmp_path / "new.mcap").write_bytes(b"new")
-    final = rename_complete(file, "run")
-    file.write_bytes(b"new")
-    assert rename_complete(file, "run") == final  # the same run again
+    def saved() -> Path:
+        with temporary_file(tmp_path, ".mcap") as file:
+            file.write(b"new")
+            file.flush()
+            return rename_complete(file, "run")
+
+    final = saved()
+    assert saved() == final  # the same run again
     final.write_bytes(drive)
-    file.write_bytes(b"new")
     with pytest.raises(InputError, match="is the recording of a drive"):
-        rename_complete(file, "run")
+        saved()
     assert final.read_bytes() == drive
+    assert list(tmp_path.iterdir()) == [final]
 
 
 def test_the_log_of_an_emulator_replaces_no_drive(drive: bytes, tmp_path: Path) -> None:

@@ -253,10 +253,13 @@ def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any)
         ({"guarantee": "PCS"}, "guarantee = 'PCS': must be one of 'indifference', 'pgs'"),
         ({"seed": -1}, "seed = -1: must be a whole number from 0 to 2147483647"),
         ({"max_runs": 10}, "max_runs = 10: must be None or a whole number of 20 (10 k) or more"),
-        ({"bounds": (1, 0)}, "bounds = (1, 0): must be minimum and maximum merit, finite"),
-        ({"bounds": (0, np.inf)}, "must be minimum and maximum merit, finite"),
+        (
+            {"bounds": (1, 0)},
+            "bounds = (1, 0): must be minimum and maximum merit, finite plain numbers",
+        ),
+        ({"bounds": (0, np.inf)}, "must be minimum and maximum merit, finite plain numbers"),
         ({"bounds": "wide"}, "bounds = 'wide': must be"),
-        ({"bounds": np.zeros((3, 2))}, "as a pair or an array of shape (2, 2)"),
+        ({"bounds": np.zeros((3, 2))}, "a pair, or shape (2, 2)"),
     ],
 )
 def test_an_invalid_argument_is_named(change: dict[str, Any], expected: str) -> None:
@@ -275,8 +278,14 @@ def test_all_invalid_arguments_are_reported() -> None:
 @pytest.mark.parametrize(
     ("returned", "expected"),
     [
-        (np.zeros(20), "the sampler returned shape (20,): must be (2, 10)"),
-        ([[0.5] * 10, [0.5]], "the sampler must return an array of numbers of shape (2, 10)"),
+        (
+            np.zeros(20),
+            "the sampler returned numbers of shape (20,): must be numbers of shape (2, 10), a row",
+        ),
+        (
+            [[0.5] * 10, [0.5]],
+            "the sampler returned list with parts of shapes (1,) and (10,): must be",
+        ),
         (np.full((2, 10), 1.5), "configuration 0 had a merit of 1.5: must be from 0 to 1"),
     ],
 )

@@ -272,7 +272,7 @@ def test_files_of_a_killed_server_are_removed_and_those_being_written_are_kept(
 
 
 def test_without_locks_nothing_is_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("agent_economy.server.recordings.temporary_files.fcntl", None)
+    monkeypatch.setattr("agent_economy.whole_file.fcntl", None)
     (left := tmp_path / ".unfinished-1.mcap").touch()
     file = RecordingWriter(begun(5).history, tmp_path).write()
     assert set(tmp_path.iterdir()) == {left, file}

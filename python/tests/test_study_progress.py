@@ -1,6 +1,8 @@
 """The progress of studies on the terminal."""
 
 import io
+from pathlib import Path
+from typing import Any, ClassVar
 
 import pytest
 from rich.console import Console
@@ -8,6 +10,9 @@ from rich.console import Console
 from agent_economy import Scenario, study
 from agent_economy.cli.run_progress import durations
 from agent_economy.cli.study_progress import ProgressDisplay
+from agent_economy.cli.watch import rounds
+from agent_economy.server.studies.job import ProgressReporter
+from agent_economy.server.studies.progress import stored
 
 NAMES = tuple(f"team {number}" for number in range(1, 9))
 
@@ -43,6 +48,64 @@ def test_the_time_left_is_a_range_after_the_first_rounds() -> None:
         seconds = now.time_left_s(each)
         assert seconds
         assert seconds[1] / seconds[0] == pytest.approx(each[1] / each[0])
+
+
+QUESTIONS: list[dict[str, Any]] = [
+    {"delta": 0.1},
+    {"delta": 0.1, "max_runs": 600},
+    {"runs": 30},
+    {"require": "time_s <= 40", "probability": 0.8, "tolerance": 0.1},
+]
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_the_runs_left_fall_to_zero_and_stay_within_the_budget(
+    question: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("agent_economy.study.race.ROUND_S", -1.0)
+    seen: list[tuple[study.Progress, tuple[float, float] | None]] = []
+    study.run(
+        "classic",
+        vary={"robots.wanderer.count": "1..5"},
+        on_progress=lambda now: seen.append((now, now.estimate_remaining())),
+        **question,
+    )
+    last, left = seen[-1]
+    assert last.is_over
+    assert left == last.time_left_s(left) == (0, 0)
+    total = question.get("max_runs") or 5 * question.get("runs", 1000)
+    for now, known in seen[:-1]:
+        if known is not None and ("max_runs" in question or "runs" in question):
+            assert 0 <= known[0] <= known[1] <= total - now.runs
+    if "runs" in question:
+        assert all(known == (150 - now.runs, 150 - now.runs) for now, known in seen)
+
+
+def test_the_last_report_of_a_study_has_nothing_left(tmp_path: Path) -> None:
+    class Line:
+        sent: ClassVar[list[dict[str, Any]]] = []
+
+        def send(self, message: dict[str, Any]) -> None:
+            """Keep a message."""
+            self.sent.append(message)
+
+    line: Any = Line()
+    report, shown = ProgressReporter(line), Console(file=io.StringIO(), width=200)
+    options: dict[str, Any] = {"vary": {"robots.wanderer.count": "1..5"}, "delta": 0.1}
+    with ProgressDisplay(NAMES)._lines(shown) as print_line:
+
+        def look(now: study.Progress) -> None:
+            report(now)
+            print_line(now)
+
+        study.run("classic", out=tmp_path, on_progress=look, **options)
+    assert Line.sent[-1]["remaining_s"] == (0, 0)
+    assert stored(tmp_path)["remaining_s"] == (0, 0)
+    file = shown.file
+    assert isinstance(file, io.StringIO)
+    assert file.getvalue().splitlines()[-1].partition(";")[0].endswith(", 0 s left")
+    (*_, final) = rounds(tmp_path)
+    assert final.estimate_remaining() == (0, 0)
 
 
 def test_the_statuses_of_teams_are_shown_while_a_requirement_is_studied() -> None:

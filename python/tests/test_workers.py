@@ -147,8 +147,9 @@ def test_an_executor_that_accepts_no_work_stops_the_study() -> None:
 @pytest.mark.parametrize(
     ("task", "reason"),
     [
-        (lambda _: {}, "columns  differ"),
-        (lambda area: {"time_s": outcomes(area)["time_s"][:, 1:]}, "has shape"),
+        (lambda _: {}, "compute returned no columns for configurations"),
+        (lambda area: {"time_s": outcomes(area)["time_s"][:, 1:]}, "numbers of shape"),
+        (lambda area: [outcomes(area)], "compute returned list for configurations"),
     ],
 )
 def test_an_incomplete_result_of_a_task_stops_the_study(
@@ -156,7 +157,7 @@ def test_an_incomplete_result_of_a_task_stops_the_study(
 ) -> None:
     with (
         Workers(lambda: ThreadPoolExecutor(2), 2, task) as workers,
-        pytest.raises(StudyError, match=reason),
+        pytest.raises(InputError, match=reason),
     ):
         workers.columns(AREA)
 

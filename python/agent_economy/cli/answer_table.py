@@ -40,7 +40,8 @@ def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
         console.width = WIDE
     is_wide = console.width >= WIDE
     lanes = clearance_table(answer.foremost(MAX_ROWS), ranges=is_wide)
-    print_whole(results_table(answer, ranges=is_wide), console, NAME)
+    place = ", in answer.json" if report else ""
+    print_whole(results_table(answer, place, ranges=is_wide), console, NAME)
     if lanes:
         print_whole(lanes, console, NAME)
     first, *lines, small = answer.verdict
@@ -61,13 +62,20 @@ def show(answer: AnyAnswer, report: Path | None, *, as_json: bool) -> None:
         typer.echo(f"Report: {report}")
 
 
-def results_table(answer: AnyAnswer, *, ranges: bool) -> Table:
-    """Return a table of the foremost configurations, with ranges or without."""
+def results_table(answer: AnyAnswer, place: str, *, ranges: bool) -> Table:
+    """Return a table of the foremost configurations, with ranges or without.
+
+    Args:
+        answer: The answer.
+        place: Where the others are, as the end of a line; empty for the answer of a stopped study,
+            which is not in a file.
+        ranges: Whether with ranges.
+    """
     shown: Sequence[Any] = answer.foremost(MAX_ROWS)
     left_out = len(answer.results) - len(shown)
     table = Table(
         title=Text(answer.scenario.summary),
-        caption=f"and {left_out} more, in answer.json" if left_out else None,
+        caption=f"and {left_out} more{place}" if left_out else None,
         title_justify="left",
         caption_justify="left",
         box=box.SIMPLE_HEAD,

@@ -28,7 +28,8 @@ from agent_economy.cli.whole_table import print_whole
 from agent_economy.runs.outcome import find_times, without_items
 from agent_economy.runs.quarantine import reason
 from agent_economy.scenario import Scenario
-from agent_economy.study.store.folder import check_writable, write_whole
+from agent_economy.study.store.folder import write_whole
+from agent_economy.whole_file import check_writable, remove_abandoned
 
 WRITERS: dict[str, Callable[[pa.Table, io.BytesIO], None]] = {
     ".parquet": parquet.write_table,
@@ -93,6 +94,7 @@ def replicate(  # noqa: PLR0913  (typer's options are arguments)
         if writer and out:
             buffer = io.BytesIO()
             writer(table, buffer)
+            remove_abandoned(out.parent)
             write_whole(out, buffer.getvalue())
     summary, note = summarised(given, table), quarantine_note(given, seed, table)
     if note:

@@ -4,7 +4,6 @@ import signal
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from shlex import quote
 from typing import Annotated, Any, Literal, NoReturn
 
 import typer
@@ -16,6 +15,7 @@ from agent_economy.cli.errors import INTERRUPTED, error_exits, print_warnings
 from agent_economy.cli.options import ScenarioArgument, Sets, overrides
 from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.scenario import Override, Scenario, TomlValue
+from agent_economy.shell_word import shell_word
 from agent_economy.study.answer.labels import label
 from agent_economy.study.api import answer_so_far, resumed_plan
 from agent_economy.study.description import Description, usual_folder
@@ -288,7 +288,7 @@ def stopped(folder: Path) -> str:
     """Return how many runs of a stopped study are stored, and how to resume it."""
     if not (folder / "study.toml").exists():
         return "Stopped after 0 runs."
-    command = f"agent-economy study --resume {quote(str(folder))}"
+    command = f"agent-economy study --resume {shell_word(folder)}"
     count = studies.open(folder).count()
     return f"Stopped after {count:,} runs; all are stored. Resume with: {command}"
 
@@ -300,9 +300,14 @@ def executor(engine: Engine, workers: int | None, dask: str | None) -> Iterator[
         if workers is not None:
             yield stack.enter_context(engine.in_processes(workers)).columns
         elif dask is not None:
-            yield stack.enter_context(engine.on_dask(dask)).columns
+            yield stack.enter_context(engine.on_dask(dask, print_wait)).columns
         else:
             yield None
+
+
+def print_wait(sentence: str) -> None:
+    """Print that runs wait for workers."""
+    typer.echo(sentence, err=True)
 
 
 def merit_options(settings: Mapping[str, Any]) -> dict[str, Any]:

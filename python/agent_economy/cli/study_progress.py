@@ -58,7 +58,11 @@ class ProgressDisplay:
         printed_at = [0.0]
 
         def line(progress: Progress) -> None:
-            if progress.eliminated or time.monotonic() - printed_at[0] > PAUSE_S:
+            if (
+                progress.eliminated
+                or progress.is_over
+                or time.monotonic() - printed_at[0] > PAUSE_S
+            ):
                 printed_at[0] = time.monotonic()
                 text = self._header(progress).plain + self._eliminated(progress)
                 console.print(text, highlight=False, soft_wrap=True, markup=False, emoji=False)
@@ -76,7 +80,7 @@ class ProgressDisplay:
     def _time_left(self, progress: Progress) -> str:
         """Return the range of the time left, updated each second: the estimate takes a moment."""
         if progress.is_over:
-            return ""
+            return ", 0 s left"
         if time.monotonic() - self._estimated_at > ESTIMATE_PERIOD_S:
             self._estimated_at = time.monotonic()
             self._left = progress.estimate_remaining()

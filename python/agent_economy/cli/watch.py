@@ -3,7 +3,6 @@
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from shlex import quote
 from typing import Annotated
 
 import typer
@@ -11,6 +10,7 @@ import typer
 from agent_economy import study
 from agent_economy.cli.errors import FAILED, INTERRUPTED, error_exits
 from agent_economy.cli.study_progress import ProgressDisplay
+from agent_economy.shell_word import shell_word
 from agent_economy.study.answer.labels import label
 from agent_economy.study.progress import Progress
 
@@ -41,7 +41,7 @@ def watch(
     if not is_over:
         message = (
             "The study is unfinished and no process is working on it. "
-            f"Resume with: agent-economy study --resume {quote(str(folder))}"
+            f"Resume with: agent-economy study --resume {shell_word(folder)}"
         )
         typer.echo(message, err=True)
         raise typer.Exit(FAILED)

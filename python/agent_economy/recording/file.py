@@ -5,8 +5,10 @@ Source: the specification of MCAP (mcap.dev/spec).
 
 import json
 import math
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from io import BufferedWriter
 from pathlib import Path
 from typing import IO, Any, cast
 
@@ -38,14 +40,20 @@ class Output:
 
     is_open: bool
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, file: Path | BufferedWriter) -> None:
         """Create a file, replacing an existing one that is not the recording of a drive.
 
+        Args:
+            file: Its path, or an empty file that stays open when this one is closed.
+
         Raises:
-            InputError: If it is, or cannot be written.
+            InputError: If it is one or being written, or cannot be written.
         """
-        self._stream = open_replacing(path)
-        self._path, self.is_open = path, True
+        if isinstance(file, Path):
+            self._path, self._stream = file, open_replacing(file)
+        else:
+            self._path, self._stream = Path(file.name), os.fdopen(os.dup(file.fileno()), "wb")
+        self.is_open = True
 
     def write(self, data: bytes) -> int:
         """Write or buffer all bytes."""
@@ -86,13 +94,13 @@ class Output:
 class File:
     """A file that is being written. Its bytes do not depend on when or where it is written."""
 
-    def __init__(self, path: Path) -> None:
-        """Create a file, replacing an existing one that is not the recording of a drive.
+    def __init__(self, file: Path | BufferedWriter) -> None:
+        """Create a file as `Output` does.
 
         Raises:
-            InputError: If it is, or cannot be written.
+            InputError: If it cannot be written.
         """
-        self._output = Output(path)
+        self._output = Output(file)
         output = cast("IO[bytes]", self._output)  # the writer uses only these methods
         # Chunks and attachments have checksums of their own; metadata have none.
         self._writer = Writer(output, chunk_size=CHUNK_BYTES, enable_data_crcs=True)

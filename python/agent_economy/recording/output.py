@@ -14,6 +14,7 @@ from typing import IO
 from agent_economy._core import InputError
 from agent_economy.recording.live_topics import LIVE
 from agent_economy.regular_file import FLAGS, IrregularFileError
+from agent_economy.whole_file import has_lock
 
 MARK = len(LIVE).to_bytes(4, "little") + LIVE.encode()
 """The name of the metadata of a drive as in a file: MCAP never compresses metadata."""
@@ -77,14 +78,31 @@ def make_empty(path: Path, descriptor: int) -> None:
     """Empty an open file, unless it must not be replaced; a device stays as it is.
 
     Raises:
-        InputError: If it is the recording of a drive.
+        InputError: If it is the recording of a drive, or being written.
         OSError: If it is a pipe, or cannot be read or emptied.
     """
     mode = os.fstat(descriptor).st_mode
     check_no_pipe(path, mode)
     if stat.S_ISREG(mode):
+        exclude_others(path, descriptor)
         refuse_drive(path, descriptor)
         os.ftruncate(descriptor, 0)
+
+
+def exclude_others(path: Path, descriptor: int) -> None:
+    """Exclude other writers of an open file until it is closed.
+
+    A recording and a log can be read while they are written, so they are written in their place.
+
+    Raises:
+        InputError: If it is being written.
+    """
+    if not has_lock(descriptor):
+        message = (
+            f"{path}: is being written, by another program or by a recording that was not closed: "
+            "wait until it ends, or choose another name"
+        )
+        raise InputError(message)
 
 
 def check_no_pipe(path: Path, mode: int) -> None:

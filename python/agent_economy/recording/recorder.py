@@ -1,6 +1,7 @@
 """Records a run."""
 
 from collections.abc import Mapping, Sequence
+from io import BufferedWriter
 from pathlib import Path
 from typing import Self
 
@@ -41,7 +42,7 @@ class Recording:
     def __init__(
         self,
         simulation: Stepped,
-        path: str | Path,
+        path: str | Path | BufferedWriter,
         *,
         every: int = 1,
         percepts: Sequence[str] | Selection = (),
@@ -53,7 +54,8 @@ class Recording:
             simulation: The run, a `Simulation` or a `ClassicSimulation`, at its first step. Of a
                 later start, only the changes of the scenario can be replayed, not other inputs.
             path: The file, NAME.mcap. It replaces an existing file, unless that is the recording
-                of a drive, or the scenario was read from it.
+                of a drive, the scenario was read from it, or a program is writing it. Or an empty
+                file that is open for writing, and stays open when the recording is closed.
             every: Number of steps per recorded step, 1 or more.
             percepts: Names of robots, KIND/INDEX, of which the percepts, commands and range scans
                 are recorded in each step. None by default: those of all robots take about twenty
@@ -66,13 +68,15 @@ class Recording:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
         selected = selection_of(percepts)
-        path = validation.path("path", path)
+        stream = path if isinstance(path, BufferedWriter) else None
+        given = Path(path.name) if isinstance(path, BufferedWriter) else path
+        path = validation.path("path", given)
         self._engine = check(simulation, path, every, selected.robots)
         self.simulation = simulation
         self._every, self._selected = every, selected
         self._flush_ns = round(flush_s * SECOND_NS)
         self._clock = Clock(simulation.step_s)
-        self._file = File(path)
+        self._file = File(stream or path)
         self._flushed_ns = self._clock.time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
         self._files: set[str] = set()

@@ -99,7 +99,8 @@ class Brain:
 
     def __init__(self, spec: Mapping[str, Any] | None, body: Body) -> None:
         """Create a brain in its initial state."""
-        self._brain = _core.Brain({} if spec is None else spec, body)
+        spec = validation.plain_value("spec", {} if spec is None else spec)
+        self._brain = _core.Brain(spec, validation.plain_value("body", body))
 
     @classmethod
     def of(cls, scenario: Scenario | str | Path, kind: str) -> "Brain":
@@ -127,7 +128,7 @@ class Brain:
         Raises:
             InputError: If an entry of the percept is unknown or has an invalid value.
         """
-        return cast("Command", self._brain.step(percept))
+        return cast("Command", self._brain.step(validation.plain_value("percept", percept)))
 
     def belief_state(self) -> BeliefState | None:
         """Return the beliefs and goals of the brain, as of its last step.

@@ -46,7 +46,7 @@ class ClassicSimulation(Stepped):
                 range.
         """
         super().__init__(as_scenario(scenario), seed, run)
-        self._run = _core.ClassicSimulation(self.scenario.classic(), seed=seed, run=run)
+        self._run = _core.ClassicSimulation(self.scenario.classic(), seed=self.seed, run=self.run)
 
     def step(self, steps: int = 1) -> None:
         """Advance by `steps`, 0 or more, or to the end of the run. Ctrl-C stops between two steps.
@@ -54,7 +54,7 @@ class ClassicSimulation(Stepped):
         Raises:
             InputError: If `steps` is not a whole number, 0 or more.
         """
-        self._run.step(steps)
+        self._run.step(validation.plain_value("steps", steps))
 
     def finish(self) -> Outcome:
         """Advance to the end of the run. Ctrl-C stops between two steps."""
@@ -80,7 +80,7 @@ class ClassicSimulation(Stepped):
             changed = self.scenario.changed((override,))
             tick = self._run.change(changed.classic())
             self.scenario = changed
-            self._changes += (Change(tick, path, value),)
+            self._changes += (Change(tick, path, override.value),)
 
     def belief_state(self, robot: str) -> None:
         """Return None: robots of the classic engine have no beliefs.

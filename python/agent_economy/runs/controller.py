@@ -5,14 +5,14 @@ Everything that it knows of goals, robots and other controllers comes from the m
 percepts, and everything that it does is in the outbox of its commands.
 """
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal, TypedDict, cast
+from typing import Literal, TypedDict, cast
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.plain import NotPlainError, floats
 from agent_economy.scenario import Scenario, as_scenario, validation
 from agent_economy.types.brain import Command, Percept, Reason, RobotId, Task
 
@@ -87,7 +87,7 @@ class Controller:
 
     def __init__(self, settings: ControllerSettings | None = None) -> None:
         """Create a controller at the start of a mission: no robot holds a lease of it."""
-        given: Mapping[str, Any] = {} if settings is None else cast("Mapping[str, Any]", settings)
+        given = validation.plain_value("settings", {} if settings is None else settings)
         self._controller = _core.Controller(given)
 
     @classmethod
@@ -116,7 +116,8 @@ class Controller:
             InputError: If an entry of the percept is unknown or has an invalid value, or the kind
                 of its id is not numbered after those of robots.
         """
-        return cast("Command", self._controller.step(percept))
+        given = validation.plain_value("percept", percept)
+        return cast("Command", self._controller.step(given))
 
     @property
     def goals(self) -> list[OwnedGoal]:
@@ -172,8 +173,9 @@ def assignment(costs: ArrayLike) -> list[int | None]:
     """
     name, allowed = "costs", "a matrix of numbers, one row per goal and one column per robot"
     try:
-        matrix = np.asarray(costs, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise _core.refusal(name, costs, allowed) from None
+        matrix = floats(costs)
+    except NotPlainError as error:
+        message = f"{name}{error.place} = {error.what}: must be {allowed}; {error.fix}"
+        raise InputError(message) from None
     validation.check(matrix.ndim == 2, name, costs, allowed)  # noqa: PLR2004  (a matrix)
     return _core.assignment(matrix)

@@ -1,5 +1,6 @@
 """Brains in Python that replace those of a scenario."""
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Protocol, TypeAlias, cast
@@ -7,6 +8,7 @@ from typing import Any, ClassVar, Protocol, TypeAlias, cast
 from agent_economy import _core
 from agent_economy.runs.batch import Batch, Commands, Inbox, Percepts
 from agent_economy.runs.brain import Body, Command, Percept
+from agent_economy.runs.commands import plain_columns, plain_command
 from agent_economy.scenario import validation
 
 BY_KIND = "a dict by the names of robot kinds"
@@ -46,17 +48,20 @@ class SingleBrains:
     def resized(self, body: Body, count: int) -> "SingleBrains":
         """Return the same for `count` robots: existing brains are kept, missing ones are made."""
         missing = range(len(self.brains), count)
-        made = tuple(self._make(index, body) for index in missing)
+        # Each brain gets a body of its own, which it may modify.
+        text = json.dumps(body)
+        made = tuple(self._make(index, json.loads(text)) for index in missing)
         return replace(self, brains=self.brains[:count] + made)
 
     def step(self, index: int, percept: Percept) -> Command:
         """Return the command of a robot."""
         time_s = percept["time_s"]
         try:
-            return self.brains[index].step(percept)
+            command = self.brains[index].step(percept)
         except Exception as error:
             error.add_note(f"in the brain of {self.kind}/{index}, at {time_s:g} s")
             raise
+        return cast("Command", plain_command(f"{self.kind}/{index}", command))
 
     def _make(self, index: int, body: Body) -> BrainLike:
         try:
@@ -95,11 +100,13 @@ class BatchBrain:
         time_s = percepts["time_s"]
         inbox = Inbox(percepts["inbox"])
         complete = cast("Percepts", self.constants | percepts | {"inbox": inbox})
+        rows = len(complete["robots"])
         try:
-            return self.batch.function(complete, self.memory)
+            commands = self.batch.function(complete, self.memory)
         except Exception as error:
             error.add_note(f"in the brain of all robots of kind {self.kind}, at {time_s:g} s")
             raise
+        return cast("Commands", plain_columns(f"brains.{self.kind}()", commands, rows))
 
 
 PythonBrains: TypeAlias = SingleBrains | BatchBrain

@@ -100,7 +100,9 @@ class Simulation(Stepped):
         """
         super().__init__(as_scenario(scenario), seed, run, sorted_names(external))
         metric, names = self.scenario.metric(), self.declared_external
-        self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads, external=names)
+        numbers = {"seed": self.seed, "run": self.run}
+        numbers["threads"] = validation.plain_value("threads", threads)
+        self._run = _core.Simulation(metric, **numbers, external=names)
         self._brains = python_brains(brains, metric, self.scenario.robots)
         in_python = [name for name in names if self._is_in_python(name)]
         allowed = "robots with the brain of the scenario: step the brains in `brains` yourself"
@@ -138,6 +140,7 @@ class Simulation(Stepped):
                 advance. An exception of a Python brain leaves this call unchanged, and the run does
                 not advance either.
         """
+        steps = validation.plain_value("steps", steps)
         if percepts is None and commands is None:
             self._step(steps)
             return {}
@@ -342,7 +345,7 @@ class Simulation(Stepped):
             brains = resized(self._brains, metric, changed.robots)
             tick = self._run.change(metric)
             self.scenario, self._brains = changed, brains
-            self._changes += (Change(tick, path, value),)
+            self._changes += (Change(tick, path, override.value),)
 
     def fail(self, name: str) -> None:
         """Let a robot or controller fail now, as `mean_time_between_failures_s` does.
@@ -558,4 +561,4 @@ def as_dict(name: str, mapping: Mapping[str, Any] | None) -> dict[str, Any]:
     if mapping is None:
         return {}
     validation.of_type(name, mapping, Mapping, "a dict by robot names")
-    return dict(mapping)
+    return cast("dict[str, Any]", validation.plain_value(name, mapping))

@@ -74,7 +74,9 @@ class Stepped(ABC):
         self, scenario: Scenario, seed: int, run: int, external: tuple[str, ...] = ()
     ) -> None:
         """Create a run without changes."""
-        self.scenario, self.seed, self.run = scenario, seed, run
+        self.scenario = scenario
+        self.seed = validation.plain_value("seed", seed)
+        self.run = validation.plain_value("run", run)
         self.declared_external = external
         self._initial = scenario
         self._changes: tuple[Change, ...] = ()

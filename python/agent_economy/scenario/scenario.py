@@ -236,7 +236,7 @@ class Scenario:
         validation.of_type("values", values, Mapping, "a dict of values by path")
         for path in values:
             check_path("values", path)
-        return _core.read_configuration(self.source, dict(values))
+        return _core.read_configuration(self.source, validation.plain_value("values", values))
 
     def metric(self) -> _core.MetricScenario:
         """Return the compiled form for a run of the metric engine.

@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from shlex import quote
 from typing import Any
 
 from agent_economy import _core
 from agent_economy.regular_file import open_regular
 from agent_economy.scenario import validation
+from agent_economy.shell_word import shell_word
 
 Value = str | int | float
 """A value of a factor. Booleans are integers in Python."""
@@ -51,12 +51,21 @@ class Override:
         A factor of a study is a single key with dots in it: study.vary.robots.wanderer.count.
 
         Raises:
-            InputError: If the path is not a string or has too many keys.
+            InputError: If the path is not a string or has too many keys, or the value is not plain.
         """
         check_path(origin, path)
         factor = path.removeprefix(VARY)
         keys = ("study", "vary", factor) if factor != path else tuple(path.split("."))
-        return cls(keys, value, origin)
+        return cls(keys, value, origin).plain()
+
+    def plain(self) -> "Override":
+        """Return the override with a value that a file could have.
+
+        Raises:
+            InputError: If it has another value, such as a quantity with a unit.
+        """
+        name = f"{self.origin}: {'.'.join(map(str, self.path))}"
+        return replace(self, value=validation.plain_value(name, self.value))
 
 
 @dataclass(frozen=True)
@@ -125,16 +134,16 @@ def check_path(origin: str, path: object) -> None:
 
 
 def check_overrides(overrides: tuple[Override, ...]) -> tuple[Override, ...]:
-    """Return an argument `overrides` as a tuple.
+    """Return an argument `overrides` as a tuple, with plain values.
 
     Raises:
-        InputError: If it is not a sequence of `Override`.
+        InputError: If it is not a sequence of `Override`, or a value is not plain.
     """
     allowed = "a tuple of Override"
     validation.of_type("overrides", overrides, tuple | list, allowed)
     for each in overrides:
         validation.of_type("overrides", each, Override, allowed)
-    return tuple(overrides)
+    return tuple(each.plain() for each in overrides)
 
 
 def decode(file: Path, data: bytes) -> str:
@@ -152,6 +161,6 @@ def decode(file: Path, data: bytes) -> str:
 def not_text(file: Path, error: UnicodeDecodeError) -> str:
     """Return the error message for a file that is not UTF-8 text."""
     if error.object.startswith(RECORDING_MAGIC):
-        command = f"agent-economy replay {quote(str(file))}"
+        command = f"agent-economy replay {shell_word(file)}"
         return f"{file}: expected a scenario, got a recording; to replay it: {command}"
     return f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"

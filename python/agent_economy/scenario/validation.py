@@ -6,9 +6,14 @@ from numbers import Integral
 from os import PathLike
 from pathlib import Path
 from types import UnionType
-from typing import TypeGuard
+from typing import Any, TypeGuard
+
+import numpy as np
+from numpy.typing import NDArray
 
 from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.plain import NotPlainError, described, floats, plain
 
 Kinds = type | UnionType
 
@@ -46,7 +51,8 @@ def is_text(value: object) -> TypeGuard[str]:
 
 def is_whole(value: object, smallest: int, largest: float = math.inf) -> bool:
     """Return whether a value is an integer (not a bool) in a range, ends included."""
-    if not isinstance(value, Integral) or isinstance(value, bool):
+    # NumPy counts durations as integers.
+    if not isinstance(value, Integral) or isinstance(value, bool | np.timedelta64):
         return False
     return smallest <= int(value) <= largest
 
@@ -87,3 +93,56 @@ def texts(name: str, value: Iterable[str], allowed: str) -> tuple[str, ...]:
 def errors_unless(is_allowed: bool, name: str, value: object, allowed: str) -> list[str]:  # noqa: FBT001
     """Return the error that `check` would raise, as a list of at most one text."""
     return [] if is_allowed else [str(_core.refusal(name, value, allowed))]
+
+
+def plain_value(name: str, value: object) -> Any:
+    """Return an argument, or what a user's function returned, as plain Python values.
+
+    Raises:
+        InputError: If it contains anything but numbers, strings, True, False, None, and lists and
+            dicts of these; as an array with masked values, or a quantity with a unit.
+    """
+    try:
+        return plain(value)
+    except NotPlainError as error:
+        allowed = "a number, a string, True, False, None, or a list or dict of these"
+        message = f"{name}{error.place} = {error.what}: must be {allowed}; {error.fix}"
+        raise InputError(message) from None
+
+
+def number_array(
+    subject: str, value: object, shape: tuple[int, ...], meaning: str
+) -> NDArray[np.float64]:
+    """Return what a user's function returned as a new array of floats.
+
+    Args:
+        subject: The first words of an error, such as "the sampler returned".
+        value: What it returned.
+        shape: The shape that it must have; nothing is repeated.
+        meaning: What its numbers mean, for the error.
+
+    Raises:
+        InputError: If it is not certainly numbers of that shape.
+    """
+    allowed = f"numbers of shape {shape}, {meaning}"
+    try:
+        found = floats(value)
+    except NotPlainError as error:
+        inside = f"{described(value)} with {error.what} at {error.place}"
+        what = inside if error.place else error.what
+        message = f"{subject} {what}: must be {allowed}; {error.fix}"
+        raise InputError(message) from None
+    if found.shape != shape:
+        what, fix = f"numbers of shape {found.shape}", shape_fix(found.shape, shape)
+        message = f"{subject} {what}: must be {allowed}; {fix}"
+        raise InputError(message)
+    return found
+
+
+def shape_fix(given: tuple[int, ...], allowed: tuple[int, ...]) -> str:
+    """Return what to do about an array of another shape than allowed."""
+    if given == allowed[::-1]:
+        return "exchange rows and columns, as in x.T"
+    if math.prod(given) == math.prod(allowed):
+        return f"use x.reshape{allowed} if it is in this order"
+    return "one number for several is not repeated: give each"

@@ -4,14 +4,12 @@ import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from shlex import quote
 from typing import Any
-
-import numpy as np
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Value, as_scenario, validation
 from agent_economy.scenario.source import check_path
+from agent_economy.shell_word import shell_word
 from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.any_answer import AnyAnswer
@@ -104,8 +102,8 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         "study.design": design,
         "merit": merit if merit is None or isinstance(merit, str) else dict(merit),
         "require.all": [require] if isinstance(require, str) else require and list(require),
-        "require.probability": plain(probability),
-        "require.tolerance": plain(tolerance),
+        "require.probability": probability,
+        "require.tolerance": tolerance,
         "study.minimize": minimize,
         "study.where": where,
     }
@@ -130,11 +128,6 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         return run_plan(plan, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return run_race(plan, Path(folder), compute, on_progress)[0]
-
-
-def plain(number: Any) -> Any:
-    """Return a number of NumPy as one of Python, and anything else as it is."""
-    return number.item() if isinstance(number, np.generic) else number
 
 
 def factor_changes(vary: Mapping[str, str | Iterable[Value]], *, only_vary: bool) -> list[Override]:
@@ -287,12 +280,20 @@ def varied(path: str, values: str | Iterable[Value]) -> Override:
     validation.of_type(
         f"vary: {path}", values, Iterable, 'a list of values or a string, such as "1..40"'
     )
-    return Override(("study", "vary", path), written(values), "vary")
+    return Override(("study", "vary", path), written(path, values), "vary")
 
 
-def written(values: str | Iterable[Value]) -> str:
-    """Return values of a factor as scenarios write them."""
-    return values if isinstance(values, str) else ",".join(map(word, values))
+def written(path: str, values: str | Iterable[Value]) -> str:
+    """Return values of a factor as scenarios write them.
+
+    Raises:
+        InputError: If they are not plain values in an order.
+    """
+    if isinstance(values, str):
+        return values
+    is_list = not isinstance(values, Mapping | set | frozenset | bytes)
+    validation.check(is_list, f"vary: {path}", values, "a list of values, which has an order")
+    return ",".join(word(validation.plain_value(f"vary: {path}", each)) for each in values)
 
 
 def load_plan(folder: str | Path) -> Plan:
@@ -309,7 +310,7 @@ def refuse(folder: str | Path) -> Compute:
     """Return a `compute` for finished studies: it raises an error if runs are missing."""
 
     def compute(_: RunBlock) -> Any:
-        command = f"agent-economy study --resume {quote(str(folder))}"
+        command = f"agent-economy study --resume {shell_word(folder)}"
         message = f"{folder}: is not finished: resume it with {command}"
         raise InputError(message)
 

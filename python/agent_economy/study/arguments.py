@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.plain import NotPlainError, floats
 from agent_economy.scenario.validation import errors_unless, is_whole
 
 Guarantee = Literal["indifference", "pgs"]
@@ -52,7 +53,7 @@ def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
             not whole_k or limits is not None,
             "bounds",
             bounds,
-            f"minimum and maximum merit, finite, as a pair or an array of shape ({k}, 2)",
+            f"minimum and maximum merit, finite plain numbers: a pair, or shape ({k}, 2)",
         ),
     ]
     if errors or limits is None:
@@ -85,7 +86,7 @@ def confidence_errors(confidence: object) -> list[str]:
 
 def is_between(given: object, above: float, below: float) -> bool:
     """Return whether something is a number (not a bool) between two others."""
-    if not isinstance(given, int | float | np.number) or isinstance(given, bool):
+    if not isinstance(given, int | float | np.integer | np.floating) or isinstance(given, bool):
         return False
     try:
         return above < float(given) < below
@@ -96,8 +97,8 @@ def is_between(given: object, above: float, below: float) -> bool:
 def limits_of(k: int, bounds: ArrayLike) -> Floats | None:
     """Return minimum and maximum merit of each configuration, shape (k, 2); None if invalid."""
     try:
-        given = np.asarray(bounds, dtype=np.float64)
-    except (TypeError, ValueError):
+        given = floats(bounds)
+    except NotPlainError:
         return None
     if given.shape not in {(2,), (k, 2)}:
         return None

@@ -11,7 +11,7 @@ from collections.abc import Generator, Iterator, Sequence
 from itertools import islice
 from math import ceil
 
-from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
+from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock, outcomes
 
 MIN_ROWS = os.cpu_count() or 1
 """Minimum number of runs of a chunk, so that no processor is idle."""
@@ -31,7 +31,7 @@ def in_chunks(compute: Compute) -> Partwise:
             for group in durations.groups(block.configurations, runs):
                 part = RunBlock(group, first, runs)
                 start = time.monotonic()
-                columns = compute(part)
+                columns = outcomes(compute, part)
                 durations.add(part, time.monotonic() - start)
                 yield part, columns
             first += runs

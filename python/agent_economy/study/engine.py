@@ -1,6 +1,6 @@
 """Runs the configurations of a study on the simulator of its scenario."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,7 +10,12 @@ from agent_economy import _core
 from agent_economy.scenario import Scenario
 from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
-from agent_economy.study.executors import LocalExecutor, dask_executor, end_unguarded_worker
+from agent_economy.study.executors import (
+    LocalExecutor,
+    dask_executor,
+    end_unguarded_worker,
+    warn,
+)
 from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store.columns import Column
 from agent_economy.study.workers import Workers
@@ -49,17 +54,21 @@ class Engine:
         end_unguarded_worker()
         return Workers(lambda: LocalExecutor(count), count, replace(self, threads=1))
 
-    def on_dask(self, address: str) -> Workers:
+    def on_dask(self, address: str, on_wait: Callable[[str], None] = warn) -> Workers:
         """Return the workers of a Dask cluster; use as a context manager.
 
+        Args:
+            address: Address of its scheduler, such as tcp://HOST:8786.
+            on_wait: Called with a sentence, in another thread, while runs wait because the cluster
+                has no workers; a warning by default.
+
         Raises:
-            InputError: If no scheduler answers at the address, or Dask is not installed.
+            InputError: If no scheduler answers at the address within ten seconds, Dask is not
+                installed, or a worker has another build of this program or none.
         """
-        executor = dask_executor(address)
-        made = iter([executor])
-        count = max(1, executor.count)
+        made = iter([dask_executor(address, on_wait)])
         return Workers(
-            lambda: next(made, None) or dask_executor(address), count, replace(self, threads=1)
+            lambda: next(made, None) or dask_executor(address, on_wait), 1, replace(self, threads=1)
         )
 
     @cached_property

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import threading
+import warnings
 from collections.abc import Callable
 from concurrent.futures import (
     Executor,
@@ -17,14 +18,19 @@ from multiprocessing.synchronize import Semaphore
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-from agent_economy._core import InputError
+from agent_economy.study.dask_connection import Cluster, connected
 from agent_economy.study.errors import StudyError
 
 CONNECT_S = 10
 """Time limit for a scheduler to answer."""
 
 CHECK_S = 0.5
-"""Interval of checks whether the scheduler is lost."""
+"""Interval of checks whether the scheduler is lost, and how many workers there are."""
+
+WITHOUT_WORKERS = (
+    "the cluster has no workers: the study waits for one; start one with `dask worker ADDRESS`, or "
+    "stop the study with Ctrl-C"
+)
 
 UNGUARDED = (
     "the worker processes could not import the script: guard its code with "
@@ -101,19 +107,21 @@ def end_with_parent() -> None:
 class DaskExecutor(Executor):
     """A Dask cluster as an executor that raises an error when its scheduler is lost."""
 
-    def __init__(self, address: str, client: Any) -> None:
-        """Take over a `distributed.Client`."""
-        self._address = address
-        self._client = client
-        self._executor = client.get_executor(pure=False)
+    def __init__(self, cluster: Cluster, on_wait: Callable[[str], None]) -> None:
+        """Take over a connection; `on_wait` is called while chunks wait without workers."""
+        self._cluster = cluster
+        self._on_wait = on_wait
+        self._executor = cluster.client.get_executor(pure=False)
         self._waiting: set[Future[Any]] = set()
+        self._count = 0
+        self._ask()
         self._ended = threading.Event()
         threading.Thread(target=self._watch, daemon=True).start()
 
     @property
     def count(self) -> int:
-        """Current number of threads of the cluster's workers."""
-        return sum(self._client.nthreads().values())
+        """Number of threads of the cluster's workers, of a moment ago."""
+        return self._count
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Submit a call.
@@ -121,7 +129,7 @@ class DaskExecutor(Executor):
         Raises:
             StudyError: If the scheduler is lost.
         """
-        if self._is_lost:
+        if self._cluster.is_lost:
             raise self._lost()
         future: Future[T] = self._executor.submit(fn, *args, **kwargs)
         self._waiting.add(future)
@@ -129,49 +137,55 @@ class DaskExecutor(Executor):
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:  # noqa: FBT001, FBT002  (as inherited)
-        """Disconnect from the cluster; its workers keep running."""
+        """Disconnect from the cluster, which drops what was submitted; its workers keep running."""
         self._ended.set()
-        if not self._is_lost:
-            self._executor.shutdown(wait=wait and not cancel_futures)
-        self._client.close()
-
-    @property
-    def _is_lost(self) -> bool:
-        """Whether the client has lost its scheduler."""
-        return self._client.status in {"closing", "closed"}
+        if wait and not cancel_futures and not self._cluster.is_lost:
+            self._executor.shutdown(wait=True)
+        self._cluster.close()
 
     def _watch(self) -> None:
         """Fail all pending calls when the scheduler is lost, as Dask itself does not."""
+        is_reported = False
         while not self._ended.wait(CHECK_S):
-            if self._is_lost:
+            if self._cluster.is_lost:
                 for future in list(self._waiting):
                     with contextlib.suppress(InvalidStateError):
                         future.set_exception(self._lost())
+                continue
+            self._ask()
+            is_waiting = self._count == 0 and bool(self._waiting)
+            if is_waiting and not is_reported:
+                self._on_wait(f"{self._cluster.address}: {WITHOUT_WORKERS}")
+            is_reported = is_waiting
+
+    def _ask(self) -> None:
+        """Ask how many workers there are."""
+        with contextlib.suppress(Exception):  # The scheduler is lost, or answers next time.
+            self._count = self._cluster.threads()
 
     def _lost(self) -> StudyError:
         """Return the error for a lost scheduler."""
-        message = f"{self._address}: the Dask scheduler is lost: restart it, then resume the study"
+        address = self._cluster.address
+        message = f"{address}: the Dask scheduler is lost: restart it, then resume the study"
         return StudyError(message)
 
 
-def dask_executor(address: str) -> DaskExecutor:
+def warn(message: str) -> None:
+    """Issue a warning."""
+    warnings.warn(message, stacklevel=2)
+
+
+def dask_executor(address: str, on_wait: Callable[[str], None] = warn) -> DaskExecutor:
     """Return a Dask cluster as an executor.
 
     Args:
         address: Address of its scheduler, such as tcp://HOST:8786. The same build of this program
             must be installed on its workers.
+        on_wait: Called with a sentence, in another thread, when runs wait for the first worker, or
+            all are gone; a warning by default.
 
     Raises:
-        InputError: If Dask is not installed, or no scheduler responds at the address.
+        InputError: If Dask is not installed, no scheduler answers at the address within
+            `CONNECT_S`, or a worker has another build of this program or none.
     """
-    try:
-        from distributed import Client  # noqa: PLC0415  (an extra, and slow to load)
-    except ImportError:
-        message = f"{address}: Dask is not installed: pip install 'agent-economy[dask]'"
-        raise InputError(message) from None
-    try:
-        client = Client(address, timeout=CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
-    except (OSError, ValueError) as error:
-        message = f"{address}: no Dask scheduler answers at this address ({error})"
-        raise InputError(message) from None
-    return DaskExecutor(address, client)
+    return DaskExecutor(connected(address, CONNECT_S), on_wait)

@@ -41,6 +41,9 @@ LeaderInterval = tuple[Leader, Interval]
 Range = tuple[float, float]
 """The lower and the upper end of an estimate."""
 
+NOTHING: Range = (0.0, 0.0)
+"""What is left of a study that is over."""
+
 
 @dataclass(frozen=True)
 class Progress:
@@ -59,8 +62,8 @@ class Progress:
         may_meet: With a requirement, those that are eliminated, but may meet it without tolerance
             to spare.
         is_over: Whether it was the last round.
-        estimate_remaining: Returns the range of the number of runs left; None if it is unknown.
-            Takes milliseconds.
+        estimate_remaining: Returns the range of the number of runs left, which is 0 after the last
+            round; None if it is unknown. Takes milliseconds.
         intervals: Returns more of the leaders, each with its mean merit and bounds that hold
             simultaneously with all of the answer's. Takes milliseconds.
     """
@@ -91,6 +94,8 @@ class Progress:
 
     def time_left_s(self, remaining: Range | None) -> Range | None:
         """Return the range of the time in which a range of runs is computed; None if unknown."""
+        if remaining == NOTHING:
+            return NOTHING
         if remaining is None or not (self.computed and self.seconds):
             return None
         low, high = remaining
@@ -101,7 +106,7 @@ class Progress:
     def of_facts(
         cls, number: int, facts: Mapping[str, Any], computed: int, seconds: float
     ) -> "Progress":
-        """Return a round from the ledger, without intervals and an estimate of remaining work."""
+        """Return a round from the ledger, without intervals; what remains is known of the last."""
         return cls(
             round=number + 1,
             runs=facts["runs"],
@@ -113,7 +118,7 @@ class Progress:
             certified=tuple(facts["certified"]) if "certified" in facts else None,
             may_meet=frozenset(each.configuration for each in leaders if each.status == "may meet"),
             is_over=facts["is_over"],
-            estimate_remaining=lambda: None,
+            estimate_remaining=lambda: NOTHING if facts["is_over"] else None,
             intervals=tuple,
         )
 

@@ -5,6 +5,7 @@ from `study.toml` and the data, so a study that was killed ends with the same by
 not, and repeating a finished study computes nothing.
 """
 
+import math
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import replace
@@ -25,7 +26,14 @@ from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
 from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
 from agent_economy.study.plan import Plan, digest, may_replace
-from agent_economy.study.progress import Leader, LeaderInterval, OnProgress, Progress, Range
+from agent_economy.study.progress import (
+    NOTHING,
+    Leader,
+    LeaderInterval,
+    OnProgress,
+    Progress,
+    Range,
+)
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
 from agent_economy.study.selection import Integers, drive, eliminations, within
 from agent_economy.study.store import Store, StoredRuns
@@ -251,19 +259,24 @@ class Race:
         return bool(self._runs.sum() + len(configurations) * runs > max_runs)
 
     def _estimate_remaining(self) -> Range | None:
+        """Return the range of the runs left: at least those of the round, at most the budget."""
         plan, procedure, pending = self._plan, self._procedure, self._store.pending
-        if plan.runs is not None:
-            missing = float(plan.runs * len(procedure.survivors) - procedure.runs.sum())
-            return missing - pending, missing - pending
         request = procedure.next()
-        if self._rounds < MIN_ROUNDS or request is None:
+        if request is None or self._is_over():
+            return NOTHING
+        if plan.runs is not None:
+            missing = plan.runs - self._runs[procedure.survivors]
+            return float(missing.sum() - pending), float(missing.sum() - pending)
+        configurations, _, runs = request
+        of_round = float(len(configurations) * runs)
+        if self._rounds < MIN_ROUNDS:
             return None
         expected = plan.question.remaining(procedure, self._sample, plan.confidence)
         if expected is None:
             return None
-        configurations, _, runs = request
-        low, high = remaining_range(max(expected, float(len(configurations) * runs)))
-        return max(0.0, low - pending), max(0.0, high - pending)
+        most = math.inf if plan.max_runs is None else float(plan.max_runs - self._runs.sum())
+        low, high = remaining_range(max(expected, of_round))
+        return min(max(low, of_round), most) - pending, min(high, most) - pending
 
 
 def record_questions(plan: Plan, store: Store | StoredRuns) -> tuple[Answered, ...]:

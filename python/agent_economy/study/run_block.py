@@ -1,12 +1,16 @@
 """Blocks of runs: consecutive runs of some configurations."""
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from agent_economy._core import InputError
+from agent_economy.plain import described
+from agent_economy.scenario.validation import number_array
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
 """Outcomes by column name, each of shape (configurations, runs); NaN: quarantined, +inf: never."""
@@ -50,6 +54,17 @@ class RunBlock:
         """Number of runs of all configurations together."""
         return len(self.configurations) * self.runs
 
+    @property
+    def oblong(self) -> tuple["RunBlock", ...]:
+        """The block, or two parts of a square one.
+
+        In a square, rows and columns could be exchanged without an error.
+        """
+        if len(self.configurations) != self.runs or self.runs == 1:
+            return (self,)
+        most = replace(self, runs=self.runs - 1)
+        return most, replace(self, first_run=most.end, runs=1)
+
     def __str__(self) -> str:
         """Return it as error messages write it."""
         return f"configurations {spans(self.configurations)}, runs {self.first_run}-{self.end - 1}"
@@ -85,7 +100,44 @@ def parts_of(compute: Compute, block: RunBlock) -> Generator[Part]:
     if isinstance(compute, Partwise):
         yield from compute.parts(block)
     else:
-        yield block, compute(block)
+        yield block, outcomes(compute, block)
+
+
+def outcomes(compute: Compute, block: RunBlock) -> Columns:
+    """Return what a user's function computes for a block, checked, in arrays of its own.
+
+    Raises:
+        InputError: If it returns anything but a dict of columns, each with a number for each run.
+    """
+    parts = [checked(part, compute(part)) for part in block.oblong]
+    first, *others = parts
+    if any(each.keys() != first.keys() for each in others):
+        message = f"compute returned other columns for other runs of {block}: must be the same"
+        raise InputError(message)
+    if not others:
+        return first
+    return {name: np.hstack([part[name] for part in parts]) for name in first}
+
+
+def checked(block: RunBlock, columns: object) -> Columns:
+    """Return what a function returned for a block as columns of its shape.
+
+    Raises:
+        InputError: If it is something else.
+    """
+    if not isinstance(columns, Mapping) or not columns:
+        given = "no columns" if isinstance(columns, Mapping) else described(columns)
+        message = f"compute returned {given} for {block}: must be a dict of columns by name"
+        raise InputError(message)
+    meaning, found = "a row for each configuration, a column for each run", {}
+    for name, values in columns.items():
+        try:
+            subject = f"compute returned for column {name}"
+            found[name] = number_array(subject, values, block.shape, meaning)
+        except InputError as error:
+            message = f"{block}: {error}"
+            raise InputError(message) from None
+    return found
 
 
 class Gathered:
@@ -175,15 +227,3 @@ def numbers(text: str) -> tuple[int, ...]:
     return tuple(
         number for first, _, last in parts for number in range(int(first), int(last or first) + 1)
     )
-
-
-def check_shape(block: RunBlock, columns: Columns) -> None:
-    """Refuse columns that are not of a block's shape.
-
-    Raises:
-        ValueError: If one is not; this is an error of what computed them.
-    """
-    for name, values in columns.items():
-        if values.shape != block.shape:
-            message = f"column {name} of {block} has shape {values.shape}"
-            raise ValueError(message)

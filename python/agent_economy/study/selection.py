@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.scenario.validation import check
+from agent_economy.scenario.validation import check, number_array
 from agent_economy.study.arguments import Floats, Guarantee, checked_arguments
 from agent_economy.study.equality import EqualByValue
 from agent_economy.study.errors import NoConfigurationError
@@ -84,10 +84,11 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
 
     Args:
         sampler: `sampler(configurations, first_run, runs)` returns the merits of consecutive runs
-            of some configurations, shape (len(configurations), runs); higher is better. A run
-            without a finite merit is quarantined: it counts as the worst merit. The same run of a
-            configuration must always have the same merit; run numbers should determine the random
-            numbers, the same for all configurations, to reduce the variance of differences.
+            of some configurations, shape (len(configurations), runs), as an array or lists of plain
+            numbers; higher is better. A run without a finite merit is quarantined: it counts as the
+            worst merit. The same run of a configuration must always have the same merit; run
+            numbers should determine the random numbers, the same for all configurations, to reduce
+            the variance of differences.
         k: Number of configurations, 1 to 100,000; they are numbered from 0.
         bounds: Minimum and maximum merit of a run: a pair, or an array of shape (k, 2).
         delta: Indifference zone, in units of merit; above 0. Runs grow as 1 / delta^2.
@@ -108,10 +109,13 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
 
     Raises:
         InputError: If an argument is invalid (it lists all errors), or if the sampler returns
-            another shape, a merit outside of `bounds`, or no finite merit.
+            another shape, what is not certainly numbers (masked values, units, labels, text,
+            complex numbers, None), a merit outside of `bounds`, or no finite merit.
     """
     check(callable(sampler), "sampler", sampler, SAMPLER)
     limits = checked_arguments(k, bounds, delta, confidence, guarantee, seed, max_runs)
+    # Numbers of NumPy have fewer digits, and are written otherwise.
+    k, seed, delta, confidence = int(k), int(seed), float(delta), float(confidence)
     samples = Samples(sampler, limits, seed if common_random_numbers else seed * k)
     procedure = _core.selection(limits, delta=delta, confidence=confidence, guarantee=guarantee)
     sample = samples.shared if common_random_numbers else samples.separate
@@ -184,20 +188,30 @@ class Samples:
         self, configurations: Integers, first_run: int, runs: int
     ) -> tuple[Floats, Integers]:
         """Return merits of the same run numbers for all configurations."""
-        # A copy, because samplers may modify their arguments.
-        merits = self._sampler(configurations.copy(), self._lane * LANE + first_run, runs)
-        return self._recorded(configurations, shaped(merits, (len(configurations), runs)))
+        merits = self._sample(configurations, self._lane * LANE + first_run, runs)
+        return self._recorded(configurations, merits)
 
     def separate(
         self, configurations: Integers, first_run: int, runs: int
     ) -> tuple[Floats, Integers]:
         """Return merits of separate run numbers for each configuration."""
         rows = [
-            self._sampler(np.array([each]), (self._lane + int(each)) * LANE + first_run, runs)
-            for each in configurations
+            self._sample(np.array([each]), (self._lane + each) * LANE + first_run, runs)
+            for each in configurations.tolist()
         ]
-        merits = [shaped(row, (1, runs)) for row in rows]
-        return self._recorded(configurations, np.concatenate(merits))
+        return self._recorded(configurations, np.concatenate(rows))
+
+    def _sample(self, configurations: Integers, first_run: int, runs: int) -> Floats:
+        """Return what the sampler returns for consecutive runs, checked."""
+        count = len(configurations)
+        if runs == count > 1:
+            # In a square, rows and columns could be exchanged without an error.
+            parts = ((first_run, runs - 1), (first_run + runs - 1, 1))
+            return np.hstack([self._sample(configurations, *part) for part in parts])
+        # A copy, because samplers may modify their arguments.
+        merits = self._sampler(configurations.copy(), first_run, runs)
+        meaning = "a row for each configuration, a column for each run"
+        return number_array("the sampler returned", merits, (count, runs), meaning)
 
     def _recorded(self, configurations: Integers, merits: Floats) -> tuple[Floats, Integers]:
         merits, quarantined = within(self._limits, configurations, merits)
@@ -230,23 +244,6 @@ class Samples:
             stopped=stopped,
             guarantee=guarantee_text(procedure, delta, confidence, guarantee),
         )
-
-
-def shaped(result: ArrayLike, shape: tuple[int, int]) -> Floats:
-    """Return the result of a sampler as an array of a shape.
-
-    Raises:
-        InputError: If it is not one.
-    """
-    try:
-        merits = np.array(result, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        message = f"the sampler must return an array of numbers of shape {shape}: {error}"
-        raise InputError(message) from None
-    if merits.shape != shape:
-        message = f"the sampler returned shape {merits.shape}: must be {shape}"
-        raise InputError(message)
-    return merits
 
 
 def within(limits: Floats, configurations: Integers, merits: Floats) -> tuple[Floats, Integers]:

@@ -19,9 +19,10 @@ from concurrent.futures import (
 from dataclasses import dataclass, field, replace
 from typing import Self, TypeAlias
 
+from agent_economy._core import InputError
 from agent_economy.build import own_build
 from agent_economy.study.errors import StudyError
-from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock, check_shape
+from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock, outcomes
 
 CHUNK_S = 1.0
 """Intended duration of a chunk."""
@@ -88,7 +89,8 @@ class Workers:
 
         Args:
             make_executor: Called for the first block, and after an executor broke.
-            count: Number of chunks that it computes at a time, 1 or more.
+            count: Number of chunks that it computes at a time, 1 or more; of an executor with an
+                attribute `count`, that is the number.
             task: Computes the outcomes of a block; pickled with every chunk.
         """
         self._make = make_executor
@@ -114,7 +116,7 @@ class Workers:
         """Returns the outcomes of a block, the same as from a single call of the task.
 
         It raises a StudyError if a chunk failed three times, or the executor is lost; and an
-        InputError if the executor cannot be created.
+        InputError if the executor cannot be created, or what the task returns is not its columns.
         """
         return Partwise(self._parts)
 
@@ -132,8 +134,10 @@ class Workers:
 
     def _submit(self, job: "Job") -> None:
         """Submit chunks until every worker has one more pending."""
-        while len(job.pending) < job.max_pending(self._count):
-            chunk = job.next_chunk(self._throughput, self._count)
+        if self._executor is None:
+            self._executor = self._make()
+        while len(job.pending) < job.max_pending(self._workers):
+            chunk = job.next_chunk(self._throughput, self._workers)
             if chunk is None:
                 return
             if self._executor is None:
@@ -148,6 +152,11 @@ class Workers:
                 self._replace_executor(job)
             else:
                 job.pending[future] = chunk
+
+    @property
+    def _workers(self) -> int:
+        """Number of workers now: those of a cluster come and go."""
+        return max(1, getattr(self._executor, "count", self._count))
 
     def _collect(self, job: "Job") -> None:
         """Wait for at least one chunk and store the results."""
@@ -166,7 +175,7 @@ class Workers:
         try:
             columns, seconds = future.result()
             job.put(chunk, columns)
-        except StudyError:
+        except (StudyError, InputError):
             raise
         except CancelledError:
             job.retries.append(chunk)  # Not started, or lost with a scheduler that may return.
@@ -248,13 +257,13 @@ class Job:
         """Take the outcomes of a chunk.
 
         Raises:
-            ValueError: If they have another shape, or other columns than the first chunk.
+            InputError: If they have other columns than the first chunk.
         """
-        check_shape(chunk.runs, columns)
         self.names = self.names or tuple(columns)
-        if not columns or {*columns} != {*self.names}:
-            message = f"columns {', '.join(columns)} differ from those of other chunks"
-            raise ValueError(message)
+        if {*columns} != {*self.names}:
+            given, allowed = ", ".join(columns), ", ".join(self.names)
+            message = f"compute returned the columns {given} for {chunk.runs}: must be {allowed}"
+            raise InputError(message)
         self.finished.append((chunk.runs, columns))
         self.computed += chunk.runs.rows
 
@@ -300,5 +309,5 @@ def run(task: Compute, runs: RunBlock, study_build: str) -> Result:
         )
         raise RuntimeError(message)
     start = time.perf_counter()
-    columns = task(runs)
+    columns = outcomes(task, runs)
     return columns, time.perf_counter() - start

@@ -12,6 +12,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from secrets import token_hex
 
 from agent_economy.live.discovery.running_drive import MAX_BYTES, RunningDrive, drive_of
 
@@ -126,9 +127,8 @@ def read_all(folders: list[Path]) -> Iterator[RunningDrive]:
 def _written(drive: RunningDrive, folder: Path) -> int:
     """Write a file that only this user can read; return its descriptor, which is locked."""
     with _opened(folder, None) as outer, _opened(Path("drives"), outer) as inner:
-        name, new = f"{drive.pid}.json", f".{drive.pid}.new"
-        with suppress(FileNotFoundError):
-            os.unlink(new, dir_fd=inner)
+        # Drives in different containers may have the same process number.
+        name, new = f"{drive.pid}.json", f".{drive.pid}-{token_hex(8)}.new"
         file = os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _FILE, 0o600, dir_fd=inner)
         try:
             # Locked for as long as the drive runs: the number of its process may be used again.
@@ -138,6 +138,8 @@ def _written(drive: RunningDrive, folder: Path) -> int:
             os.rename(new, name, src_dir_fd=inner, dst_dir_fd=inner)
         except OSError:
             os.close(file)
+            with suppress(OSError):
+                os.unlink(new, dir_fd=inner)
             raise
         return file
 

@@ -9,7 +9,7 @@ from typing import IO, Any
 
 from agent_economy._core import InputError
 from agent_economy.live.clock import now_s
-from agent_economy.recording.output import check_no_drive
+from agent_economy.recording.output import make_empty
 from agent_economy.regular_file import descriptor_of
 
 MAX_ENTRIES = 100_000
@@ -60,12 +60,17 @@ def opened(file: Path) -> IO[str]:
     """Open a file for writing, so that each line is in it at once.
 
     Raises:
-        InputError: If it cannot be written, or is the recording of a drive.
+        InputError: If it cannot be written, is being written, or is the recording of a drive.
     """
-    check_no_drive(file)
     try:
-        flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
-        return os.fdopen(descriptor_of(file, flags), "w", buffering=1, encoding="utf-8")
+        descriptor = descriptor_of(file, os.O_RDWR | os.O_CREAT)
+        stream = os.fdopen(descriptor, "w", buffering=1, encoding="utf-8")
+        try:
+            make_empty(file, descriptor)
+        except BaseException:
+            stream.close()
+            raise
     except OSError as error:
         message = f"{file}: the log cannot be written: {error.strerror}"
         raise InputError(message) from None
+    return stream

@@ -1,10 +1,10 @@
 """Writes the recording of a run: the run is replayed from its beginning to its latest tick."""
 
 import hashlib
-import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BufferedWriter
 from pathlib import Path
 
 from agent_economy._core import InputError
@@ -15,7 +15,7 @@ from agent_economy.recording.replayer import replay_steps
 from agent_economy.runs import factory
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.recordings.history import RunHistory
-from agent_economy.server.recordings.temporary_files import remove_abandoned, temporary_file
+from agent_economy.whole_file import put_in_place, remove_abandoned, temporary_file
 
 MAX_ROBOT_STEPS = 10_000_000
 """Maximum of steps times robots, about half a gigabyte."""
@@ -66,7 +66,7 @@ class RecordingWriter:
                 is_complete = self._record(simulation, file)
                 return rename_complete(file, stem(history)) if is_complete else None
 
-    def _record(self, simulation: Stepped, file: Path) -> bool:
+    def _record(self, simulation: Stepped, file: BufferedWriter) -> bool:
         robot_steps, history = 0, self.history
         with Recording(simulation, file) as recording:
             replayed = replay_steps(
@@ -119,18 +119,19 @@ def saving_errors(folder: Path) -> Iterator[None]:
     raise InputError(message)
 
 
-def rename_complete(file: Path, name: str) -> Path:
+def rename_complete(file: BufferedWriter, name: str) -> Path:
     """Give a file its final name once its content is on disk.
 
     Raises:
         InputError: If a recording of a drive has this name.
     """
-    with file.open("rb") as stream:
+    path = Path(file.name)
+    with path.open("rb") as stream:
         digest = hashlib.file_digest(stream, "sha256").hexdigest()[:DIGEST_DIGITS]
-        os.fsync(stream.fileno())
-    final = file.with_name(f"{name}-{digest}{SUFFIX}")
+    final = path.with_name(f"{name}-{digest}{SUFFIX}")
     check_no_drive(final)
-    return file.replace(final)
+    put_in_place(file, final)
+    return final
 
 
 def stem(history: RunHistory) -> str:

@@ -19,7 +19,7 @@ from agent_economy._core import InputError
 from agent_economy.study import Plan, Progress
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.errors import StudyError
-from agent_economy.study.progress import Leader, LeaderInterval, Range
+from agent_economy.study.progress import NOTHING, Leader, LeaderInterval, Range
 from agent_economy.study.store.folder import QUESTION
 
 NICENESS = 10
@@ -185,7 +185,7 @@ class ProgressReporter:
         if now_s < self._report_at_s and not now.is_over:
             return
         if now_s >= self._estimate_at_s:
-            self._estimates = now.intervals(), None if now.is_over else now.estimate_remaining()
+            self._estimates = now.intervals(), now.estimate_remaining()
             took_s = time.monotonic() - now_s
             self._estimate_at_s = now_s + max(ESTIMATE_S, took_s / ESTIMATE_SHARE)
         self._line.send(self._message(now))
@@ -196,7 +196,7 @@ class ProgressReporter:
         shown, remaining_runs = self._estimates
         return {
             **{name: getattr(now, source) for name, source in COUNTS.items()},
-            "remaining_s": now.time_left_s(remaining_runs),
+            "remaining_s": now.time_left_s(NOTHING if now.is_over else remaining_runs),
             "standings": [row for each in shown if (row := self._standing(now, *each))],
             "eliminated": self._new,
             "certified": None if now.certified is None else len(now.certified),

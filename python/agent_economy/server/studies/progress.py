@@ -13,6 +13,7 @@ from agent_economy.server.studies.summary import read_answer
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.study.answer.labels import label
 from agent_economy.study.answer.requirement_results import Status
+from agent_economy.study.progress import NOTHING
 
 MAX_STANDINGS = 50
 """Maximum number of configurations whose merit is sent."""
@@ -114,7 +115,7 @@ def stored(folder: Path) -> dict[str, Any]:
         "rounds": len(decisions),
         "runs": facts["runs"] if answer else store.count(),
         "remaining": facts["survivors"],
-        "remaining_s": None,
+        "remaining_s": NOTHING if facts["is_over"] else None,
         "standings": standings,
         "eliminated": [row for each in decisions for row in each.facts["eliminated"]],
         "certified": None if certified is None else len(certified),

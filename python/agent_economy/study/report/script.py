@@ -4,12 +4,12 @@ import contextlib
 import os
 import subprocess
 import sys
-import tempfile
 from importlib.metadata import version
 from pathlib import Path
 from typing import Self
 
 from agent_economy.study.errors import StudyError
+from agent_economy.whole_file import remove_abandoned, write_whole
 
 BUNDLE = (
     "import sys, vl_convert; "
@@ -92,13 +92,5 @@ def keep(script: str) -> None:
     with contextlib.suppress(OSError, RuntimeError):
         path = cache_file()
         path.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, name = tempfile.mkstemp(prefix=".unfinished-", dir=path.parent)
-        try:
-            with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-                file.write(script)
-                file.flush()
-                os.fsync(descriptor)
-            Path(name).replace(path)
-        except OSError:
-            Path(name).unlink(missing_ok=True)
-            raise
+        remove_abandoned(path.parent)
+        write_whole(path, script.encode())

@@ -1,7 +1,5 @@
 """A study's folder: its lock, files that are written atomically, and errors with paths."""
 
-import contextlib
-import errno
 import fcntl
 import os
 import sqlite3
@@ -15,6 +13,8 @@ from agent_economy.regular_file import IrregularFileError, descriptor_of, open_r
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
 from agent_economy.study.store.differences import differences
+from agent_economy.whole_file import remove_abandoned, sync_folder
+from agent_economy.whole_file import write_whole as write_atomically
 
 QUESTION = "study.toml"
 BLOCKS = "blocks"
@@ -24,9 +24,6 @@ STAGING = "staging.runs"
 LOCK = ".lock"
 ANSWER = "answer.json"
 REPORT = "report.html"
-UNFINISHED = ".unfinished-"
-"""Prefix of the names of files that are being written."""
-
 MAX_BYTES = 2**30
 """Maximum size of a file; blocks, answers and maps are smaller."""
 
@@ -114,12 +111,9 @@ def is_locked(folder: str | Path) -> bool:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove partial files of killed processes. The folder must be locked."""
-    with disk_errors(folder):
-        for place in (folder / BLOCKS, folder / FILES, folder):
-            for path in place.glob(f"{UNFINISHED}*"):
-                if not path.is_dir():
-                    path.unlink()
+    """Remove partial files of killed processes."""
+    for place in (folder / BLOCKS, folder / FILES, folder):
+        remove_abandoned(place)
 
 
 def write_whole(path: Path, data: bytes | memoryview) -> None:
@@ -131,61 +125,7 @@ def write_whole(path: Path, data: bytes | memoryview) -> None:
         InputError: If it cannot be written; no partial file remains.
     """
     with disk_errors(path):
-        target = target_of(path)
-        unfinished = target.with_name(UNFINISHED + target.name)
-        try:
-            with unfinished.open("wb", buffering=0) as file:
-                write_all(file.fileno(), data)
-                os.fsync(file.fileno())
-            unfinished.replace(target)
-            sync_folder(target.parent)
-        except OSError:
-            with contextlib.suppress(OSError):
-                unfinished.unlink()
-            raise
-
-
-def check_writable(path: Path) -> None:
-    """Check that `write_whole` can write a file; no file remains.
-
-    Raises:
-        OSError: If it cannot.
-    """
-    target = target_of(path)
-    unfinished = target.with_name(UNFINISHED + target.name)
-    unfinished.touch()
-    unfinished.unlink()
-
-
-def target_of(path: Path) -> Path:
-    """Return the file that is written at a path: the target of a link, which may not exist yet.
-
-    Raises:
-        OSError: If links form a circle, or lead to what a file must not replace.
-    """
-    try:
-        target = Path(os.path.realpath(path, strict=True))
-    except FileNotFoundError:
-        return Path(os.path.realpath(path))
-    if not (target.is_file() or target.is_dir()):
-        raise OSError(errno.EPERM, "it is a pipe or a device", str(path))
-    return target
-
-
-def write_all(descriptor: int, data: bytes | memoryview) -> None:
-    """Write every byte: `os.write` may write fewer than requested."""
-    left = memoryview(data)
-    while left:
-        left = left[os.write(descriptor, left) :]
-
-
-def sync_folder(folder: Path) -> None:
-    """Sync the file names of a folder to the disk."""
-    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
+        write_atomically(path, data)
 
 
 def write_files(folder: Path, content: Mapping[str, bytes]) -> None:
@@ -220,8 +160,8 @@ def write_question(
         return
     if existing is None or may_replace(existing.decode(errors="replace"), question):
         # Removed first: whenever this is killed, an existing answer belongs to study.toml.
-        with disk_errors(folder):
-            for name in (ANSWER, REPORT):
+        for name in (ANSWER, REPORT):
+            with disk_errors(folder / name):
                 (folder / name).unlink(missing_ok=True)
         write_whole(path, question.encode())
     else:

@@ -103,7 +103,7 @@ class Ledger:
         """
         with disk_errors(path, "opened as a ledger"):
             check_parts(path)
-            connection = sqlite3.connect(path, timeout=30, isolation_level=None)
+            connection = connect(path, "rwc")
             try:
                 prepare(connection, path, columns)
             except BaseException:
@@ -285,8 +285,7 @@ def header(connection: sqlite3.Connection, name: str) -> int:
 def connect_to_read(path: Path) -> sqlite3.Connection:
     """Return a read-only connection, also for folders that cannot be written."""
     check_parts(path)
-    address = f"file:{quote(os.fsencode(path.absolute()))}?mode=ro"
-    connection = sqlite3.connect(address, uri=True, timeout=30, isolation_level=None)
+    connection = connect(path, "ro")
     try:
         connection.execute("SELECT count(*) FROM sqlite_master")
     except sqlite3.OperationalError:
@@ -294,8 +293,14 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
         if not path.exists() or path.with_name(f"{path.name}-wal").exists():
             raise
         # No process writes, and SQLite cannot create the files for coordinating with a writer.
-        return sqlite3.connect(f"{address}&immutable=1", uri=True, isolation_level=None)
+        return connect(path, "ro", "&immutable=1")
     return connection
+
+
+def connect(path: Path, mode: str, more: str = "") -> sqlite3.Connection:
+    """Open a file by its URI: SQLite reads a path that begins with `file:` as one."""
+    address = f"file:{quote(os.fsencode(path.absolute()))}?mode={mode}{more}"
+    return sqlite3.connect(address, uri=True, timeout=30, isolation_level=None)
 
 
 def check_parts(path: Path) -> None:

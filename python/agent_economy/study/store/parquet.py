@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from agent_economy import arrow
+from agent_economy._core import InputError
 from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store.columns import SHARED_BIT, Column, bits, schema
 
@@ -29,7 +30,7 @@ def table_of(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> pa.
     """Return the rows of a block.
 
     Raises:
-        ValueError: If a value does not fit the type of its column, or NaN is only in some of the
+        InputError: If a value does not fit the type of its column, or NaN is only in some of the
             columns that share a bit.
     """
     check_shared(columns, data)
@@ -51,7 +52,7 @@ def encode(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> memor
     """Return the file of a block with ascending configurations.
 
     Raises:
-        ValueError: If a value does not fit the type of its column.
+        InputError: If a value does not fit the type of its column.
     """
     sink = pa.BufferOutputStream()
     pq.write_table(
@@ -94,7 +95,7 @@ def check_shared(columns: tuple[Column, ...], data: Columns) -> None:
     for name, other in pairwise(names):
         if (np.isnan(data[name]) != np.isnan(data[other])).any():
             message = f"column {other} must be NaN in the same runs as {name}"
-            raise ValueError(message)
+            raise InputError(message)
 
 
 def check_range(column: Column, values: NDArray[np.float64]) -> None:
@@ -107,7 +108,7 @@ def check_range(column: Column, values: NDArray[np.float64]) -> None:
 def refuse(column: Column, value: float) -> NoReturn:
     """Raise the error for a value that does not fit its column."""
     message = f"column {column.name} ({column.kind}) cannot contain {value}"
-    raise ValueError(message)
+    raise InputError(message)
 
 
 def decode(data: bytes, block: RunBlock, columns: tuple[Column, ...]) -> Columns:

@@ -1,7 +1,6 @@
 """Read-only access to a study's store, without a lock, also while another process writes."""
 
 import hashlib
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +22,10 @@ from agent_economy.study.store.writing import check_files, read_block
 
 if TYPE_CHECKING:
     from duckdb import DuckDBPyConnection, DuckDBPyRelation
+
+
+PATTERN = {*"*?["}
+"""Characters of patterns of DuckDB."""
 
 
 @dataclass(frozen=True)
@@ -153,14 +156,19 @@ class StoredRuns:
 def parquet_files(connection: "DuckDBPyConnection", paths: Sequence[Path]) -> "DuckDBPyRelation":
     """Return the rows of exactly these files, whatever characters their paths have.
 
-    DuckDB reads *, ? and [ as patterns, ~ as the home folder, and key=value as a column.
+    DuckDB reads *, ? and [ as patterns, which fail beside folders with odd names, ~ as the home
+    folder, and key=value as a column.
     """
     names = [str(path.absolute()) for path in paths]
     if not all(map(validation.is_text, names)):  # DuckDB opens no path that is not UTF-8.
         tables = [pq.ParquetFile(pa.BufferReader(path.read_bytes())).read() for path in paths]
         return connection.from_arrow(pa.concat_tables(tables))
-    exact = [re.sub(r"([*?\[])", r"[\1]", name) for name in names]
-    return connection.read_parquet(exact, hive_partitioning=False)
+    if PATTERN & set(names[0]):
+        from pyarrow.dataset import dataset  # noqa: PLC0415  (slow to load)
+        from pyarrow.fs import LocalFileSystem  # noqa: PLC0415
+
+        return connection.from_arrow(dataset(names, format="parquet", filesystem=LocalFileSystem()))
+    return connection.read_parquet(names, hive_partitioning=False)
 
 
 def read(folder: str | Path) -> ReadStore:

@@ -19,12 +19,14 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import arrow
+from agent_economy._core import InputError
 from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import Columns, Gathered, Part, RunBlock
 from agent_economy.study.store import folder as files
 from agent_economy.study.store import parquet
 from agent_economy.study.store.columns import Column, schema
 from agent_economy.study.store.coverage import Coverage
+from agent_economy.whole_file import sync_folder
 
 STAGE_S = 0.5
 """Maximum time for which finished runs are only in memory, until the next part is finished."""
@@ -70,7 +72,7 @@ class Staging:
 
         Raises:
             StoreError: If they cannot be written.
-            ValueError: If a value does not fit the type of its column.
+            InputError: If a value does not fit the type of its column.
         """
         self._waiting.append((part, data))
         if time.monotonic() - self._since_s > STAGE_S:
@@ -83,7 +85,7 @@ class Staging:
             yield
         except BaseException:
             # What interrupted it is reported, also if the disk is full.
-            with suppress(StoreError, ValueError):
+            with suppress(StoreError, InputError):
                 self.flush()
             raise
 
@@ -91,7 +93,7 @@ class Staging:
         """Write the runs that are only in memory.
 
         Raises:
-            StoreError, ValueError: As `add`.
+            StoreError, InputError: As `add`.
         """
         if not self._waiting:
             return
@@ -106,7 +108,7 @@ class Staging:
             finally:
                 os.close(descriptor)
             if is_new:
-                files.sync_folder(self._path.parent)
+                sync_folder(self._path.parent)
         self._rows = pa.concat_tables([self._rows, rows])
         self._waiting.clear()
         self._since_s = time.monotonic()
@@ -131,11 +133,18 @@ class Staging:
             self._path.unlink(missing_ok=True)
 
 
+def write_all(descriptor: int, data: bytes) -> None:
+    """Write every byte: `os.write` may write fewer than requested."""
+    left = memoryview(data)
+    while left:
+        left = left[os.write(descriptor, left) :]
+
+
 def append(descriptor: int, data: bytes) -> None:
     """Append bytes to a file and wait until they are on the disk; all of them or none."""
     size = os.fstat(descriptor).st_size
     try:
-        files.write_all(descriptor, data)
+        write_all(descriptor, data)
         os.fsync(descriptor)
     except BaseException:
         # Ctrl-C may come here: they are written again, and must not be there twice.

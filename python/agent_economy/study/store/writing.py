@@ -8,9 +8,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Self
 
-import numpy as np
 import pyarrow as pa
 
+from agent_economy._core import InputError
 from agent_economy.regular_file import check_regular
 from agent_economy.study.errors import StoreError
 from agent_economy.study.run_block import (
@@ -18,7 +18,6 @@ from agent_economy.study.run_block import (
     Compute,
     Gathered,
     RunBlock,
-    check_shape,
     parts_of,
 )
 from agent_economy.study.store import folder as files
@@ -133,7 +132,7 @@ class Store:
         Raises:
             StoreError: If a stored block is missing or damaged, or a new one cannot be written;
                 also any error that `compute` raises.
-            ValueError: If `compute` does not return the store's columns.
+            InputError: If `compute` does not return the store's columns.
         """
         parts = list(split(block))
         for part in parts:
@@ -174,22 +173,25 @@ class Store:
         self.pending += gathered.rows
         for missing in list(gathered.missing()):
             with closing(parts_of(compute, missing)) as parts:
-                for part, columns in parts:
-                    data = self._checked(part, columns)
+                for part, data in parts:
+                    self._check_names(data)
                     gathered.put(part, data)
                     self._staging.add(part, data)
                     self.computed += part.rows
                     self.pending += part.rows
         return gathered.columns
 
-    def _checked(self, part: RunBlock, columns: Columns) -> Columns:
-        """Return outcomes as numbers, after checking that they are of a part and of the store."""
-        if {column.name for column in self.columns} != columns.keys():
-            message = f"columns {', '.join(columns)} are not those of the store"
-            raise ValueError(message)
-        data = {name: np.asarray(values, dtype=np.float64) for name, values in columns.items()}
-        check_shape(part, data)
-        return data
+    def _check_names(self, columns: Columns) -> None:
+        """Refuse outcomes with other columns than those of the store."""
+        names = {column.name for column in self.columns}
+        if columns.keys() != names:
+            wrong = [f"lack {name}" for name in names - columns.keys()]
+            wrong += [f"have {name}" for name in columns.keys() - names]
+            message = (
+                f"the columns that compute returned {', '.join(sorted(wrong))}: "
+                f"must be {', '.join(column.name for column in self.columns)}"
+            )
+            raise InputError(message)
 
     def _store(self, block: RunBlock, data: Columns) -> Columns:
         """Write outcomes to the disk and enter them; return them as they will be read."""

@@ -60,13 +60,19 @@ test("a stopped race has no speed and no time left", () => {
   expect(words).toEqual(["3 of 8 remaining", "2,031 runs", "36 round", "12 s elapsed"]);
 });
 
+test("a race that has ended has no time left", () => {
+  const ended: StudyProgress = { ...race, state: "answered", remaining_s: [0, 0] };
+  expect(raceSummary(ended, 8, [])).not.toContain("left");
+});
+
 test("a race in another process has no known speed", () => {
   const words = raceFigures({ ...race, seconds: 0, runs_per_s: 0, remaining_s: null }, 8);
   expect(words.slice(3)).toEqual([["–", "runs per second"]]);
 });
 
 test("durations are rounded for reading", () => {
-  expect([0.2, 42, 180, 7500].map(duration)).toEqual(["1 s", "42 s", "3 min", "2 h 5 min"]);
+  const words = ["0 s", "1 s", "42 s", "3 min", "2 h 5 min"];
+  expect([0, 0.2, 42, 180, 7500].map(duration)).toEqual(words);
 });
 
 test("a range of durations has its unit once if both ends have it", () => {

@@ -12,7 +12,8 @@ export const stateLabels: Record<StudyState, string> = {
 export function raceSummary(race: StudyProgress, total: number, labels: string[]): string {
   const known = race.certified === null ? remaining(race, total) : decided(race);
   const parts = [...known.map(([value, name]) => `${value} ${name}`), plural(race.runs, "run")];
-  if (race.remaining_s !== null) parts.push(`about ${durations(race.remaining_s)} left`);
+  if (race.state === "running" && race.remaining_s !== null)
+    parts.push(`about ${durations(race.remaining_s)} left`);
   const best = bestOf(race);
   const verb = race.certified === null ? "Leading" : "Cheapest certified";
   const leads = best === null ? "" : ` ${verb}: ${nameOf(labels, best)}.`;
@@ -65,7 +66,7 @@ export function count(value: number): string {
 
 /** Such as `3 s`, `12 min` or `2 h 5 min`. */
 export function duration(time_s: number): string {
-  if (time_s < 99.5) return `${Math.max(1, Math.round(time_s))} s`;
+  if (time_s < 99.5) return `${time_s > 0 ? Math.max(1, Math.round(time_s)) : 0} s`;
   const minutes = Math.round(time_s / 60);
   if (minutes < 100) return `${minutes} min`;
   return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
