@@ -155,7 +155,13 @@ def decomposed(
 
 
 def with_one_team(paths: Sequence[str]) -> Groups:
-    """Return the factors as groups: all numbers of robots and controllers are one factor."""
+    """Return the factors as groups: all numbers of robots and controllers are one factor.
+
+    Factors that depend on each other have no separate shares, but as a group they do.
+
+    Source: Jacques, Lavergne and Devictor (2006), Sensitivity analysis in presence of model
+        uncertainty and correlated inputs, Reliability Engineering and System Safety 91.
+    """
     team = tuple(index for index, path in enumerate(paths) if counted_kind(path) is not None)
     others = tuple((index,) for index in range(len(paths)) if index not in team)
     return (team, *others) if team else others
