@@ -15,6 +15,7 @@ from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.sentence import sentence
+from agent_economy.study.answer.side_statements import SideStatements
 from agent_economy.study.answer.verdict import verdict
 from agent_economy.study.selection import Elimination, drive, guarantee_text, leading
 
@@ -26,8 +27,6 @@ Simulator = Callable[[Values, int, int], Columns]
 WANDERERS = "robots.wanderer.count"
 CLASSIC = Path(__file__).resolve().parents[2] / "scenarios/classic.toml"
 LONGEST_S = 120.0
-FEW = 50
-"""Number of configurations up to which the sensitivity takes seconds, not minutes."""
 WEIGHTS = {"time_s": -0.03, "robots": -0.2, "failed": -5.0}
 
 
@@ -132,7 +131,7 @@ def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
         best=ending.best,
         results=found,
         saturations=saturations(evidence, ending.best, delta),
-        sensitivity=sensitivity(evidence) if len(found) <= FEW else None,
+        sensitivity=SideStatements().make("sensitivity", lambda: sensitivity(evidence)),
         efforts=efforts(evidence, ending.best, delta),
         published=published.results(scenario),
     )

@@ -1,21 +1,18 @@
-"""Answers: verdicts, dominance, saturation, sensitivity and predicted efforts."""
+"""Answers: verdicts, dominance, saturation and predicted efforts."""
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import partial
 
 import in_memory_study
 import numpy as np
 import pytest
 
-from agent_economy.study.answer import sensitivity as sensitivity_module
 from agent_economy.study.answer.effort import Effort, efforts
 from agent_economy.study.answer.evidence import Evidence, Interval, Sample
 from agent_economy.study.answer.front import front
 from agent_economy.study.answer.labels import label, recommendation
 from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
-from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.side_statements import SideStatements
 from agent_economy.study.answer.ties import Standing, Verdict, standings
 from agent_economy.study.answer.verdict import failures
@@ -129,49 +126,6 @@ def test_predicted_efforts_are_within_a_factor_of_three() -> None:
 def test_the_effort_of_any_delta_is_finite(delta: float) -> None:
     seen = evidence(sample(0.5, 40, {TEAM: 1}), sample(0.6, 40, {TEAM: 2}))
     assert [effort.delta < delta for effort in efforts(seen, 1, delta)] == [True] * 3
-
-
-def test_a_factor_without_effect_has_no_influence() -> None:
-    rng = np.random.default_rng(2)
-    samples = []
-    for size in range(8):
-        for idle in "abcdef":
-            merits = 0.1 * size + 0.1 * rng.random(10)
-            columns = dict.fromkeys(("merit", "time_s", "failed", "robots"), merits)
-            samples.append(Sample({"idle": idle, TEAM: size}, columns, {}, 0))
-    found = sensitivity(evidence(*samples))
-    assert found is not None
-    assert [each.path for each in found.influences] == [TEAM, "idle"]
-    strong, weak = found.influences
-    assert strong.first_order > 0.8
-    assert weak.first_order < 0.1
-    assert sensitivity(evidence(*samples)) == found
-    assert found.noise < 0.02
-
-
-@pytest.mark.parametrize("rows", range(1, 13))
-def test_the_influence_of_factors_is_finite_or_left_out_with_a_reason(
-    rows: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sensitivity_module, "RESAMPLES", 2)
-    rng = np.random.default_rng(rows)
-    for columns in range(1, 13):
-        samples = []
-        for size in range(rows):
-            for limit_s in range(columns):
-                merits = 0.1 * size + 0.05 * limit_s + rng.random(10)
-                values = {TEAM: size, "clock.ends_step": limit_s}
-                samples.append(Sample(values, {"merit": merits}, {}, 0))
-        side = SideStatements()
-        found = side.make("sensitivity", partial(sensitivity, evidence(*samples)))
-        if found is None and rows > 1 < columns and rows * columns >= 30:
-            (omission,) = side.omissions
-            assert omission.statement == "sensitivity"
-            assert omission.reason.startswith(f"{rows * columns} configurations are too few")
-        else:
-            assert not side.omissions
-        shares = [(each.first_order, each.total) for each in found.influences] if found else []
-        assert np.isfinite(shares).all()
 
 
 def test_a_side_statement_that_fails_or_is_not_strict_json_is_left_out_with_its_reason() -> None:

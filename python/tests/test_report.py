@@ -273,16 +273,48 @@ def test_without_published_results_none_are_shown(teams: Study, script: str) -> 
     assert "published" not in charts.specifications(MeritView(bare, evidence))
 
 
-def test_influential_factors_are_shown_with_the_share_of_noise(
-    script: str,
-) -> None:
+@pytest.fixture(scope="module")
+def mixes() -> Study:
+    """Return a study of two factors, with twenty runs per configuration."""
     grid = product(range(4), range(1, 11))
     given: list[in_memory_study.Values] = [{MIX: 8 * mix, ROVERS: robots} for mix, robots in grid]
-    found = in_memory_study.study(given, in_memory_study.synthetic, runs=20)
-    page = body(report.html(*found, script))
-    assert "of that variance is noise of means" in page
-    rows = charts.specifications(MeritView(*found))["sensitivity"]["data"]["values"]
-    assert {row["label"] for row in rows} == {"mix", "rovers"}
+    return in_memory_study.study(given, in_memory_study.synthetic, runs=20)
+
+
+def with_sensitivity(found: Study, **changes: Any) -> Study:
+    """Return a study with a changed sensitivity."""
+    answer, evidence = found
+    assert answer.sensitivity is not None
+    return replace(answer, sensitivity=replace(answer.sensitivity, **changes)), evidence
+
+
+def test_shares_of_factors_are_shown_alone_and_with_interactions(mixes: Study, script: str) -> None:
+    page = body(report.html(*mixes, script))
+    assert "Shares of the variance of the mean merit" in page
+    assert "Noise of the runs is" in page
+    assert "polynomial" not in page
+    rows = charts.specifications(MeritView(*mixes))["sensitivity"]["data"]["values"]
+    shares = {(row["label"], row["measure"]): row["value"] for row in rows}
+    assert {label for label, _ in shares} == {"mix", "rovers"}
+    for label in ("mix", "rovers"):
+        assert shares[label, "alone"] <= shares[label, "with interactions"]
+
+
+def test_shares_of_a_polynomial_are_shown_with_what_it_leaves_unexplained(
+    mixes: Study, script: str
+) -> None:
+    page = body(report.html(*with_sensitivity(mixes, unexplained=0.03), script))
+    assert "polynomial in the factors, which leaves 3.0% of the variance unexplained" in page
+
+
+def test_factors_that_are_one_are_shown_together(mixes: Study, script: str) -> None:
+    answer, _ = mixes
+    assert answer.sensitivity is not None
+    first, *others = answer.sensitivity.influences
+    team = replace(first, paths=(ROVERS, "robots.drone.count"))
+    page = body(report.html(*with_sensitivity(mixes, influences=(team, *others)), script))
+    assert "robots.rover.count, robots.drone.count" in page
+    assert "are one factor, the team" in page
 
 
 @pytest.fixture

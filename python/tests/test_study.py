@@ -243,9 +243,9 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
     assert len(answer.results) == 36
     assert answer.sensitivity is not None
     assert answer.omissions == ()
-    assert {each.path for each in answer.sensitivity.influences} == set(vary)
-    deltas = [each.total for each in answer.sensitivity.influences]
-    assert deltas == sorted(deltas, reverse=True)
+    assert {each.paths for each in answer.sensitivity.influences} == {(path,) for path in vary}
+    shares = [each.with_interactions.value for each in answer.sensitivity.influences]
+    assert shares == sorted(shares, reverse=True)
     assert files.as_json(study.run(scenario, vary=vary, delta=0.5)) == files.as_json(answer)
     assert " with " in answer.sentence
 

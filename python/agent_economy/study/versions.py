@@ -4,7 +4,7 @@ import platform
 from functools import cache
 from importlib.metadata import version
 
-PACKAGES = ("agent-economy", "numpy", "pyarrow", "salib", "scipy", "vl-convert-python")
+PACKAGES = ("agent-economy", "numpy", "pyarrow", "scipy", "vl-convert-python")
 
 
 @cache

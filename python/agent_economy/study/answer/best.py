@@ -31,7 +31,8 @@ class Answer(StudyAnswer):
         best: Index of the selected configuration.
         results: Result of each configuration.
         saturations: The saturation of each varied team size.
-        sensitivity: Influence of each factor; None if there are too few configurations.
+        sensitivity: Influence of each factor; None if there are too few configurations, or if it
+            cannot be stated.
         efforts: Predicted runs for smaller deltas.
         published: Published results, scored with the same merit.
         omissions: Those of the preceding four that could not be stated, each with the reason.

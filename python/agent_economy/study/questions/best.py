@@ -105,7 +105,9 @@ class Best:
         found = results(evidence, ending, delta)
         side = SideStatements()
         saturated = side.make("saturations", lambda: saturations(evidence, best, delta))
-        influences = side.make("sensitivity", lambda: sensitivity(evidence))
+        influences = side.make(
+            "sensitivity", lambda: sensitivity(evidence, scenario.design, scenario.where)
+        )
         predicted = None
         if runs is None:
             predicted = side.make("efforts", lambda: efforts(evidence, best, delta))

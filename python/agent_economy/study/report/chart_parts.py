@@ -126,11 +126,6 @@ def bounds(interval: Interval) -> dict[str, float | None]:
     return {name: finite(getattr(interval, name)) for name in ("value", "low", "high")}
 
 
-def around(value: float, error: float) -> Interval:
-    """Return a value with the same error on both sides."""
-    return Interval(value, value - error, value + error)
-
-
 def row_of(view: AnyView, index: int) -> dict[str, Any]:
     """Return the number and name of a configuration, the same in all of its rows."""
     return {"label": view.names[index], "configuration": index}

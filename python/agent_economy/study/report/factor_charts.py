@@ -12,7 +12,6 @@ from agent_economy.study.report.chart_parts import (
     Codes,
     Rows,
     Spec,
-    around,
     bounds,
     by_name,
     chart,
@@ -26,7 +25,7 @@ from agent_economy.study.report.chart_parts import (
 from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.heat_map import heat_map
 from agent_economy.study.report.merit_view import MeritView
-from agent_economy.study.report.view import factor_name
+from agent_economy.study.report.view import factor_name, factor_names
 
 MARKS: Codes = {name: code for name, code in VERDICTS.items() if name != "worse"}
 """The verdicts that mark cells of a heat map; most cells of a finished study are worse."""
@@ -92,21 +91,15 @@ def saturation(view: MeritView, found: Saturation) -> Spec:
 
 
 def sensitivity(view: MeritView) -> Spec:
-    """Return the chart of the influence of each factor."""
+    """Return the chart of the share of the variance of the mean merit that each factor explains."""
     found = view.answer.sensitivity
-    rows: Rows = []
-    for each in found.influences if found else ():
-        shares = ((each.first_order, each.first_order_error), (each.total, each.total_error))
-        rows += [
-            {
-                "label": factor_name(each.path),
-                "measure": measure,
-                **bounds(around(share, error)),
-            }
-            for measure, (share, error) in zip(MEASURES, shares, strict=True)
-        ]
+    rows: Rows = [
+        {"label": factor_names(each.paths), "measure": measure, **bounds(share)}
+        for each in (found.influences if found else ())
+        for measure, share in zip(MEASURES, (each.alone, each.with_interactions), strict=True)
+    ]
     place = {"y": by_name(rows), "yOffset": field("measure", "nominal", sort=list(MEASURES))}
-    title = {"title": "influence on the merit (0 none, 1 all)"}
+    title = {"title": "share of the variance of the mean merit", "axis": {"format": "~%"}}
     layers = with_bounds("x", title, place, coded("measure", MEASURES, rows))
     return chart([line_at("x", 0.0), *layers], rows, {"step": 17})
 

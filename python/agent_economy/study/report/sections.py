@@ -8,7 +8,7 @@ from agent_economy.study.paths import robot_kind
 from agent_economy.study.report import goal_table, tables
 from agent_economy.study.report.any_view import AnyView
 from agent_economy.study.report.clearance_section import clearance
-from agent_economy.study.report.formatting import MINUS, TIMES, brief, count
+from agent_economy.study.report.formatting import MINUS, TIMES, brief, count, percent
 from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.section import Picture, Section
 from agent_economy.study.report.view import MAX_SHOWN, factor_name
@@ -212,14 +212,37 @@ def history(view: MeritView) -> Section:
 
 def sensitivity(view: MeritView) -> Section:
     """Return the section on the influence of factors."""
-    found = view.answer.sensitivity
     note = (
-        "The share of the merit's variance among configurations that each factor explains. Alone: "
-        "first-order index. With interactions: Borgonovo's delta."
+        "Shares of the variance of the mean merit among the compared configurations. Alone: what a "
+        "factor explains by itself (Sobol' index of first order). With interactions: what it "
+        "explains by itself and together with others (total index); as an interaction counts for "
+        "each of its factors, these shares may add up to more than 100%."
     )
-    chance = f"{found.noise if found else 0:.0%} of that variance is noise of means of few runs."
-    picture = Picture("sensitivity", "Influence of each factor, with 95% bootstrap intervals")
-    return Section("Influence of factors", (note, chance), (picture,), (tables.sensitivity(view),))
+    picture = Picture("sensitivity", "Share of each factor, with its 95% interval")
+    notes = (note, *basis_of_shares(view))
+    return Section("Influence of factors", notes, (picture,), (tables.sensitivity(view),))
+
+
+def basis_of_shares(view: MeritView) -> Iterator[str]:
+    """Yield what the shares of factors are based on."""
+    found = view.answer.sensitivity
+    if found is None:
+        return
+    yield (
+        f"Noise of the runs is {percent(found.noise, 1)} of the variance of the observed means. It "
+        "is subtracted, and the intervals show what it leaves uncertain."
+    )
+    if found.unexplained is not None:
+        yield (
+            "The shares are those of a polynomial in the factors, which leaves "
+            f"{percent(found.unexplained, 1)} of the variance unexplained. Any factor may explain "
+            "that part, so upper bounds include it."
+        )
+    if any(len(each.paths) > 1 for each in found.influences):
+        yield (
+            "Numbers of robots and controllers are one factor, the team, because not all of their "
+            "combinations are compared."
+        )
 
 
 def efforts(view: MeritView) -> Section:

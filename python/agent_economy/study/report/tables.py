@@ -9,7 +9,6 @@ from agent_economy.study.answer.labels import word
 from agent_economy.study.answer.quantiles import Quantile, Quantiles
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.any_view import AnyView
-from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
 from agent_economy.study.report.factor_charts import mark_of
 from agent_economy.study.report.formatting import (
@@ -230,16 +229,11 @@ def history(view: MeritView) -> Table:
 def sensitivity(view: MeritView) -> Table:
     """Return the table of the influence of each factor."""
     found = view.answer.sensitivity
-    influences = found.influences if found else ()
     rows = (
-        (
-            words(each.path),
-            measured(around(each.first_order, each.first_order_error), 2),
-            measured(around(each.total, each.total_error), 2),
-        )
-        for each in influences
+        (words(", ".join(each.paths)), shares(each.alone, 1), shares(each.with_interactions, 1))
+        for each in (found.influences if found else ())
     )
-    caption = "Influence of each factor, with individual 95% bootstrap intervals"
+    caption = "Share of the variance of the mean merit, with individual 95% intervals"
     return table(caption, ("factor", "alone", "with interactions"), rows)
 
 

@@ -3,6 +3,7 @@
 import math
 from abc import ABC, abstractmethod
 from collections import Counter
+from collections.abc import Sequence
 from functools import cached_property
 
 from agent_economy.scenario import Value
@@ -10,7 +11,7 @@ from agent_economy.study.answer.any_answer import AnyAnswer
 from agent_economy.study.answer.clearance import Clearance
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.goal_time import GoalTime
-from agent_economy.study.answer.labels import is_number, varied
+from agent_economy.study.answer.labels import is_number, listed, varied
 from agent_economy.study.paths import counted_kind
 
 MAX_SHOWN = 50
@@ -92,6 +93,11 @@ class View(ABC):
         points = {tuple(each[path] for path in self.varied) for each in self.configurations}
         across, down = (len(set(side)) for side in zip(*points, strict=True))
         return len(points) == count == across * down
+
+
+def factor_names(paths: Sequence[str]) -> str:
+    """Return the names of factors that are one: "rovers and drones"."""
+    return listed([factor_name(path) for path in paths])
 
 
 def factor_name(path: str) -> str:
