@@ -102,16 +102,30 @@ pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<Robot
 
 /// The index of a robot kind; `path` is the path of errors.
 pub(crate) fn kind_of(scenario: &Scenario, path: &str, kind: &str) -> Result<u8, InputError> {
-    let kinds: Vec<&str> = scenario.robot_kinds().collect();
+    among(scenario.robot_kinds().collect(), path, kind)
+}
+
+/// The index of a kind of robots or controllers, which are numbered after robots; `path` is the path of errors.
+pub(crate) fn participant_kind(
+    scenario: &Scenario,
+    path: &str,
+    kind: &str,
+) -> Result<u8, InputError> {
+    let kinds = scenario.robot_kinds().chain(scenario.controller_kinds());
+    among(kinds.collect(), path, kind)
+}
+
+fn among(kinds: Vec<&str>, path: &str, kind: &str) -> Result<u8, InputError> {
     let place = kinds.iter().position(|known| *known == kind);
     let number = place.and_then(|place| u8::try_from(place).ok());
     number.ok_or_else(|| {
         let given = Some(format!("{kind:?}"));
-        InputError::not_one_of(path.to_owned(), given, kind, kinds.iter().copied())
+        InputError::not_one_of(path.to_owned(), given, kind, kinds.into_iter())
     })
 }
 
-/// The body of a robot kind as its brain knows it; `path` is the path of errors.
+/// The body of a robot kind as its brain knows it, or the settings of a kind of controllers; `path` is the path of
+/// errors.
 #[pyfunction]
 pub(crate) fn body<'py>(
     scenario: &Bound<'py, MetricScenario>,
@@ -120,7 +134,11 @@ pub(crate) fn body<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = scenario.py();
     let scenario = &scenario.get().0;
-    let number = kind_of(scenario, path, kind);
+    let number = participant_kind(scenario, path, kind);
     let number = number.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
-    convert::write(py, &scenario.brain(number).map(brain::Brain::body))
+    let place = usize::from(number).checked_sub(scenario.team().len());
+    match place.and_then(|place| scenario.controller_settings(place)) {
+        Some(settings) => convert::write(py, &**settings),
+        None => convert::write(py, &scenario.brain(number).map(brain::Brain::body)),
+    }
 }

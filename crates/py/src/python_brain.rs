@@ -1,10 +1,10 @@
-//! Brains in Python that replace those of a scenario's robot kinds.
+//! Brains in Python that replace those of a scenario's robot kinds, and its controllers.
 
 use crate::arrays;
 use crate::convert;
 use crate::error::input_error;
 use crate::message_check::{Kinds, tools_of};
-use crate::metric_scenario::{kind_of, name_of};
+use crate::metric_scenario::{name_of, participant_kind};
 use base::document::path_of;
 use base::error::InputErrors;
 use brain::Command;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use sim::scenario::Scenario;
 use sim::step::{ExternalInputs, PendingDecision};
 
-/// A Python brain for the robots of a kind.
+/// A Python brain for the robots or controllers of a kind.
 #[derive(FromPyObject)]
 pub(crate) struct PythonBrain<'py> {
     /// Name of the kind.
@@ -26,7 +26,7 @@ pub(crate) struct PythonBrain<'py> {
 impl PythonBrain<'_> {
     /// The index of its kind, if the scenario has that kind.
     pub(crate) fn kind(&self, scenario: &Scenario) -> Option<u8> {
-        kind_of(scenario, "brains", &self.kind).ok()
+        participant_kind(scenario, "brains", &self.kind).ok()
     }
 
     fn decide(&self, scenario: &Scenario, decisions: &mut [PendingDecision]) -> PyResult<()> {
@@ -54,7 +54,7 @@ impl PythonBrain<'_> {
     }
 }
 
-/// Runs the Python brains of the robots that step, which sets their commands.
+/// Runs the Python brains of the robots and controllers that step, which sets their commands.
 pub(crate) fn decide(
     scenario: &Scenario,
     brains: &[PythonBrain],

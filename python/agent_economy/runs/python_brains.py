@@ -1,4 +1,4 @@
-"""Brains in Python that replace those of a scenario."""
+"""Brains and controllers in Python that replace those of a scenario."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -9,35 +9,39 @@ from agent_economy import _core
 from agent_economy.runs.batch import Batch, Commands, Inbox, Percepts
 from agent_economy.runs.brain import Body, Command, Percept
 from agent_economy.runs.commands import plain_columns, plain_command
-from agent_economy.scenario import validation
+from agent_economy.scenario import Scenario, validation
 
-BY_KIND = "a dict by the names of robot kinds"
+BY_KIND = "a dict by the names of kinds of robots or controllers"
 FACTORY = "a Batch, or a class or function that returns a robot's brain when called with its body"
+CONTROLLER = "a class or function that returns a controller when called with its settings"
 RETURNS = "a class or function that returns objects with a step method"
 
 
 class BrainLike(Protocol):
-    """An object that decides for one robot, such as `Brain`."""
+    """An object that decides for one robot, such as `Brain`, or one controller (`Controller`)."""
 
     def step(self, percept: Percept) -> Command:
         """Return the command for a percept."""
 
 
 Make: TypeAlias = Callable[[Body], BrainLike]
-"""A class or function that returns the brain of a robot when called with its body."""
+"""A class or function that returns the brain of a robot when called with its body.
+
+That of a controller is called with its settings.
+"""
 
 Brains: TypeAlias = Mapping[str, Make | Batch]
-"""By robot kind: what makes the brain of each robot, or one brain for all of them."""
+"""By kind: what makes the brain of each robot or controller, or one brain for all robots."""
 
 
 @dataclass(frozen=True)
 class SingleBrains:
-    """One brain for each robot of a kind.
+    """One brain for each robot or controller of a kind.
 
     Attributes:
         kind: Name of the kind.
         make: Makes a brain.
-        brains: The brains by the index of their robot.
+        brains: The brains by the index of their robot or controller.
     """
 
     kind: str
@@ -54,7 +58,7 @@ class SingleBrains:
         return replace(self, brains=self.brains[:count] + made)
 
     def step(self, index: int, percept: Percept) -> Command:
-        """Return the command of a robot."""
+        """Return the command of a robot or controller."""
         time_s = percept["time_s"]
         try:
             command = self.brains[index].step(percept)
@@ -113,9 +117,7 @@ PythonBrains: TypeAlias = SingleBrains | BatchBrain
 """The Python brains of a robot kind."""
 
 
-def python_brains(
-    brains: Brains | None, metric: _core.MetricScenario, robots: Mapping[str, int]
-) -> list[PythonBrains]:
+def python_brains(brains: Brains | None, scenario: Scenario) -> list[PythonBrains]:
     """Return the Python brains of some kinds, for a new run.
 
     Raises:
@@ -123,8 +125,21 @@ def python_brains(
     """
     if brains is None:
         return []
+    return resized(unmade(brains, scenario), scenario)
+
+
+def unmade(brains: Brains, scenario: Scenario) -> list[PythonBrains]:
+    """Return the Python brains of kinds that have no robots or controllers yet.
+
+    Raises:
+        InputError: If something cannot be a brain.
+    """
     validation.of_type("brains", brains, Mapping, BY_KIND)
-    return resized([without_robots(*each) for each in brains.items()], metric, robots)
+    every = [without_robots(*each) for each in brains.items()]
+    for each in every:
+        is_allowed = not (each.is_in_arrays and each.kind in scenario.controllers)
+        validation.check(is_allowed, f"brains.{each.kind}", brains[each.kind], CONTROLLER)
+    return every
 
 
 def without_robots(kind: str, make: Make | Batch) -> PythonBrains:
@@ -136,14 +151,13 @@ def without_robots(kind: str, make: Make | Batch) -> PythonBrains:
     return SingleBrains(kind, make)
 
 
-def resized(
-    brains: list[PythonBrains], metric: _core.MetricScenario, robots: Mapping[str, int]
-) -> list[PythonBrains]:
+def resized(brains: list[PythonBrains], scenario: Scenario) -> list[PythonBrains]:
     """Return the brains for a team: robots of the old team keep theirs, others get new ones.
 
     Raises:
         InputError: If a kind does not exist.
     """
+    metric, counts = scenario.metric(), scenario.robots | scenario.controllers
     bodies = [cast("Body", _core.body(metric, "brains", each.kind)) for each in brains]
     pairs = zip(brains, bodies, strict=True)
-    return [each.resized(body, robots[each.kind]) for each, body in pairs]
+    return [each.resized(body, counts[each.kind]) for each, body in pairs]

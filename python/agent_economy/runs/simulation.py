@@ -87,10 +87,12 @@ class Simulation(Stepped):
             run: Run number, 0 to 2^63 - 10,000,001. Each number is a different world.
             threads: Number of threads, 1 to 1024; None for one per processor. It changes no result,
                 and matters only with thousands of robots.
-            brains: Python brains by robot kind. Either a class or function that is called with
-                the body of a robot and returns its brain: an object with a method `step(percept)`
-                that returns a command, as `Brain` has. It decides instead of the scenario's brain,
-                at the same steps. Or a `Batch`, which decides for all robots of the kind at once.
+            brains: Python brains by kind. Either a class or function that is called with the body
+                of a robot and returns its brain: an object with a method `step(percept)` that
+                returns a command, as `Brain` has. It decides instead of the scenario's brain, at
+                the same steps. Or a `Batch`, which decides for all robots of the kind at once. For
+                a kind of controllers, a class or function that is called with its settings and
+                returns a controller: an object with the same method, as `Controller` has.
             external: Names of robots that have external bodies from the start: see `step`. Until
                 its first percept, such a body is stationary where it starts.
 
@@ -103,7 +105,7 @@ class Simulation(Stepped):
         numbers = {"seed": self.seed, "run": self.run}
         numbers["threads"] = validation.plain_value("threads", threads)
         self._run = _core.Simulation(metric, **numbers, external=names)
-        self._brains = python_brains(brains, metric, self.scenario.robots)
+        self._brains = python_brains(brains, self.scenario)
         in_python = [name for name in names if self._is_in_python(name)]
         allowed = "robots with the brain of the scenario: step the brains in `brains` yourself"
         validation.check(not in_python, "external", in_python, allowed)
@@ -342,7 +344,7 @@ class Simulation(Stepped):
         with self._lock:
             changed = self.scenario.changed((override,))
             metric = changed.metric()
-            brains = resized(self._brains, metric, changed.robots)
+            brains = resized(self._brains, changed)
             tick = self._run.change(metric)
             self.scenario, self._brains = changed, brains
             self._changes += (Change(tick, path, override.value),)

@@ -50,9 +50,14 @@ impl Goals {
     /// Removes a goal that arrives by now from those that are yet to be issued.
     #[inline]
     pub(crate) fn next_arrival(&mut self, now: u64) -> Option<usize> {
-        let next = *self.waiting.last()?;
-        let has_arrived = self.all[next].arrives_at <= now;
-        has_arrived.then(|| self.waiting.pop()).flatten()
+        self.has_arrival(now).then(|| self.waiting.pop()).flatten()
+    }
+
+    /// Whether a goal that arrives by now is yet to be issued.
+    #[inline]
+    pub(crate) fn has_arrival(&self, now: u64) -> bool {
+        let next = self.waiting.last();
+        next.is_some_and(|next| self.all[*next].arrives_at <= now)
     }
 
     /// The number of the goal of an id.

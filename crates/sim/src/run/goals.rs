@@ -15,6 +15,13 @@ impl State {
         }
     }
 
+    /// A copy in which the goals of this step are issued.
+    pub(crate) fn with_goals_issued(&self, scenario: &Scenario) -> Self {
+        let mut copy = self.clone();
+        copy.issue_goals(scenario);
+        copy
+    }
+
     fn issue(&mut self, scenario: &Scenario, number: usize) {
         let goal = &self.goals.all[number];
         let has_owners = scenario.first_owner(goal).is_some();

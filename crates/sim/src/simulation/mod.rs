@@ -105,8 +105,8 @@ impl Simulation {
         Ok(self.finish_step(external))
     }
 
-    /// Begins such a step for a run in which the decisions for the robots of some `kinds` are made
-    /// elsewhere: returns the robots whose brains step in it, with their percepts. Decisions are
+    /// Begins such a step for a run in which the decisions for the robots or controllers of some `kinds` are
+    /// made elsewhere: returns those that step in it, with their percepts. Decisions are
     /// written to them, and [`Simulation::finish_step`] takes the step. Until then nothing has
     /// changed but the poses of external bodies.
     ///
@@ -148,7 +148,7 @@ impl Simulation {
             .collect()
     }
 
-    /// The robots of the last finished step whose decisions were made elsewhere.
+    /// The robots and controllers of the last finished step whose decisions were made elsewhere.
     #[must_use]
     pub fn decided(&self) -> &[PendingDecision] {
         self.scratch.decided()

@@ -15,7 +15,7 @@ use brain::Motion;
 use rayon::prelude::*;
 
 impl StepScratch {
-    /// Lets the robots of some kinds sense whose brains step now; the state does not change.
+    /// Lets the robots of some kinds sense whose brains step now, and the controllers; the state does not change.
     pub(crate) fn request_decisions(
         &mut self,
         scenario: &Scenario,
@@ -34,7 +34,7 @@ impl StepScratch {
         });
         let mut due: Vec<(usize, &mut Agent)> = due.collect();
         decisions
-            .robots
+            .all
             .resize_with(due.len(), PendingDecision::default);
         let size = due.len().div_ceil(self.workers.len()).max(1);
         let request = |((worker, due), decisions): Chunk| {
@@ -44,19 +44,19 @@ impl StepScratch {
         };
         if is_shared {
             let tasks = self.workers.par_iter_mut().zip(due.par_chunks_mut(size));
-            let tasks = tasks.zip(decisions.robots.par_chunks_mut(size));
+            let tasks = tasks.zip(decisions.all.par_chunks_mut(size));
             tasks.for_each(request);
         } else {
             let tasks = self.workers.iter_mut().zip(due.chunks_mut(size));
-            tasks
-                .zip(decisions.robots.chunks_mut(size))
-                .for_each(request);
+            tasks.zip(decisions.all.chunks_mut(size)).for_each(request);
         }
         decisions.detections.clear();
         for worker in &self.workers {
             decisions.detections.add(&worker.sensing.detections);
         }
         external.decisions = decisions;
+        self.controllers
+            .request_decisions((scenario, state), kinds, external);
     }
 }
 

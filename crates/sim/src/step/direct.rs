@@ -3,10 +3,10 @@
 use super::decide::{WorkerScratch, send};
 use super::decision_hash::decision_hash;
 use super::external::ExternalInputs;
+use super::pending_decisions::PendingDecision;
 use super::surroundings::Surroundings;
 use crate::bodies::body_state::BodyState;
-use crate::run::controller::ControllerAgent;
-use crate::run::participant::Place;
+use crate::run::participant::{Participant, Place};
 use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
@@ -28,8 +28,8 @@ struct Moment<'a> {
 }
 
 impl ControllerScratch {
-    /// Lets all controllers step for which there is no external command. Their messages and decisions are added to
-    /// those of the last robots.
+    /// Lets all controllers step for which there is no external command and no decision made elsewhere. Their messages
+    /// and decisions are added to those of the last robots.
     pub(crate) fn step(
         &mut self,
         (scenario, state): (&Scenario, &mut State),
@@ -47,8 +47,10 @@ impl ControllerScratch {
             if !agent.participant.is_working(moment.body_states) {
                 continue;
             }
-            self.perceive(&moment, agent);
-            match external.commands.get(&number) {
+            self.perceive(&moment, &mut agent.participant);
+            let decided = external.decisions.decided(number);
+            let given = external.commands.get(&number);
+            match given.or_else(|| decided.map(|each| &each.command)) {
                 Some(command) => self.command.clone_from(command),
                 None => agent.controller.step_into(&self.percept, &mut self.command),
             }
@@ -62,14 +64,50 @@ impl ControllerScratch {
         }
     }
 
+    /// Adds the controllers of some `kinds` to the decisions that are made elsewhere, after the robots.
+    pub(crate) fn request_decisions(
+        &mut self,
+        (scenario, state): (&Scenario, &State),
+        kinds: &[u8],
+        external: &mut ExternalInputs,
+    ) {
+        let robot_kinds = scenario.kinds.len();
+        if kinds.iter().all(|kind| usize::from(*kind) < robot_kinds) {
+            return;
+        }
+        let has_arrival = state.goals.has_arrival(state.tick);
+        let issued = has_arrival.then(|| state.with_goals_issued(scenario));
+        let state = issued.as_ref().unwrap_or(state);
+        self.surroundings.refresh(scenario, state);
+        let moment = Moment {
+            scenario,
+            tick: state.tick,
+            body_states: &state.body_states,
+        };
+        for (number, agent) in (state.agents.len()..).zip(&state.controllers) {
+            let id = agent.participant.id;
+            let is_free = !external.commands.contains_key(&number);
+            let is_working = agent.participant.is_working(moment.body_states);
+            if is_free && is_working && kinds.contains(&id.kind) {
+                // A copy: its messages wait until the step is taken.
+                self.perceive(&moment, &mut agent.participant.clone());
+                external.decisions.all.push(PendingDecision {
+                    robot: id,
+                    percept: self.percept.clone(),
+                    number,
+                    ..PendingDecision::default()
+                });
+            }
+        }
+    }
+
     /// What a controller will perceive in the next step; `None` if it does not work.
     pub(crate) fn percept(
         scenario: &Scenario,
         state: &State,
         controller: usize,
     ) -> Option<Percept> {
-        let mut state = state.clone();
-        state.issue_goals(scenario);
+        let mut state = state.with_goals_issued(scenario);
         let moment = Moment {
             scenario,
             tick: state.tick,
@@ -79,16 +117,15 @@ impl ControllerScratch {
         scratch.surroundings.refresh(scenario, &state);
         let agent = &mut state.controllers[controller];
         agent.participant.is_working(moment.body_states).then(|| {
-            scratch.perceive(&moment, agent);
+            scratch.perceive(&moment, &mut agent.participant);
             scratch.percept
         })
     }
 
     /// Fills the percept of a controller.
     #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
-    fn perceive(&mut self, moment: &Moment, agent: &mut ControllerAgent) {
+    fn perceive(&mut self, moment: &Moment, participant: &mut Participant) {
         let Moment { scenario, tick, .. } = *moment;
-        let participant = &mut agent.participant;
         let percept = &mut self.percept;
         let time_s = tick as f64 * scenario.step_s;
         percept.time_s = Some(scenario.clocks.time_s(participant.noise, time_s));

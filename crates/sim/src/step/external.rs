@@ -18,9 +18,9 @@ pub struct ExternalInputs {
 }
 
 impl ExternalInputs {
-    /// The robots whose decisions are made elsewhere, in their order.
+    /// The robots and controllers whose decisions are made elsewhere, in the order of their numbers.
     pub fn decisions(&mut self) -> &mut [PendingDecision] {
-        &mut self.decisions.robots
+        &mut self.decisions.all
     }
 
     /// Removes the percepts that are not later than those before.
@@ -36,7 +36,7 @@ impl ExternalInputs {
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        let has_no_decisions = self.decisions.robots.is_empty();
+        let has_no_decisions = self.decisions.all.is_empty();
         self.percepts.is_empty() && self.commands.is_empty() && has_no_decisions
     }
 }

@@ -32,7 +32,7 @@ pub(crate) struct StepScratch {
     pub(crate) neighbours: Neighbours,
     flocks: Flocks,
     pub(super) workers: Vec<WorkerScratch>,
-    controllers: ControllerScratch,
+    pub(super) controllers: ControllerScratch,
     /// The decisions of the last step that were made outside its brains.
     pub(crate) decisions: PendingDecisions,
     moves: Moves,
@@ -220,7 +220,7 @@ impl StepScratch {
 
     /// The robots of the last step for which decisions were made outside their brains.
     pub(crate) fn decided(&self) -> &[PendingDecision] {
-        &self.decisions.robots
+        &self.decisions.all
     }
 
     /// The commands that brains decided for external bodies, by the number of the robot.
@@ -274,7 +274,7 @@ impl StepScratch {
         let step = (*tick, &*items, &ids[..]);
         let mut is_counted = tally.collided(collisions);
         let here = self.workers.iter().map(|worker| &worker.sensing.detections);
-        if external.decisions.robots.is_empty() {
+        if external.decisions.all.is_empty() {
             for detections in here {
                 tally.ground_detected(detections, (scenario, ids));
                 is_counted |= tally.detected(detections, step, &self.events);
