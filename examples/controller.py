@@ -10,6 +10,7 @@ from typing import Any
 
 import agent_economy as ae
 from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.controller import ControllerSettings
 
 LEASE_S = 20.0
 """A robot may serve a goal for this time without renewal."""
@@ -33,8 +34,9 @@ class Goal:
 class Fair:
     """A controller that awards each goal to the robot with the fewest awards."""
 
-    def __init__(self) -> None:
-        """Own no goal yet."""
+    def __init__(self, settings: ControllerSettings) -> None:
+        """Own no goal yet; the rule needs no settings."""
+        del settings
         self.goals: dict[int, Goal] = {}
         self.awards: Counter[str] = Counter()
         self.next_round_s = 0.0
@@ -118,14 +120,9 @@ def main() -> None:
     serve = [{"kind": "serve"}, {"kind": "avoid"}]  # nothing without an award
     scenario = ae.Scenario.load("waypoints").replace("robots.rover.count", 4)
     scenario = scenario.replace("robots.rover.brain.behaviours", serve)
-    for name, controller in {"auction": None, "fair": Fair()}.items():
-        simulation = ae.Simulation(scenario, seed=1)
-        while not simulation.is_over:
-            percept = simulation.percept("base/0") if controller else None
-            if controller and percept:
-                simulation.step(commands={"base/0": controller.step(percept)})
-            else:
-                simulation.step()
+    for name, brains in {"auction": None, "fair": {"base": Fair}}.items():
+        simulation = ae.Simulation(scenario, seed=1, brains=brains)
+        simulation.finish()
         served = Counter(simulation.goals["served_by"].to_pylist())
         shares = ", ".join(f"{robot} {served[robot]}" for robot in simulation.robots)
         print(f"{name}: {simulation.outcome().time_s} s; goals served: {shares}")

@@ -1,6 +1,7 @@
 """The command `study`."""
 
 import signal
+import sys
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -82,6 +83,16 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             help="With a requirement, what is minimised: robots, price, or an expression of team "
             "sizes, such as rover_a + 2 * rover_b.",
             show_default="the scenario's, or robots",
+            rich_help_panel=QUESTION,
+        ),
+    ] = None,
+    brains: Annotated[
+        str | None,
+        typer.Option(
+            metavar="MODULE:NAME",
+            help="Brains and controllers in Python: a dict by kind, such as my_brains:BRAINS, of a "
+            "module in the working folder or on PYTHONPATH. The study runs on all processors.",
+            show_default="those of the scenario",
             rich_help_panel=QUESTION,
         ),
     ] = None,
@@ -222,7 +233,9 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             "guarantee": guarantee,
             "runs": runs,
             "max_runs": max_runs,
+            "brains": brains,
         }
+        import_from(Path.cwd())
         settings = {name: value for name, value in precision.items() if value is not None}
         refuse_two_executors(workers, dask)
         if require:
@@ -247,11 +260,19 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         typer.echo(str(Description.of(plan)), err=True)
         if vary and (also := others_varied(plan, vary)):
             typer.echo(f"also over {also}, of the scenario", err=True)
+        if plan.engine.brains is not None:
+            typer.echo(f"with the brains {plan.engine.brains}", err=True)
         try:
             answer = compute_answer(plan, folder, workers, dask)
         except KeyboardInterrupt:
             conclude_stopped(folder, as_json=as_json)
     show(answer, folder / REPORT, as_json=as_json)
+
+
+def import_from(folder: Path) -> None:
+    """Let this process and its workers import brains from a folder, as `python -m` does."""
+    if str(folder) not in sys.path:
+        sys.path.insert(0, str(folder))
 
 
 def others_varied(plan: Plan, vary: list[str]) -> str:

@@ -9,6 +9,7 @@ from agent_economy import _core
 from agent_economy.runs.batch import Batch, Commands, Inbox, Percepts
 from agent_economy.runs.brain import Body, Command, Percept
 from agent_economy.runs.commands import plain_columns, plain_command
+from agent_economy.runs.controller import ControllerSettings
 from agent_economy.scenario import Scenario, validation
 
 BY_KIND = "a dict by the names of kinds of robots or controllers"
@@ -24,7 +25,7 @@ class BrainLike(Protocol):
         """Return the command for a percept."""
 
 
-Make: TypeAlias = Callable[[Body], BrainLike]
+Make: TypeAlias = Callable[[Body], BrainLike] | Callable[[ControllerSettings], BrainLike]
 """A class or function that returns the brain of a robot when called with its body.
 
 That of a controller is called with its settings.
@@ -69,7 +70,7 @@ class SingleBrains:
 
     def _make(self, index: int, body: Body) -> BrainLike:
         try:
-            brain = self.make(body)
+            brain = cast("Callable[[Any], BrainLike]", self.make)(body)
         except Exception as error:
             error.add_note(f"while making the brain of {self.kind}/{index} from its body")
             raise

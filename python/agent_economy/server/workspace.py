@@ -107,6 +107,12 @@ class Workspace:
             InputError: If there is no such study or configuration.
         """
         plan = load_plan(self.study(name))
+        if plan.engine.brains is not None:
+            message = (
+                f"study {name}: its runs have brains in Python ({plan.engine.brains}), which the "
+                "page does not run: use agent_economy.Simulation(..., brains=...)"
+            )
+            raise InputError(message)
         return plan.alone(configuration), plan.seed
 
     def _content(self, file: Path) -> bytes | str:

@@ -1,14 +1,17 @@
 """Runs the configurations of a study on the simulator of its scenario."""
 
-from collections.abc import Callable, Sequence
+import os
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from agent_economy import _core
-from agent_economy.scenario import Scenario
+from agent_economy.scenario import Override, Scenario
 from agent_economy.study.arguments import Floats
+from agent_economy.study.brains import StudyBrains
 from agent_economy.study.design import Values
 from agent_economy.study.executors import (
     LocalExecutor,
@@ -16,7 +19,7 @@ from agent_economy.study.executors import (
     end_unguarded_worker,
     warn,
 )
-from agent_economy.study.run_block import Columns, RunBlock
+from agent_economy.study.run_block import Columns, Compute, Part, Partwise, RunBlock
 from agent_economy.study.store.columns import Column
 from agent_economy.study.workers import Workers
 
@@ -30,12 +33,14 @@ class Engine:
         configurations: The values of the varied factors of each.
         seed: Seed of all random numbers.
         threads: Number of threads; None for one per processor.
+        brains: Brains and controllers in Python that replace those of the scenario.
     """
 
     scenario: Scenario
     configurations: Sequence[Values]
     seed: int
     threads: int | None = None
+    brains: StudyBrains | None = None
 
     def __getstate__(self) -> dict[str, object]:
         """Leave out compiled configurations: they are compiled again where they are needed."""
@@ -70,6 +75,33 @@ class Engine:
         return Workers(
             lambda: next(made, None) or dask_executor(address, on_wait), 1, replace(self, threads=1)
         )
+
+    @contextmanager
+    def on_this_machine(self) -> Iterator[Compute]:
+        """Compute on all processors: in threads, or with brains in Python in processes."""
+        if self.brains is None:
+            yield self
+            return
+        brains = self.brains
+        with self.in_processes(os.cpu_count() or 1) as workers:
+
+            def parts(block: RunBlock) -> Generator[Part]:
+                # Here first, where an error is found before any process starts.
+                _ = brains.loaded
+                yield from workers.columns.parts(block)
+
+            yield Partwise(parts)
+
+    def alone(self, configuration: int) -> Scenario:
+        """Return the scenario with the values of one configuration; it has the same runs."""
+        values = self.configurations[configuration].items()
+        return self.scenario.changed(
+            tuple(Override(tuple(path.split(".")), value, "study") for path, value in values)
+        )
+
+    @cached_property
+    def _alone(self) -> dict[int, Scenario]:
+        return {}
 
     @cached_property
     def _made(self) -> dict[int, _core.Configuration]:
@@ -109,6 +141,8 @@ class Engine:
 
     def __call__(self, block: RunBlock) -> Columns:
         """Return the outcomes of a block of runs."""
+        if self.brains is not None:
+            return self._with_brains(self.brains, block)
         compiled = [self._compiled(each) for each in block.configurations]
         return _core.run_block(
             compiled,
@@ -117,3 +151,10 @@ class Engine:
             runs=block.runs,
             threads=self.threads,
         )
+
+    def _with_brains(self, brains: StudyBrains, block: RunBlock) -> Columns:
+        for each in block.configurations:
+            if each not in self._alone:
+                self._alone[each] = self.alone(each)
+        names = [column.name for column in self.columns]
+        return brains.outcomes(self._alone, self.seed, block, names)

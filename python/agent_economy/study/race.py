@@ -8,6 +8,7 @@ not, and repeating a finished study computes nothing.
 import math
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -56,7 +57,7 @@ def run_race(
         plan: The question. If the folder contains another question about the same runs (another
             delta, confidence or guarantee), this one replaces it and reuses the runs.
         folder: Folder of the study; created if it does not exist.
-        compute: Computes blocks of runs; None for the plan's engine in this process.
+        compute: Computes blocks of runs; None for the plan's engine on this machine.
         on_progress: Called after each round, and during long ones that this process computes.
         finish: Called with the result while the folder is still locked.
 
@@ -68,9 +69,17 @@ def run_race(
         check(function is None or callable(function), name, function, "a function or None")
     columns = plan.engine.columns
     content = {digest(data): data for data in plan.files.values()}
-    with Store.open(
-        folder, plan.text(), columns, content=content, may_replace=partial(may_replace, folder)
-    ) as store:
+    with ExitStack() as stack:
+        store = stack.enter_context(
+            Store.open(
+                folder,
+                plan.text(),
+                columns,
+                content=content,
+                may_replace=partial(may_replace, folder),
+            )
+        )
+        compute = compute or stack.enter_context(plan.engine.on_this_machine())
         try:
             answer, evidence = Race(plan, store, compute, on_progress).run()
         except KeyboardInterrupt:
@@ -139,7 +148,8 @@ class Race:
         plan, evidence = self._plan, self.evidence()
         obstacle = self._obstacle(impossible[0]) if impossible else ""
         answer = plan.question.conclude(plan.engine, evidence, self._procedure, plan.runs, obstacle)
-        return replace(answer, questions=record_questions(plan, self._store)), evidence
+        questions = record_questions(plan, self._store)
+        return replace(answer, questions=questions, brains=plan.engine.brains), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure

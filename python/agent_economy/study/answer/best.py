@@ -12,6 +12,7 @@ from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.answer.sensitivity import Sensitivity
 from agent_economy.study.answer.side_statements import Omission
 from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
+from agent_economy.study.brains import StudyBrains
 from agent_economy.study.store.ledger import Answered
 
 
@@ -37,6 +38,7 @@ class Answer(StudyAnswer):
         published: Published results, scored with the same merit.
         omissions: Those of the preceding four that could not be stated, each with the reason.
         questions: The questions that were answered from the same runs, this one included.
+        brains: The brains in Python that replaced those of the scenario.
     """
 
     scenario: Scenario
@@ -55,6 +57,7 @@ class Answer(StudyAnswer):
     published: tuple[PublishedResult, ...]
     omissions: tuple[Omission, ...] = ()
     questions: tuple[Answered, ...] = ()
+    brains: StudyBrains | None = None
 
     @property
     def chosen(self) -> Result:

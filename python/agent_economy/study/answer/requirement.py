@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from agent_economy.scenario import Requirement, Scenario
 from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
+from agent_economy.study.brains import StudyBrains
 from agent_economy.study.store.ledger import Answered
 
 STYLES = {"selected": "bold", "refuted": "dim", "not needed": "dim", "impossible": "dim"}
@@ -32,6 +33,7 @@ class RequirementAnswer(StudyAnswer):
         selected: Index of the cheapest certified configuration; None if none is certified.
         results: Result of each configuration.
         questions: The questions that were answered from the same runs, this one included.
+        brains: The brains in Python that replaced those of the scenario.
     """
 
     scenario: Scenario
@@ -47,6 +49,7 @@ class RequirementAnswer(StudyAnswer):
     results: tuple[RequirementResult, ...]
     runs_to_decide: int | None = None
     questions: tuple[Answered, ...] = ()
+    brains: StudyBrains | None = None
 
     # The verdict contains all that they would state.
     details = precision = ""

@@ -60,7 +60,8 @@ def run_keys(text: str) -> dict[str, Any]:
         if not any(is_within(key, path) for path in QUESTION)
     }
     own = {key: data.get(key) for key in ("program", "seed", "runs")}
-    return own | of_runs | dict(flat({"files": data.get("files", {})}))
+    parts = {name: data.get(name, {}) for name in ("files", "brains")}
+    return own | of_runs | dict(flat(parts))
 
 
 def flat(table: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
