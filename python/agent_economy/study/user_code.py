@@ -158,7 +158,7 @@ def source_file(subject: str, module: str) -> Path:
     if file is None or not Path(file).is_file():
         message = (
             f"{subject}: is defined in {module}, which is not a file, as in an interactive "
-            "session: put it in a module, whose source distinguishes its runs from those of other code"
+            "session: put it in a module: the hash of its source is stored with the runs"
         )
         raise InputError(message)
     return Path(file).resolve()
