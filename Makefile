@@ -27,7 +27,7 @@ test: ## Run every check, as CI does, and print the time of each
 	$(PYTHON) scripts/checks.py
 
 # CRATE=brain checks that crate; without it, the files that differ from the branch main decide.
-quick: .venv/installed ## Run the checks that a change needs: make quick CRATE=brain
+quick: .venv/checked ## Run the checks that a change needs: make quick CRATE=brain
 	$(PYTHON) scripts/checks.py --quick $(addprefix --crate ,$(CRATE))
 
 lint: rust-lint python-lint ## Check format, lints, types, stubs, import layers and circles, parameters, generated types, paths and prose
@@ -36,7 +36,7 @@ rust-lint:
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked --quiet -- -D warnings
 
-python-lint: .venv/installed target/page.schema.json
+python-lint: .venv/checked target/page.schema.json
 	$(BIN)/ruff format --check $(PYTHON_CODE)
 	$(BIN)/ruff check $(PYTHON_CODE)
 	$(BIN)/mypy
@@ -70,7 +70,7 @@ rust-test: ## Run the tests of the crates
 	cargo test --locked --quiet
 
 # Tests of one file stay together: some share what they have computed.
-python-test: .venv/installed ## Run the tests of the Python package
+python-test: .venv/checked ## Run the tests of the Python package
 	$(BIN)/pytest --numprocesses 2 --dist loadfile
 
 page-test: page-check page-browser ## Check the page: types, units, and in Chromium with the real server
@@ -92,7 +92,7 @@ page-packages:
 page-check: page-packages
 	cd web && npm run --silent check && npm test --silent
 
-page-browser: .venv/installed page-packages
+page-browser: .venv/checked page-packages
 ifeq ($(CHROMIUM),)
 	$(call missing, in a browser,Chromium (apt-get install chromium, or make CHROMIUM=PATH))
 else
@@ -100,7 +100,7 @@ else
 endif
 endif
 
-drive-browser: .venv/installed page-packages ## Test the view Robots with the real warden and an emulated robot
+drive-browser: .venv/checked page-packages ## Test the view Robots with the real warden and an emulated robot
 	cd web && CHROMIUM="$(CHROMIUM)" DRIVE=1 npx playwright test --workers 1 drive.spec.ts
 
 bench: ## Measure both simulators and the brain
@@ -110,10 +110,10 @@ bench: ## Measure both simulators and the brain
 bench-peers: ## Measure other simulators too (installs them in benchmarks/.venv)
 	$(PYTHON) benchmarks/peers/run.py
 
-bench-brains: .venv/released ## Measure brains written in Python: robot updates per second
+bench-brains: .venv/installed ## Measure brains written in Python: robot updates per second
 	$(BIN)/python scripts/brain_speed.py
 
-bench-store: .venv/released ## Measure a study's store: rows per second, bytes per row
+bench-store: .venv/installed ## Measure a study's store: rows per second, bytes per row
 	$(BIN)/python scripts/store_speed.py
 
 verify-selection: ## Verify the guarantee of the race: 20,000 macro-replications per problem
@@ -133,7 +133,7 @@ economy: .venv/installed ## Regenerate docs/economy.md and its charts (takes min
 	$(BIN)/python scripts/economy.py
 
 # A claim that fails is an error, after all measurements.
-clearance: .venv/released ## Compare what controllers state of mined lanes with the truth (takes half an hour)
+clearance: .venv/installed ## Compare what controllers state of mined lanes with the truth (takes half an hour)
 	$(BIN)/python scripts/clearance.py
 
 # Longer than the schedules of `make test`.
@@ -159,7 +159,7 @@ schemas: ## Generate the JSON Schemas, the reference of scenarios, and the types
 web: ## Build the page of `agent-economy ui` (needs Node 20 or newer)
 	$(PYTHON) packaging/backend.py
 
-examples: .venv/installed ## Regenerate the expected output of the examples
+examples: .venv/checked ## Regenerate the expected output of the examples
 	RENEW_EXAMPLES=1 $(BIN)/pytest -q python/tests/test_examples.py
 
 picture: study ## Regenerate docs/report.png (needs Chromium)
@@ -168,7 +168,7 @@ picture: study ## Regenerate docs/report.png (needs Chromium)
 page-pictures: .venv/installed web ## Regenerate the screenshots in docs/ui (needs Node and Chromium)
 	cd web && CHROMIUM="$(CHROMIUM)" node dev/pictures.mjs
 
-bench-page: .venv/released web ## Measure the page: first load, latency of changes, crowds (needs Chromium)
+bench-page: .venv/installed web ## Measure the page: first load, latency of changes, crowds (needs Chromium)
 	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent bench
 
 # Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
@@ -200,14 +200,16 @@ clean: ## Remove all build products
 	$(BIN)/pip install --quiet --no-compile --disable-pip-version-check -r requirements.lock
 	touch $@
 
-# The extension module of checks, compiled as the tests are; of measurements, as wheels are.
+# The program for users and measurements, compiled as wheels are.
 .venv/installed: .venv/packages pyproject.toml $(RUST)
+	@echo "compiling the simulators: a few minutes the first time"
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
-	rm -f .venv/released
+	rm -f .venv/checked
 	touch $@
 
-.venv/released: .venv/packages pyproject.toml $(RUST)
+# The program for checks, compiled as the tests are: `make study` puts back the other one.
+.venv/checked: .venv/packages pyproject.toml $(RUST)
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation \
-		--config-settings build-args=--release -e .
+		--config-settings build-args=--profile=dev -e .
 	rm -f .venv/installed
 	touch $@

@@ -56,8 +56,9 @@ def build_editable(directory: str, settings: Settings = None, metadata: str | No
 
 
 def prepare_metadata_for_build_wheel(directory: str, settings: Settings = None) -> str:
-    """Write the metadata."""
-    return str(maturin().prepare_metadata_for_build_wheel(directory, settings))
+    """Write the metadata, which no setting changes: maturin refuses a profile here."""
+    del settings
+    return str(maturin().prepare_metadata_for_build_wheel(directory))
 
 
 prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel

@@ -58,15 +58,15 @@ def make(target: str, *needs: str, is_interactive: bool = False) -> Stage:
 EVERYTHING = [
     make(".venv/packages"),
     make("page-packages"),
-    make(".venv/installed", ".venv/packages"),
+    make(".venv/checked", ".venv/packages"),
     make("page-check", "page-packages"),
-    make("page-browser", ".venv/installed", "page-packages", is_interactive=True),
-    make("rust-build", ".venv/installed"),
+    make("page-browser", ".venv/checked", "page-packages", is_interactive=True),
+    make("rust-build", ".venv/checked"),
     make("rust-lint", "rust-build"),
-    make("python-test", ".venv/installed", is_interactive=True),
+    make("python-test", ".venv/checked", is_interactive=True),
     make("rust-test", "rust-build"),
     make("wasm", "rust-build"),
-    make("python-lint", ".venv/installed", "rust-build"),
+    make("python-lint", ".venv/checked", "rust-build"),
 ]
 
 

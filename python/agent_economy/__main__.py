@@ -23,9 +23,9 @@ def main() -> None:
 
 def print_version() -> None:
     """Print the version without loading the command line."""
-    from agent_economy import __version__  # noqa: PLC0415
+    from agent_economy.build import version_line  # noqa: PLC0415
 
-    sys.stdout.write(f"agent-economy {__version__}\n")
+    sys.stdout.write(f"{version_line()}\n")
 
 
 def stop() -> None:

@@ -10,6 +10,7 @@ __all__ = [
     "FIRST_ANALYSIS_RUNS",
     "MAX_IMAGE_BYTES",
     "MAX_RUNS",
+    "PROFILE",
     "Brain",
     "ClassicScenario",
     "ClassicSimulation",
@@ -72,6 +73,7 @@ ENGINE: str
 FIRST_ANALYSIS_RUNS: int
 MAX_IMAGE_BYTES: int
 MAX_RUNS: int
+PROFILE: str
 
 @type_check_only
 class ErrorDetails(TypedDict):

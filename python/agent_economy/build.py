@@ -25,6 +25,14 @@ class Build(NamedTuple):
         return f"version {self.program}, {engine}"
 
 
+def version_line() -> str:
+    """Return the version of the program, with the Cargo profile by which its engine was compiled.
+
+    Profiles differ in speed; a run has the same outcome with all.
+    """
+    return f"agent-economy {version('agent-economy')} ({_core.PROFILE} build)"
+
+
 @cache
 def own_build() -> Build:
     """Return the installed build."""

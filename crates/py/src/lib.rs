@@ -99,6 +99,7 @@ mod _core {
         let none = PyTuple::empty(module.py());
         module.getattr("InputError")?.setattr("errors", none)?;
         module.add("ENGINE", env!("AGENT_ECONOMY_ENGINE"))?;
+        module.add("PROFILE", env!("AGENT_ECONOMY_PROFILE"))?;
         module.add(
             "FIRST_ANALYSIS_RUNS",
             select::interim_analyses::next_analysis(0),

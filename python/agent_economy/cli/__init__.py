@@ -58,9 +58,9 @@ def load(name: str) -> Any:
 def print_version(is_requested: bool) -> None:  # noqa: FBT001  (typer's callback)
     """Print the version and exit."""
     if is_requested:
-        from agent_economy import __version__  # noqa: PLC0415  (slow to find)
+        from agent_economy.build import version_line  # noqa: PLC0415  (slow to find)
 
-        typer.echo(f"agent-economy {__version__}")
+        typer.echo(version_line())
         raise typer.Exit
 
 

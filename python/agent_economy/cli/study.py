@@ -187,7 +187,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             min=1,
             max=1024,
             help="Number of worker processes.",
-            show_default="threads of this process",
+            show_default="threads of this process; with --brains, one process per processor",
             rich_help_panel=COMPUTING,
         ),
     ] = None,
