@@ -31,9 +31,9 @@ def name_of(subject: str, given: Any) -> str:
     Raises:
         InputError: If it has no such name, or its module is not a file.
     """
-    module, path = getattr(given, "__module__", None), getattr(given, "__qualname__", None)
+    module, path = (str(getattr(given, key, "")) for key in ("__module__", "__qualname__"))
     try:
-        is_named = path is not None and found(sys.modules[module or ""], path) is given
+        is_named = found(sys.modules[module], path) is given
     except (AttributeError, KeyError):
         is_named = False
     if not is_named:
@@ -121,8 +121,9 @@ def source_files(subject: str, name: str) -> list[tuple[Path, Path]]:
         finder.import_hook(".".join(parts))
     except ImportError:  # A compiled module, or a file of another name.
         return [(root, own)]
-    imported = [module.__file__ for module in finder.modules.values() if module.__file__]
-    return [(root, path) for path in {own, *(Path(file).resolve() for file in imported)}]
+    modules: Iterable[Any] = finder.modules.values()
+    imported = {Path(each.__file__).resolve() for each in modules if each.__file__}
+    return [(root, path) for path in {own, *imported}]
 
 
 def independent(root: Path, package: str) -> list[str]:
