@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from agent_economy import InputError
 from agent_economy.study import Selection, select_best
 from agent_economy.study.arguments import Floats
-from agent_economy.study.selection import LANE, Integers, Sampler
+from agent_economy.study.sampling.sampler import LANE, Sampler
+from agent_economy.study.selection import Integers
 
 
 def bernoulli(shares: list[float], seed: int = 0) -> Sampler:

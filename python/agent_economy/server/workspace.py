@@ -13,7 +13,8 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Scenario, Source, bundled, validation
 from agent_economy.scenario.source import MAX_BYTES, read_file
 from agent_economy.study import load_plan
-from agent_economy.study.store.folder import QUESTION
+from agent_economy.study.store.folder import QUESTION, read_bytes
+from agent_economy.study.store.kind import is_selection
 
 MAX_DEPTH, MAX_FOLDERS, MAX_FILES = 4, 1000, 200
 """Limits of the search for files: depth of folders, number of folders, number of files."""
@@ -80,13 +81,13 @@ class Workspace:
         """
         folder = self.folder / name
         is_plain = name == folder_id(folder, self.folder) and ".." not in folder.parts
-        is_here = is_plain and self.has(folder / QUESTION) and is_study(folder)
+        is_here = is_plain and self.has(folder / QUESTION) and is_listed(folder)
         validation.check(is_here, "study", name, "the id of a study in the list")
         return folder
 
     def studies(self) -> Iterator[tuple[str, Path]]:
         """Yield the ids and folders of the studies in the folder."""
-        for folder in filter(is_study, self._folders()):
+        for folder in filter(is_listed, self._folders()):
             yield folder_id(folder, self.folder), folder
 
     def id_of_study(self, folder: Path) -> str:
@@ -200,8 +201,18 @@ def folder_id(folder: Path, below: Path) -> str:
 
 
 def is_study(folder: Path) -> bool:
-    """Return whether a folder contains a study."""
+    """Return whether a folder contains a study, or a selection of a user's program."""
     return is_file(folder / QUESTION)
+
+
+def is_listed(folder: Path) -> bool:
+    """Return whether a folder contains a study, which the page shows; it may be damaged."""
+    if not is_study(folder):
+        return False
+    try:
+        return not is_selection((read_bytes(folder / QUESTION) or b"").decode(errors="replace"))
+    except InputError:
+        return True
 
 
 def is_file(path: Path) -> bool:

@@ -2,7 +2,8 @@
 
 The data flows one way: `api` -> `plan` (`check`, `questions`, `engine`) -> `race` (the loop: the
 procedure of `selection` requests runs, `store` reads them, `engine` or `workers` compute missing
-ones) -> `answer` (what the runs prove) -> `report` and `files`.
+ones) -> `answer` (what the runs prove) -> `report` and `files`. `sampling` is the race of
+`select_best`, of runs that a user's function computes.
 """
 
 from agent_economy.study.answer.any_answer import AnyAnswer
@@ -14,7 +15,8 @@ from agent_economy.study.api import load_answer, load_plan, rebuild, resume, run
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as make_plan
 from agent_economy.study.progress import Progress
-from agent_economy.study.selection import Selection, select_best
+from agent_economy.study.sampling.result import Selection
+from agent_economy.study.sampling.select_best import select_best
 from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
 from agent_economy.study.store.folder import is_locked
 

@@ -174,8 +174,9 @@ def module_of(make: Make | Batch) -> str:
     code: Any = make.function if isinstance(make, Batch) else make
     while isinstance(code, partial):
         code = code.func
+    code = getattr(code, "__func__", code)  # of a method
     defined = code if isinstance(code, type | FunctionType) else type(code)
-    return defined.__module__
+    return str(defined.__module__)
 
 
 def failure(at: str, error: Exception) -> str:

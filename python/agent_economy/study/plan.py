@@ -29,6 +29,7 @@ from agent_economy.study.engine import Engine
 from agent_economy.study.errors import StoreError
 from agent_economy.study.questions.best import Best
 from agent_economy.study.questions.cheapest import Cheapest
+from agent_economy.study.store.kind import check_study
 
 Question = Best | Cheapest
 
@@ -240,8 +241,9 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
         content: Returns the content of a file by its digest.
 
     Raises:
-        InputError: If it is not a study.toml, or one of a newer version.
+        InputError: If it is not a study.toml, or that of a selection, or of a newer version.
     """
+    check_study(file, text)
     try:
         document = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
@@ -301,7 +303,9 @@ def may_replace(folder: Path, existing: str, requested: str) -> bool:
 
     Raises:
         StoreError: If another build has computed the existing runs.
+        InputError: If they are those of a selection.
     """
+    check_study(str(folder), existing)
     if not is_same_data(existing, requested):
         return False
     check_build(folder, existing, build_of(requested))

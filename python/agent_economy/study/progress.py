@@ -14,6 +14,9 @@ MAX_LEADERS = 50
 MAX_SHOWN = 10
 """Maximum number of its leaders."""
 
+ROUND_S = 0.5
+"""Interval of progress reports during a round."""
+
 
 @dataclass(frozen=True)
 class Leader:
@@ -47,7 +50,7 @@ NOTHING: Range = (0.0, 0.0)
 
 @dataclass(frozen=True)
 class Progress:
-    """The progress of a study after a round, or during a long one.
+    """The progress of a study, or of a selection, after a round or during a long one.
 
     Attributes:
         round: Completed rounds.

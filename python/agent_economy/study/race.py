@@ -29,6 +29,7 @@ from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
 from agent_economy.study.plan import Plan, digest, may_replace
 from agent_economy.study.progress import (
     NOTHING,
+    ROUND_S,
     Leader,
     LeaderInterval,
     OnProgress,
@@ -36,12 +37,9 @@ from agent_economy.study.progress import (
     Range,
 )
 from agent_economy.study.run_block import Compute, Part, Partwise, RunBlock
-from agent_economy.study.selection import Integers, drive, eliminations, within
+from agent_economy.study.selection import Integers, drive, eliminations, is_over, within
 from agent_economy.study.store import Store, StoredRuns
 from agent_economy.study.store.ledger import Answered
-
-ROUND_S = 0.5
-"""Interval of progress reports during a round."""
 
 
 def run_race(
@@ -261,12 +259,7 @@ class Race:
 
     def _is_over(self) -> bool:
         """Return whether it has selected, or its run budget does not allow another round."""
-        procedure = self._procedure
-        request, max_runs = procedure.next(), self._plan.max_runs
-        if request is None or max_runs is None:
-            return request is None
-        configurations, _, runs = request
-        return bool(self._runs.sum() + len(configurations) * runs > max_runs)
+        return is_over(self._procedure, int(self._runs.sum()), self._plan.max_runs)
 
     def _estimate_remaining(self) -> Range | None:
         """Return the range of the runs left: at least those of the round, at most the budget."""
@@ -278,15 +271,15 @@ class Race:
             missing = plan.runs - self._runs[procedure.survivors]
             return float(missing.sum() - pending), float(missing.sum() - pending)
         configurations, _, runs = request
-        of_round = float(len(configurations) * runs)
+        of_round = len(configurations) * runs
         if self._rounds < MIN_ROUNDS:
             return None
         expected = plan.question.remaining(procedure, self._sample, plan.confidence)
         if expected is None:
             return None
         most = math.inf if plan.max_runs is None else float(plan.max_runs - self._runs.sum())
-        low, high = remaining_range(max(expected, of_round))
-        return min(max(low, of_round), most) - pending, min(high, most) - pending
+        low, high = remaining_range(expected, of_round, most)
+        return low - pending, high - pending
 
 
 def record_questions(plan: Plan, store: Store | StoredRuns) -> tuple[Answered, ...]:

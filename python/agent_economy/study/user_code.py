@@ -149,12 +149,17 @@ class SourceFinder(ModuleFinder):
 
 
 def source_file(subject: str, module: str) -> Path:
-    """Return the file of an imported module.
+    """Return the file of a module.
 
     Raises:
-        InputError: If it has none.
+        InputError: If it has none, or cannot be imported.
     """
-    file = getattr(sys.modules.get(module) or importlib.import_module(module), "__file__", None)
+    try:
+        place = sys.modules.get(module) or importlib.import_module(module)
+    except ImportError as error:
+        message = f"{subject}: the module that defines it cannot be imported ({error})"
+        raise InputError(message) from None
+    file = getattr(place, "__file__", None)
     if file is None or not Path(file).is_file():
         message = (
             f"{subject}: is defined in {module}, which is not a file, as in an interactive "

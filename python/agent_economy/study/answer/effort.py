@@ -77,10 +77,16 @@ def remaining_runs(survivors: Evidence, best: int, delta: float, rivals: int) ->
     return sum(missing) + max(missing, default=0.0)
 
 
-def remaining_range(expected: float) -> tuple[float, float]:
-    """Return the range of the remaining runs of a race, of which this number is predicted."""
-    low, high = SPREAD
-    return low * expected, high * expected
+def remaining_range(expected: float, of_round: int, most: float) -> tuple[float, float]:
+    """Return the range of the remaining runs of a race.
+
+    Args:
+        expected: Their predicted number.
+        of_round: Number of runs of the next round, which are computed in any case.
+        most: The run budget that is left.
+    """
+    low, high = (end * max(expected, of_round) for end in SPREAD)
+    return min(max(low, of_round), most), min(high, most)
 
 
 def predicted_runs(evidence: Evidence, best: int, delta: float) -> float:

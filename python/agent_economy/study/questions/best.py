@@ -77,10 +77,7 @@ class Best:
 
     def leaders(self, engine: Engine, procedure: _core.Procedure, sums: Floats) -> dict[int, None]:
         """Return the best of those that remain, the best first; `sums` of their merits."""
-        runs = procedure.runs
-        sampled = procedure.survivors[runs[procedure.survivors] > 0]
-        order = np.argsort(-sums[sampled] / runs[sampled], kind="stable")
-        return dict.fromkeys(sampled[order][:MAX_LEADERS].tolist())
+        return dict.fromkeys(leaders(procedure, sums))
 
     def remaining(
         self, procedure: _core.Procedure, sample: Callable[[int], Sample], confidence: float
@@ -149,3 +146,12 @@ class Best:
             not is_fixed and procedure.next() is None,
             obstacle,
         )
+
+
+def leaders(procedure: _core.Procedure, sums: Floats) -> list[int]:
+    """Return the configurations that remain with the best means; `sums` of their merits."""
+    runs = procedure.runs
+    sampled = procedure.survivors[runs[procedure.survivors] > 0]
+    order = np.argsort(-sums[sampled] / runs[sampled], kind="stable")
+    best: list[int] = sampled[order][:MAX_LEADERS].tolist()
+    return best
