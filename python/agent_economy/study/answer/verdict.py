@@ -84,9 +84,12 @@ def in_runs(share: float) -> str:
 
 
 def runs_with_one(share: float) -> int:
-    """Return 100 runs, or as many times ten more as have at least one of a share, up to 10^9."""
+    """Return 100 runs, or as many times ten more as have at least one of a share, up to 10^9.
+
+    And not all, unless the share is 1.
+    """
     runs = 100
-    while runs * share < 1 and runs < MAX_IN_RUNS:
+    while runs < MAX_IN_RUNS and (runs * share < 1 or round(runs * share) == runs * (share < 1)):
         runs *= 10
     return runs
 
