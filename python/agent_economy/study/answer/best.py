@@ -115,12 +115,18 @@ class Answer(StudyAnswer):
         yield cell(result.time_s, "z.1f")
         yield failed_cell(result.failed, ranges=ranges) if result.is_possible else ""
         yield cell(result.merit, "z.2f")
-        yield f"{result.standing.behind.value:z.3f}" if result.standing.behind else ""
+        yield behind_cell(result.standing.behind) if result.standing.behind else ""
         yield result.verdict
 
     def style(self, result: Result) -> str | None:
         """Return the style of the row of a result on a terminal."""
         return "bold" if result is self.chosen else None
+
+
+def behind_cell(behind: Interval) -> str:
+    """Return how far a configuration is behind the selected one, or ahead of it."""
+    value = f"{behind.value:z.3f}"
+    return f"{value[1:]} ahead" if value.startswith("-") else value
 
 
 def failed_cell(failed: Interval, *, ranges: bool) -> str:
