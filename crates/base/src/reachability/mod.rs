@@ -20,8 +20,8 @@ use crate::geometry::{Disc, Point, Rectangle};
 use cells::{Cells, TOLERANCE_M};
 use runs::Runs;
 
-/// Where walls close cells that are connected by their sides, the radius is at least this many cells: half of
-/// their diagonal, and half of that of a band that contains a centre of each cell on its way.
+/// A wall closes the centres within the radius less half a diagonal of a cell. That is a band without gaps if its
+/// width is at least a diagonal: with a radius of the square root of 2, and some more for rounding.
 const CELLS_OF_WALL: f64 = 1.5;
 
 /// The places that a robot may reach, and the parts of the world between which it finds no way.
@@ -69,9 +69,9 @@ impl Reachability {
         }
     }
 
-    /// The least radius of which walls close cells in a world.
+    /// The smallest radius with which no fill passes any wall in a world.
     #[must_use]
-    pub fn least_radius_m(world: Rectangle) -> f64 {
+    pub fn min_radius_m(world: Rectangle) -> f64 {
         CELLS_OF_WALL * Cells::new(world, 0.0).side_m()
     }
 

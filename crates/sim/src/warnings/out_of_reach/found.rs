@@ -193,8 +193,8 @@ struct Sight {
 impl Sight {
     /// For robots with a place in each of their parts. `None` in a world too large for such gaps.
     fn new(checked: &Checked, robot: &RobotSpec, places: BTreeMap<u32, Point>) -> Option<Self> {
-        let least_m = Reachability::least_radius_m(checked.scenario.world());
-        let radius_m = least_m.max(SIGHT_WIDTH * robot.radius_m);
+        let min_m = Reachability::min_radius_m(checked.scenario.world());
+        let radius_m = min_m.max(SIGHT_WIDTH * robot.radius_m);
         if radius_m > MAX_SIGHT_WIDTH * robot.radius_m {
             return None;
         }
