@@ -200,7 +200,7 @@ clean: ## Remove all build products
 	$(BIN)/pip install --quiet --no-compile --disable-pip-version-check -r requirements.lock
 	touch $@
 
-# The program for users and measurements, compiled as wheels are.
+# The program for users and measurements.
 .venv/installed: .venv/packages pyproject.toml $(RUST)
 	@echo "compiling the simulators: a few minutes the first time"
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .

@@ -7,6 +7,7 @@ import in_memory_study
 import numpy as np
 import pytest
 
+from agent_economy.study.answer.best import behind_cell
 from agent_economy.study.answer.effort import Effort, efforts
 from agent_economy.study.answer.evidence import Evidence, Interval, Sample
 from agent_economy.study.answer.front import front
@@ -15,7 +16,7 @@ from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.side_statements import SideStatements
 from agent_economy.study.answer.ties import Standing, Verdict, standings
-from agent_economy.study.answer.verdict import failures
+from agent_economy.study.answer.verdict import failures, others
 
 TEAM = "robots.rover.count"
 UNIT = (0.0, 1.0)
@@ -204,3 +205,43 @@ def test_rare_failures_can_be_read_aloud(failed: Interval, words: str) -> None:
     ending = Ending(0, (), "", is_guaranteed=False)
     (result,) = results(seen, ending, 0.1)
     assert failures(replace(result, failed=failed)) == words
+
+
+@pytest.mark.parametrize(
+    ("value", "verdict", "words", "cell"),
+    [
+        (0.03, "undecided", "by 0.03 merit; which is better is not decided", "0.030"),
+        (
+            -0.0053,
+            "undecided",
+            "with a mean merit 0.0053 above that of the selected one in their common runs; which "
+            "is better is not decided",
+            "0.005 ahead",
+        ),
+        (
+            -0.0053,
+            "not better",
+            "with a mean merit 0.0053 above that of the selected one in their common runs; it is "
+            "not better by more than 0.1",
+            "0.005 ahead",
+        ),
+        (
+            0.0,
+            "undecided",
+            "with the same mean merit as that of the selected one in their common runs; which is "
+            "better is not decided",
+            "0.000",
+        ),
+        (-0.0001, "tied", "2 rovers does about as well.", "0.000"),
+    ],
+)
+def test_a_configuration_with_a_higher_mean_than_the_selected_one_is_not_behind_it(
+    value: float, verdict: Verdict, words: str, cell: str
+) -> None:
+    seen = evidence(*(sample(0.5, 50, {TEAM: size}) for size in (1, 2)))
+    chosen, other = results(seen, Ending(0, (), "", is_guaranteed=False), 0.1)
+    behind = Interval(value, -0.2, 0.2)
+    other = replace(other, standing=Standing(behind, verdict))
+    stated = others(chosen, (chosen, other), 0.1)
+    assert stated in (words, f"Next: 2 rovers, {words}.")
+    assert behind_cell(behind) == cell

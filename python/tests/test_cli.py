@@ -17,7 +17,7 @@ from agent_economy import cli
 def test_version_names_the_program() -> None:
     given = run_process("--version")
     assert given.returncode == 0
-    assert re.fullmatch(r"agent-economy 0\.[\d.]+ \((release|dev) build\)\n", given.stdout)
+    assert re.fullmatch(r"agent-economy 0\.[\d.]+ \((release|fast|dev) build\)\n", given.stdout)
     assert run("--version").stdout == given.stdout
 
 

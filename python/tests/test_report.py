@@ -15,8 +15,9 @@ from in_memory_study import WANDERERS
 
 from agent_economy.study import files, report
 from agent_economy.study.answer.best import Answer
-from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.answer.results import Ending
+from agent_economy.study.answer.ties import Standing
 from agent_economy.study.errors import StudyError
 from agent_economy.study.report import charts
 from agent_economy.study.report import script as chart_script
@@ -256,6 +257,20 @@ def test_proved_comparisons_are_stated(script: str) -> None:
     assert '<td class="words">worse</td>' in page
     assert "Decided: 3 are enough" in page
     assert "eliminated after 10 runs" in page
+
+
+def test_negative_differences_are_explained_where_there_are_some(teams: Study, script: str) -> None:
+    answer, evidence = teams
+    words = "Where one is negative, the other one has the higher mean there"
+    assert words not in body(report.html(answer, evidence, script))
+    other = (answer.best + 1) % len(answer.results)
+    ahead = Standing(Interval(-0.0053, -0.2, 0.2), "undecided")
+    changed = [
+        replace(each, standing=ahead) if at == other else each
+        for at, each in enumerate(answer.results)
+    ]
+    answer = replace(answer, results=tuple(changed))
+    assert words in body(report.html(answer, evidence, script))
 
 
 def test_a_largest_team_that_is_best_is_not_called_enough(teams: Study) -> None:

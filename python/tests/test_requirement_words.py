@@ -9,19 +9,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from command_line import COMMAND
 from requirement_study import RISING, answered, quarantined, required, simulated
 
 from agent_economy import InputError, study
 from agent_economy.runs import quarantine
-from agent_economy.scenario import Condition, Scenario
+from agent_economy.scenario import Condition, Requirement, Scenario
 from agent_economy.study import RequirementAnswer
 from agent_economy.study.answer.condition_words import in_words
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.quantiles import Quantile
-from agent_economy.study.answer.requirement_results import RequirementResult
-from agent_economy.study.answer.requirement_words import seen
+from agent_economy.study.answer.requirement_results import RequirementEnding, RequirementResult
+from agent_economy.study.answer.requirement_words import RequirementWords, seen
 from agent_economy.study.answer.verdict import repeated
 from agent_economy.study.api import answer_so_far
 from agent_economy.study.plan import Plan
@@ -231,6 +232,51 @@ def test_a_share_below_one_is_never_printed_as_all(classic_toml: Path) -> None:
     assert words(154, 154, 0.95) == "all of 154 did"
     assert words(4999, 5000, 0.95) == "4,999 of 5,000 did"
     assert words(4999, 5000, 0.999) == "99.98% of 5,000 did"
+
+
+def test_a_condition_that_never_failed_is_not_the_one_that_fails_most_often(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    plan = study.make_plan(required(classic_toml), max_runs=10)
+    answer = answered(plan, dict.fromkeys(RISING, 1.0), tmp_path)
+    assert answer.chosen is None
+    assert answer.verdict[1].startswith("Best so far: ")
+    assert answer.verdict[1].endswith(", met in 100.0% of missions (43.4% to 100.0%).")
+    report = (tmp_path / "report.html").read_text("utf-8")
+    for text in (*answer.verdict, answer.sentence, report):
+        assert "fails most often" not in text
+    assert "No mission of these teams failed a condition." in report
+
+
+def of_one_team(requirement: Requirement, runs: int, fails: int) -> RequirementWords:
+    """Return the words about a team of which some runs fail the first condition."""
+    share = fails / runs
+    met = Interval(1 - share, max(0.0, 0.9999 - share), min(1.0, 1.0001 - share))
+    result = RequirementResult(
+        {}, "1 team", 1, 1, runs, 0, "open", met, failing=(share,), quantiles=()
+    )
+    ending = RequirementEnding(
+        np.ones(1), None, frozenset(), frozenset(), frozenset(), is_over=False, is_finest=False
+    )
+    return RequirementWords(requirement, "robots", [result], 0.95, ending, None)
+
+
+@pytest.mark.parametrize(
+    ("fails", "met", "failed"),
+    [
+        (1, "met in 19,999 of 20,000 missions (99.98% to 100.0%).", "in 1 of 20,000 missions."),
+        (600, "met in 97.0% of missions (97.0% to 97.0%).", "in 3.0% of missions."),
+        (19_999, "met in 1 of 20,000 missions (0.0% to 0.01%).", "in 19,999 of 20,000 missions."),
+    ],
+)
+def test_a_share_that_would_be_rounded_to_none_or_all_is_stated_as_a_count(
+    classic_toml: Path, fails: int, met: str, failed: str
+) -> None:
+    requirement = required(classic_toml).requirement
+    assert requirement is not None
+    stated = of_one_team(requirement, 20_000, fails).verdict()[1]
+    assert met in stated
+    assert stated.endswith(f"fails most often there: time_s <= 50, {failed}")
 
 
 def test_quarantined_runs_fail_every_condition_and_are_not_values(

@@ -137,6 +137,66 @@ def test_check_reports_teams_of_the_study_that_have_no_room(job: Path) -> None:
     assert (fitting["time_s"].null_count, crowded["time_s"].null_count) == (0, 4)
 
 
+HALL = """
+engine = "metric"
+summary = "A hall with a closed room."
+merit = "equation-5.2"
+clock = { time_limit_s = 60 }
+[world]
+size_m = [20, 20]
+obstacles = [
+    { rectangle = { at_m = [15, 17.5], size_m = [0.2, 5] } },
+    { rectangle = { at_m = [17.5, 15], size_m = [5, 0.2] } },
+]
+[items.mine]
+count = 4
+[robots.rover]
+count = 2
+radius_m = 0.3
+start = { kind = "uniform", within_m = [[1, 1], [5, 19]] }
+drive = { max_speed_m_s = 0.5 }
+sensors = { detector = { kind = "items", range_m = 3 } }
+"""
+
+CLOSED = (
+    "no robot with a sensor for it can reach 5.9% of its free area, near [17.4, 17.4], within "
+    "range: about 22% of runs have one there; limit the area with within_m, make a way wider than "
+    "0.6 m, or start a robot there"
+)
+
+
+def test_check_warns_of_a_closed_room_in_which_items_may_lie(tmp_path: Path) -> None:
+    file = tmp_path / "hall.toml"
+    file.write_text(HALL)
+    given = run("check", file)
+    assert given.returncode == 0
+    assert given.stderr == f"warning: {file}:12: items.mine.placement: {CLOSED}\n"
+    (warning,) = json.loads(run("check", file, "--json").stdout)
+    assert (warning["path"], warning["effect"]) == ("items.mine.placement", CLOSED)
+    # What the warning advises.
+    for old, new in (
+        ("size_m = [5, 0.2]", "size_m = [3.7, 0.2]"),
+        ("count = 4", 'count = 4\nplacement = { kind = "uniform", within_m = [[0, 0], [14, 20]] }'),
+        (
+            'kind = "uniform", within_m = [[1, 1], [5, 19]]',
+            'kind = "fixed", at_m = [[2, 2], [18, 18]]',
+        ),
+    ):
+        file.write_text(HALL.replace(old, new))
+        assert ae.Scenario.load(file).warnings == ()
+
+
+def test_items_in_a_closed_room_are_as_frequent_as_the_warning_states() -> None:
+    # 400 runs: the share is within three standard errors, 6%, with a probability above 99%.
+    scenario = ae.Scenario.loads(HALL)
+    closed = 0
+    for run_number in range(400):
+        items = ae.Simulation(scenario, run=run_number).items
+        x_m, y_m = (items[axis].to_numpy() for axis in ("x_m", "y_m"))
+        closed += bool(((x_m > 15) & (y_m > 15)).any())
+    assert closed / 400 == pytest.approx(0.22, abs=0.06)
+
+
 def test_a_warning_of_a_replaced_value_names_the_option(job: Path) -> None:
     given = run("check", job, "--set", "robots.rover.count=1000", "--set", "study.vary={}")
     lines = given.stderr.splitlines()

@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from agent_economy.shares import percent
+
 Row = tuple[str, str]
 """A name and a value in words."""
 
@@ -26,9 +28,9 @@ def statement(row: Mapping[str, Any]) -> str:
     if row["declared"]:
         wrong = ", but it was not clear" if row["declared_not_clear"] else ""
         at = f"declared clear at {row['declared_s']:.0f} s"
-        return f"{at} with a stated risk of {risk:.1%}{wrong}"
+        return f"{at} with a stated risk of {percent(risk)}{wrong}"
     if row["given_up"]:
-        return f"not declared clear: given up with a stated risk of {risk:.1%}"
+        return f"not declared clear: given up with a stated risk of {percent(risk)}"
     return "neither declared clear nor given up"
 
 

@@ -12,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from agent_economy.cli.run_progress import PAUSE_S, durations
+from agent_economy.shares import percent
 from agent_economy.study.progress import Leader, OnProgress, Progress, Range
 from agent_economy.study.selection import Elimination
 
@@ -119,4 +120,4 @@ def known_of(leader: Leader) -> tuple[str, ...]:
     """Return the cells of what is known of a leading configuration."""
     if leader.status is None:
         return (f"{leader.merit:.3f}",)
-    return f"{leader.merit:.1%}", leader.status
+    return percent(leader.merit), leader.status

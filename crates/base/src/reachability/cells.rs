@@ -71,6 +71,19 @@ impl Cells {
         first + *run.columns.start() as usize..=first + *run.columns.end() as usize
     }
 
+    pub(super) fn side_m(&self) -> f64 {
+        self.side_m
+    }
+
+    /// The middle of the first cell of a run.
+    pub(super) fn middle(&self, run: &Run) -> Point {
+        let along = |cell: u32| self.side_m * (f64::from(cell) + 0.5);
+        self.corner.plus(Point {
+            x: along(*run.columns.start()),
+            y: along(run.row),
+        })
+    }
+
     pub(super) fn half_diagonal_m(&self) -> f64 {
         self.side_m * FRAC_1_SQRT_2
     }

@@ -1,56 +1,96 @@
 //! Cells as runs, of which a row has far fewer than cells.
 
 use super::cells::Run;
-use std::mem::replace;
 use std::ops::Range;
 
-/// Runs of cells in the order of rows and columns, of which no two share a side in a row.
+/// The part of a run that has none yet.
+const NONE: u32 = u32::MAX;
+
+/// Runs of open cells in the order of rows and columns, of which no two share a side in a row.
 #[derive(Debug, Clone)]
-pub(super) struct Runs(Vec<Run>);
+pub(super) struct Runs {
+    in_order: Vec<Run>,
+    /// By row, the index of its first run; and after the last row, the number of runs.
+    rows: Vec<usize>,
+    /// By run, the number of its part: runs that are connected by sides and corners are one part.
+    parts: Vec<u32>,
+    /// By part, its first run.
+    firsts: Vec<usize>,
+}
 
 impl Runs {
     /// The open cells, of rows of `columns` cells.
     pub(super) fn open(is_closed: &[bool], columns: usize) -> Self {
-        let rows = (0_u32..).zip(is_closed.chunks_exact(columns));
-        Self(
-            rows.flat_map(|(row, is_closed)| open_runs(row, is_closed))
-                .collect(),
-        )
+        let mut in_order = Vec::new();
+        let mut rows = vec![0];
+        for (row, is_closed) in (0_u32..).zip(is_closed.chunks_exact(columns)) {
+            in_order.extend(open_runs(row, is_closed));
+            rows.push(in_order.len());
+        }
+        let mut open = Self {
+            in_order,
+            rows,
+            parts: Vec::new(),
+            firsts: Vec::new(),
+        };
+        open.number_parts();
+        open
     }
 
-    /// Whether `run` contains one of the cells.
-    pub(super) fn overlap(&self, run: &Run) -> bool {
-        !self.overlapping(run).is_empty()
+    /// The parts that have a cell in `run`; a part may be repeated.
+    pub(super) fn parts_in<'r>(&'r self, run: &Run) -> impl Iterator<Item = u32> + use<'r> {
+        self.parts[self.overlapping(run)].iter().copied()
     }
 
-    /// The runs that are connected to a cell of `starts`, by sides and corners.
-    pub(super) fn connected_to(self, starts: impl Iterator<Item = Run>) -> Self {
-        let mut is_connected = vec![false; self.0.len()];
-        let mut ahead: Vec<Run> = starts.collect();
+    /// Number of parts.
+    pub(super) fn count(&self) -> usize {
+        self.firsts.len()
+    }
+
+    /// The first run of a part.
+    pub(super) fn first_of(&self, part: u32) -> Option<&Run> {
+        let first = self.firsts.get(part as usize)?;
+        self.in_order.get(*first)
+    }
+
+    fn number_parts(&mut self) {
+        self.parts = vec![NONE; self.in_order.len()];
+        let mut number = 0;
+        for first in 0..self.in_order.len() {
+            if self.parts[first] == NONE {
+                self.firsts.push(first);
+                self.fill(first, number);
+                number += 1;
+            }
+        }
+    }
+
+    /// Numbers the runs that are connected to the first.
+    fn fill(&mut self, first: usize, number: u32) {
+        self.parts[first] = number;
+        let mut ahead = vec![first];
         while let Some(next) = ahead.pop() {
-            for index in self.overlapping(&next) {
-                if !replace(&mut is_connected[index], true) {
-                    ahead.extend(self.0[index].beside());
+            for beside in self.in_order[next].beside() {
+                for index in self.overlapping(&beside) {
+                    if self.parts[index] == NONE {
+                        self.parts[index] = number;
+                        ahead.push(index);
+                    }
                 }
             }
         }
-        let runs = self.0.into_iter().zip(is_connected);
-        Self(
-            runs.filter_map(|(run, is_connected)| is_connected.then_some(run))
-                .collect(),
-        )
     }
 
     /// The indices of the runs that share a cell with `run`.
     fn overlapping(&self, run: &Run) -> Range<usize> {
-        let (low, high) = (run.columns.start(), run.columns.end());
-        let first = self
-            .0
-            .partition_point(|each| (each.row, each.columns.end()) < (run.row, low));
-        let after = self
-            .0
-            .partition_point(|each| (each.row, each.columns.start()) <= (run.row, high));
-        first..after
+        let row = run.row as usize;
+        let (Some(&start), Some(&end)) = (self.rows.get(row), self.rows.get(row + 1)) else {
+            return 0..0;
+        };
+        let in_row = &self.in_order[start..end];
+        let first = in_row.partition_point(|each| each.columns.end() < run.columns.start());
+        let after = in_row.partition_point(|each| each.columns.start() <= run.columns.end());
+        start + first..start + after
     }
 }
 

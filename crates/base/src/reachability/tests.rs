@@ -135,6 +135,46 @@ fn ten_thousand_walls_and_four_million_cells_take_seconds() {
     );
 }
 
+#[test]
+fn parts_are_the_same_exactly_where_a_way_connects_places() {
+    let divided = [wall([5.0, -1.0], [6.0, 11.0])];
+    let reach = Reachability::new(square(10.0), 0.5, divided, &[here(2.0, 2.0)]);
+    let part_at = |x, y| {
+        let parts: Vec<u32> = reach.parts_near(point(x, y), 0.0).collect();
+        assert!(!parts.is_empty() && parts.iter().all(|part| *part == parts[0]));
+        parts[0]
+    };
+    assert_eq!(reach.parts(), 2);
+    assert_eq!(part_at(2.0, 2.0), part_at(1.0, 9.0));
+    assert_ne!(part_at(2.0, 2.0), part_at(8.0, 8.0));
+    assert!(reach.is_reached(part_at(1.0, 9.0)) && !reach.is_reached(part_at(8.0, 8.0)));
+    for part in [0, 1] {
+        let place = reach.place_in(part).unwrap();
+        assert_eq!(part_at(place.x, place.y), part);
+    }
+    assert!(reach.place_in(2).is_none() && !reach.is_reached(2));
+    // At the wall, both sides are near.
+    assert!(
+        reach
+            .parts_near(point(5.5, 5.0), 1.0)
+            .any(|part| part == part_at(8.0, 8.0))
+    );
+}
+
+#[test]
+fn at_the_smallest_radius_walls_of_any_direction_have_no_gaps() {
+    let world = square(3000.0);
+    let radius_m = Reachability::min_radius_m(world);
+    for at in 0..10 {
+        let tilt = 150.0 * f64::from(at);
+        let divided = [wall([tilt, -1.0], [3000.0 - tilt, 3001.0])];
+        let start = here(3000.0 - tilt.max(10.0), 10.0);
+        let other = point(tilt.max(10.0), 2990.0);
+        let reach = Reachability::new(world, radius_m, divided, &[start]);
+        assert!(!reach.may_come_near(other, 0.0), "{tilt}");
+    }
+}
+
 fn distance_m(solid: &Solid, at: Point) -> f64 {
     match solid {
         Solid::Wall(wall) => wall.distance_m(at),

@@ -1,10 +1,12 @@
 //! A scenario of the metric engine, gathered from the modules that own its parts.
 
+pub(crate) mod areas;
 mod checked;
 mod checks;
 mod counts;
 mod facts;
 pub(crate) mod features;
+pub(crate) mod finders;
 mod kinds;
 mod models;
 mod reading;

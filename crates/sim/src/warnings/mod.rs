@@ -9,6 +9,7 @@ mod economy;
 mod goals;
 mod lane_radios;
 mod narrow_radios;
+mod out_of_reach;
 mod position_errors;
 mod room;
 mod unseen_corners;
@@ -23,9 +24,10 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 8] = [
+const EXAMINATIONS: [Examination; 9] = [
     cropped_maps::warnings,
     room::warnings,
+    out_of_reach::warnings,
     goals::warnings,
     economy::warnings,
     narrow_radios::warnings,
@@ -60,6 +62,8 @@ pub(crate) fn warnings(
 mod economy_tests;
 #[cfg(test)]
 mod lane_radios_tests;
+#[cfg(test)]
+mod out_of_reach_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

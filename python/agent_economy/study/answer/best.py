@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from agent_economy.scenario import Scenario
+from agent_economy.shares import percent, percent_bounds
 from agent_economy.study.answer.effort import Effort
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.published import PublishedResult
@@ -115,14 +116,26 @@ class Answer(StudyAnswer):
         if "quarantined" in self.heads:
             yield f"{result.quarantined:,}"
         yield cell(result.time_s, "z.1f")
-        if result.is_possible and result.failed.value == 0:
-            yield f"none (..{result.failed.high:.2%})" if ranges else "none"
-        else:
-            yield cell(result.failed, "z.2%")
+        yield failed_cell(result.failed, ranges=ranges) if result.is_possible else ""
         yield cell(result.merit, "z.2f")
-        yield f"{result.standing.behind.value:z.3f}" if result.standing.behind else ""
+        yield behind_cell(result.standing.behind) if result.standing.behind else ""
         yield result.verdict
 
     def style(self, result: Result) -> str | None:
         """Return the style of the row of a result on a terminal."""
         return "bold" if result is self.chosen else None
+
+
+def behind_cell(behind: Interval) -> str:
+    """Return how far a configuration is behind the selected one, or ahead of it."""
+    value = f"{behind.value:z.3f}"
+    return f"{value[1:]} ahead" if value.startswith("-") else value
+
+
+def failed_cell(failed: Interval, *, ranges: bool) -> str:
+    """Return the share of failed runs, with its range or without."""
+    low, high = percent_bounds(failed.low, failed.high, decimals=2)
+    if failed.value == 0:
+        return f"none (..{high})" if ranges else "none"
+    value = percent(failed.value, decimals=2)
+    return f"{value} ({low}..{high})" if ranges else value

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from agent_economy.scenario import Requirement, Scenario
+from agent_economy.shares import percent, percent_bounds
 from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
 from agent_economy.study.brains import StudyBrains
@@ -94,12 +95,17 @@ class RequirementAnswer(StudyAnswer):
         yield f"{result.cost:,.12g}"
         yield f"{result.runs:,}" if result.runs else ""
         met = result.met if result.is_possible else None
-        between = f" ({met.low:.1%}..{met.high:.1%})" if met and ranges else ""
-        yield f"{met.value:.1%}{between}" if met else ""
-        worst, share = result.worst if any(result.failing) else (0, 0.0)
-        has_failed = share and result.is_possible
-        yield f"{self.requirement.conditions[worst].text}: {share:.1%}" if has_failed else ""
+        between = f" ({'..'.join(percent_bounds(met.low, met.high))})" if met and ranges else ""
+        yield f"{percent(met.value)}{between}" if met else ""
+        yield self.worst_failure(result)
         yield result.status
+
+    def worst_failure(self, result: RequirementResult) -> str:
+        """Return the condition that fails most often and its share; empty if none failed."""
+        if result.worst is None or not result.is_possible:
+            return ""
+        worst, share = result.worst
+        return f"{self.requirement.conditions[worst].text}: {percent(share)}"
 
     def style(self, result: RequirementResult) -> str | None:
         """Return the style of the row of a result on a terminal."""

@@ -115,9 +115,13 @@ class RequirementResult:
         return "best" if self.status == "selected" else self.status
 
     @property
-    def worst(self) -> tuple[int, float]:
-        """The number of the condition that fails most often, and its share of runs."""
-        return max(enumerate(self.failing), key=lambda pair: pair[1])
+    def worst(self) -> tuple[int, float] | None:
+        """The number of the condition that fails most often, and its share of runs.
+
+        None if none failed.
+        """
+        failed = ((at, share) for at, share in enumerate(self.failing) if share > 0)
+        return max(failed, key=lambda pair: pair[1], default=None)
 
     @property
     def is_eliminated(self) -> bool:

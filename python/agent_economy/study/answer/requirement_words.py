@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from agent_economy.scenario import Requirement
+from agent_economy.shares import of_runs, percent_bounds, vanishes
 from agent_economy.study.answer import clearance
 from agent_economy.study.answer.condition_words import in_words
 from agent_economy.study.answer.labels import alternatives, first, listed, recommendation
@@ -169,17 +170,28 @@ class RequirementWords:
         if not known:
             return []
         met, nearest = max(known, key=lambda pair: pair[0].value)
-        low, high = (share(bound, self.requirement) for bound in (met.low, met.high))
-        of_missions = f"{share(met.value, self.requirement)} of missions ({low} to {high})"
-        worst, part = nearest.worst
-        failing = f"{self.requirement.conditions[worst].text}, in {part:.1%} of missions"
+        failing = self.failing_most_often(nearest)
         if met.value == 0:
-            return ["No run met it", f"The condition that fails most often: {failing}"]
+            return [
+                "No run met it",
+                *(f"The condition that fails most often: {each}" for each in failing),
+            ]
+        decimals = decimals_of(self.requirement)
+        share_met = of_runs(met.value, nearest.runs, "missions", decimals)
+        low, high = percent_bounds(met.low, met.high, decimals)
         closest = "Closest" if self.ending.is_over else "Best so far"
         return [
-            f"{closest}: {nearest.label}, met in {of_missions}",
-            f"The condition that fails most often there: {failing}",
+            f"{closest}: {nearest.label}, met in {share_met} ({low} to {high})",
+            *(f"The condition that fails most often there: {each}" for each in failing),
         ]
+
+    def failing_most_often(self, result: RequirementResult) -> list[str]:
+        """Return the condition that fails most often, with its share; none if none failed."""
+        if result.worst is None:
+            return []
+        worst, part = result.worst
+        condition = self.requirement.conditions[worst].text
+        return [f"{condition}, in {of_runs(part, result.runs, 'missions')}"]
 
 
 def may_meet(result: RequirementResult) -> bool:
@@ -196,19 +208,18 @@ def seen(result: RequirementResult, requirement: Requirement) -> str:
     """Return the share of runs in which a team met a requirement."""
     if result.met is None:
         return ""
-    value, runs = result.met.value, result.runs
-    met = f"{round(value * runs):,} of {runs:,}"
+    value, runs, decimals = result.met.value, result.runs, decimals_of(requirement)
+    met = f"{value:.{decimals}%} of {runs:,}"
     if value == 1:
         met = f"all of {runs:,}"
-    elif (rounded := share(value, requirement)) != share(1.0, requirement):
-        met = f"{rounded} of {runs:,}"
+    elif vanishes(value, decimals):
+        met = f"{round(value * runs):,} of {runs:,}"
     return f" ({met} did)"
 
 
-def share(value: float, requirement: Requirement) -> str:
-    """Return a share of missions with two figures of what the requirement allows to fail."""
-    places = 1 - math.floor(math.log10(100 * (1 - requirement.probability)) + 1e-9)
-    return f"{value:.{max(1, places)}%}"
+def decimals_of(requirement: Requirement) -> int:
+    """Return the decimals of percentages: two figures of what the requirement allows to fail."""
+    return max(1, 1 - math.floor(math.log10(100 * (1 - requirement.probability)) + 1e-9))
 
 
 def spare_of(requirement: Requirement) -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from agent_economy.scenario import Scenario
+from agent_economy.shares import of_runs
 from agent_economy.study.answer import clearance
 from agent_economy.study.answer.labels import first, listed, recommendation
 from agent_economy.study.answer.results import Ending, Result
@@ -43,9 +44,10 @@ def performance(result: Result) -> str:
     value, low, high = (
         f"{each:z.2f}" for each in (result.merit.value, result.merit.low, result.merit.high)
     )
+    failed = of_runs(result.failed.value, result.runs, "runs", decimals=2)
     return (
-        f"A run takes {result.time_s.value:.1f} s on average, {result.failed.value:.2%} of runs "
-        f"fail, and the figure of merit is {value} ({low} to {high})"
+        f"A run takes {result.time_s.value:.1f} s on average, {failed} fail, and the figure of "
+        f"merit is {value} ({low} to {high})"
     )
 
 

@@ -36,7 +36,7 @@ def verdict(
         first = f"{send}."
         second = f"A run takes {time_s}; {fails}."
     second = " ".join([second, *declarations(chosen.clearance)])
-    third = " ".join([others(chosen, results), *impossible(results, ending.obstacle)])
+    third = " ".join([others(chosen, results, delta), *impossible(results, ending.obstacle)])
     return first, second, third, precision(scenario, delta, confidence)
 
 
@@ -84,9 +84,12 @@ def in_runs(share: float) -> str:
 
 
 def runs_with_one(share: float) -> int:
-    """Return 100 runs, or as many times ten more as have at least one of a share, up to 10^9."""
+    """Return 100 runs, or as many times ten more as have at least one of a share, up to 10^9.
+
+    And not all, unless the share is 1.
+    """
     runs = 100
-    while runs * share < 1 and runs < MAX_IN_RUNS:
+    while runs < MAX_IN_RUNS and (runs * share < 1 or round(runs * share) == runs * (share < 1)):
         runs *= 10
     return runs
 
@@ -98,7 +101,7 @@ def two_figures(number: float) -> str:
     return f"{number:.2g}" if number >= 0.01 else "0"  # noqa: PLR2004
 
 
-def others(chosen: Result, results: Sequence[Result]) -> str:
+def others(chosen: Result, results: Sequence[Result], delta: float) -> str:
     """Return which configurations do about as well, or how far behind the next one is."""
     behind = [
         (result.standing.behind.value, result)
@@ -114,7 +117,18 @@ def others(chosen: Result, results: Sequence[Result]) -> str:
     value, nearest = min(behind, key=lambda pair: pair[0])
     if nearest.standing.verdict == "worse":
         return f"Next: {nearest.label}, worse by {value:.2g} merit."
-    return f"Next: {nearest.label}, by {value:.2g} merit; which is better is not decided."
+    if value > 0:
+        return f"Next: {nearest.label}, by {value:.2g} merit; which is better is not decided."
+    return f"Next: {nearest.label}, {ahead(nearest, -value, delta)}."
+
+
+def ahead(result: Result, lead: float, delta: float) -> str:
+    """Return what is known of a configuration whose mean merit is not below the selected one's."""
+    mean = f"a mean merit {lead:.2g} above" if lead else "the same mean merit as"
+    known = "which is better is not decided"
+    if result.standing.verdict == "not better":
+        known = f"it is not better by more than {delta:g}"
+    return f"with {mean} that of the selected one in their common runs; {known}"
 
 
 def precision(scenario: Scenario, delta: float, confidence: float) -> str:

@@ -2,6 +2,7 @@
 
 import math
 
+from agent_economy import shares
 from agent_economy.study.answer.evidence import Interval
 
 UNKNOWN, NOTHING, INFINITE = "unknown", "\N{EN DASH}", "never"
@@ -32,8 +33,19 @@ def brief(number: float) -> str:
 
 
 def percent(share: float, decimals: int) -> str:
-    """Return a share as a percentage."""
-    return f"{decimal(100 * share, decimals)}%" if math.isfinite(share) else UNKNOWN
+    """Return a share as a percentage, which is never rounded to none or all."""
+    if not math.isfinite(share):
+        return UNKNOWN
+    return f"{decimal(100 * share, shares.places(share, decimals))}%"
+
+
+def percent_span(interval: Interval, decimals: int) -> str:
+    """Return the bounds of a share, which may be rounded outwards: "0.0% to 4.7%"."""
+    low, high = interval.low, interval.high
+    if not math.isfinite(high - low):
+        return f"{UNKNOWN} to {UNKNOWN}"
+    lower, upper = shares.bound_places(low, high, decimals)
+    return f"{decimal(100 * low, lower)}% to {decimal(100 * high, upper)}%"
 
 
 def count(number: int, word: str) -> str:

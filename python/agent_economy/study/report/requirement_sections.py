@@ -133,9 +133,13 @@ def distribution(view: RequirementView) -> Section:
     """Return the section on the distribution of the deciding column."""
     condition = view.deciding_condition
     teams = " and ".join(view.names[index] for index in view.compared_distributions)
+    fails = (
+        f"{condition.text} is the condition that fails most often."
+        if view.fails(condition)
+        else "No mission of these teams failed a condition."
+    )
     note = (
-        f"{condition.text} is the condition that fails most often. The band around each "
-        "distribution is valid at any time; both together with "
+        f"{fails} The band around each distribution is valid at any time; both together with "
         f"{percentage(view.answer.confidence)} confidence."
     )
     picture = Picture("distribution", f"Distribution of {condition.column}: {teams}")

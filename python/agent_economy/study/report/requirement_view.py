@@ -81,14 +81,17 @@ class RequirementView(View):
 
     @cached_property
     def deciding_condition(self) -> Condition:
-        """The condition that fails most often in the configurations that are compared."""
-        conditions = self.answer.requirement.conditions
+        """The condition that fails most often in the configurations that are compared.
+
+        The first one if none fails.
+        """
+        return max(self.answer.requirement.conditions, key=self.fails)
+
+    def fails(self, condition: Condition) -> float:
+        """Return the share of missions that fail a condition, summed over those compared."""
+        number = self.answer.requirement.conditions.index(condition)
         indices = self.compared_distributions or self.known
-
-        def fails(number: int) -> float:
-            return sum(self.result(index).failing[number] for index in indices)
-
-        return conditions[max(range(len(conditions)), key=fails)]
+        return sum(self.result(index).failing[number] for index in indices)
 
     @property
     def band_alpha(self) -> float:

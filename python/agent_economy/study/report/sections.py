@@ -55,6 +55,7 @@ def merit(view: MeritView) -> Section:
             "it is not higher by more than delta; undecided, that the intervals prove none of "
             "these. The guarantee includes eliminated configurations whose verdict is undecided."
         )
+        notes += meaning_of_differences(view)
     if view.impossible:
         notes.append(
             f"{count(len(view.impossible), 'configuration')} cannot be run, because all first runs "
@@ -62,6 +63,19 @@ def merit(view: MeritView) -> Section:
         )
     found = (tables.merit(view),)
     return Section("Figure of merit", tuple(notes), tuple(pictures), found, is_folded=False)
+
+
+def meaning_of_differences(view: MeritView) -> list[str]:
+    """Return what negative differences from the selected one mean; nothing if there are none."""
+    behind = [view.result(index).standing.behind for index in view.shown]
+    if all(each is None or each.value >= 0 for each in behind):
+        return []
+    note = (
+        "Differences are the merit of the selected configuration minus that of the other one, in "
+        "their common runs. Where one is negative, the other one has the higher mean there; its "
+        "verdict states what the runs prove."
+    )
+    return [note]
 
 
 def heat(view: MeritView) -> Section:

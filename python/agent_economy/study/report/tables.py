@@ -18,6 +18,7 @@ from agent_economy.study.report.formatting import (
     brief,
     decimal,
     percent,
+    percent_span,
 )
 from agent_economy.study.report.merit_view import MeritView
 from agent_economy.study.report.view import MAX_SHOWN, factor_name
@@ -69,8 +70,7 @@ def measured(interval: Interval, decimals: int) -> Cell:
 
 def shares(interval: Interval, decimals: int) -> Cell:
     """Return a cell of a share and its bounds."""
-    low, high = percent(interval.low, decimals), percent(interval.high, decimals)
-    return Cell(percent(interval.value, decimals), f"{low} to {high}")
+    return Cell(percent(interval.value, decimals), percent_span(interval, decimals))
 
 
 def table(caption: str, heads: tuple[str, ...], rows: Iterable[tuple[Cell, ...]]) -> Table:

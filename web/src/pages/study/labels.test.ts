@@ -6,6 +6,8 @@ import {
   decimal,
   duration,
   durations,
+  highText,
+  lowText,
   meritText,
   raceFigures,
   places,
@@ -103,6 +105,14 @@ test("merits are rounded so that delta has two significant digits", () => {
     "91.2%",
     "–",
   ]);
+});
+
+test("a share is never rounded to none or all, and its bounds outwards only", () => {
+  const shares = [0, 1, 0.0004, 1 / 20_000, 1 - 1 / 20_000].map((share) => meritText(share, null));
+  expect(shares).toEqual(["0.0%", "100.0%", "0.04%", "0.005%", "99.995%"]);
+  expect([lowText(0.0002, null), highText(0.0002, null)]).toEqual(["0.0%", "0.02%"]);
+  expect([lowText(0.9998, null), highText(0.9998, null)]).toEqual(["99.98%", "100.0%"]);
+  expect([lowText(-1.655, 0.2), highText(null, 0.2)]).toEqual(["−1.66", "–"]);
 });
 
 test("a request error has the server's message, and a missing server has ours", () => {

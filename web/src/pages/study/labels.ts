@@ -100,10 +100,32 @@ export function decimal(value: number | null, digits: number): string {
   return value === null ? "–" : value.toFixed(digits).replace("-", "−");
 }
 
-/** The text of a merit in a study with this delta; of a share of runs if it is null. */
+/** The text of a merit in a study with this delta; of a share of runs, never rounded to none or all, if it is null. */
 export function meritText(value: number | null, delta: number | null): string {
+  return textOf(value, delta, (share) => share);
+}
+
+/** The text of the lower bound of a merit or share, which may be rounded to none. */
+export function lowText(value: number | null, delta: number | null): string {
+  return textOf(value, delta, (share) => Math.max(share, 0.5));
+}
+
+/** The text of the upper bound of a merit or share, which may be rounded to all. */
+export function highText(value: number | null, delta: number | null): string {
+  return textOf(value, delta, (share) => Math.min(share, 0.5));
+}
+
+/** The text of a merit, or of a share with the decimals that `like` of it needs. */
+function textOf(value: number | null, delta: number | null, like: (share: number) => number): string {
   if (delta !== null || value === null) return decimal(value, delta === null ? 0 : places(delta));
-  return `${(100 * value).toFixed(1)}%`;
+  return `${(100 * value).toFixed(sharePlaces(like(value)))}%`;
+}
+
+/** Decimal places of a percentage: one, or as many as a share needs not to be rounded to none or all. */
+function sharePlaces(share: number): number {
+  const rarer = Math.min(share, 1 - share);
+  const vanishes = rarer > 1e-9 && [0, 100].includes(Number((100 * share).toFixed(1)));
+  return vanishes ? -Math.floor(Math.log10(100 * rarer)) : 1;
 }
 
 export function percent(share: number): string {

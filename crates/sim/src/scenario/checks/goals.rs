@@ -4,6 +4,7 @@ use super::controllers::unknown;
 use crate::bodies::RobotSpec;
 use crate::goals::GoalSpec;
 use crate::scenario::counts::max_count;
+use crate::scenario::finders::can_serve;
 use crate::scenario::spec::ScenarioSpec;
 use base::document::{Document, Place};
 use base::error::InputError;
@@ -30,12 +31,6 @@ pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError
     }
     errors.extend(of_twins(spec, at));
     errors
-}
-
-/// Whether robots of a kind can be awarded such goals, and report that they served them.
-pub(super) fn can_serve(robot: &RobotSpec, kind: &GoalSpec) -> bool {
-    let mut required = kind.requires.iter();
-    robot.radio.is_some() && required.all(|name| robot.capabilities.contains(name))
 }
 
 /// Capabilities that a kind of robots has twice, and too many of them.

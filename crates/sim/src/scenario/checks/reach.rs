@@ -1,18 +1,14 @@
 //! Checks that robots can reach the items and goals.
 
-use super::goals::can_serve;
-use super::ground::rectangle;
-use super::room::{lattice, within};
 use crate::bodies::{Layer, RobotSpec};
+use crate::scenario::areas::{lattice, within};
 use crate::scenario::checked::Checked;
-use crate::scenario::spec::ScenarioSpec;
-use crate::sensors::Measures;
-use crate::world::obstacles::Solid;
+use crate::scenario::finders::{Finder, finders, reach, servers};
 use base::document::Place;
 use base::error::InputError;
-use base::geometry::{Point, Rectangle};
+use base::geometry::Point;
 use base::placement::Placement;
-use base::reachability::{self, Reachability};
+use base::reachability::Reachability;
 
 /// A kind counts whatever its number of robots, which a study may vary.
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
@@ -52,9 +48,7 @@ fn of_goals(checked: &Checked, at: &Place) -> Vec<InputError> {
     let goals = goals.filter(|_| !spec.world.periodic);
     let errors = goals.flat_map(|(name, kind)| {
         let at = at.key("goals").key(name);
-        let robots = spec.robots.values().filter(|robot| can_serve(robot, kind));
-        let range_m = kind.within_m;
-        let servers: Vec<Finder> = robots.map(|robot| Finder { robot, range_m }).collect();
+        let servers = servers(spec, kind);
         // Goals that no robot can serve anywhere are reported by another check.
         if servers.is_empty() {
             return Vec::new();
@@ -77,32 +71,6 @@ struct Targets<'s> {
     count: u32,
     /// The robots that have to come near.
     robots: &'static str,
-}
-
-/// A kind of robot that detects an item at this distance.
-struct Finder<'s> {
-    robot: &'s RobotSpec,
-    range_m: f64,
-}
-
-fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
-    let finder = |robot: &'s RobotSpec| {
-        let ranges = robot
-            .sensors
-            .values()
-            .filter_map(|sensor| match &sensor.measures {
-                Measures::Items(items) => {
-                    let detection_probability = items.detection_probability.as_ref();
-                    let is_known =
-                        detection_probability.is_none_or(|kinds| kinds.contains_key(item));
-                    is_known.then_some(items.sector.range_m)
-                }
-                _ => None,
-            });
-        let range_m = ranges.reduce(f64::max)?;
-        Some(Finder { robot, range_m })
-    };
-    spec.robots.values().filter_map(finder).collect()
 }
 
 /// The given places that no robot can come near enough to.
@@ -142,8 +110,7 @@ fn all_out_of_reach(
     finders: &[Finder],
     at: &Place,
 ) -> Option<InputError> {
-    let world = rectangle(&checked.spec.world);
-    let within = within(kind.placement, &world)?;
+    let within = within(kind.placement, checked.scenario.world())?;
     let is_free = |place: &Point| checked.scenario.is_free(*place, 0.0, Layer::Ground);
     let places = || lattice(within).filter(is_free);
     // Where there is no free place at all, another check reports it.
@@ -176,48 +143,10 @@ fn starts_at_one(
     robot: &RobotSpec,
     mut places: impl Iterator<Item = Point>,
 ) -> bool {
-    let world = rectangle(&checked.spec.world);
-    let start = within(&robot.start, &world);
+    let start = within(&robot.start, checked.scenario.world());
     start.is_some_and(|start| {
         places.any(|place| {
             start.contains(place) && checked.scenario.is_free(place, robot.radius_m, robot.layer)
         })
     })
-}
-
-/// Where robots of a kind may move.
-fn reach(checked: &Checked, robot: &RobotSpec) -> Reachability {
-    let world = rectangle(&checked.spec.world);
-    let starts = match &robot.start {
-        Placement::Fixed { at_m, .. } => at_m
-            .iter()
-            .map(|place| Rectangle::spanned(*place, *place))
-            .collect(),
-        Placement::Uniform { within_m } | Placement::Clustered { within_m, .. } => {
-            vec![within_m.unwrap_or(world)]
-        }
-    };
-    let solids = match robot.layer {
-        Layer::Ground => checked.scenario.solids(),
-        Layer::Air => &[],
-    };
-    Reachability::new(
-        world,
-        robot.radius_m,
-        solids.iter().flat_map(parts),
-        &starts,
-    )
-}
-
-fn parts(solid: &Solid) -> Vec<reachability::Solid> {
-    match solid {
-        Solid::Polygon(polygon) => polygon.edges().map(reachability::Solid::Wall).collect(),
-        Solid::Disc(disc) => vec![reachability::Solid::Pillar(*disc)],
-        Solid::Map(map) => map
-            .outline()
-            .iter()
-            .copied()
-            .map(reachability::Solid::Wall)
-            .collect(),
-    }
 }

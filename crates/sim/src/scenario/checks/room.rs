@@ -2,34 +2,18 @@
 
 use super::ground::rectangle;
 use crate::bodies::{Layer, RobotSpec};
+use crate::scenario::areas::{SIDE, lattice, within};
 use crate::scenario::checked::Checked;
 use crate::scenario::ready::Scenario;
 use base::document::Place;
 use base::error::InputError;
-use base::geometry::{Point, Rectangle};
+use base::geometry::Rectangle;
 use base::placement::Placement;
 use std::f64::consts::PI;
-
-/// Places that are examined along each side of a rectangle.
-const SIDE: u32 = 128;
 
 /// Discs of one size that are placed one by one at random jam when they cover 0.547 of the plane
 /// (Feder, *Random sequential adsorption*, 1980); long before that, a free place is hard to find.
 const MAX_SHARE: f64 = 0.5;
-
-/// The places of a lattice over a rectangle.
-pub(super) fn lattice(within: Rectangle) -> impl Iterator<Item = Point> {
-    let size = within.size();
-    let at = |step: u32| (f64::from(step) + 0.5) / f64::from(SIDE);
-    let place = move |(column, row)| {
-        within.min().plus(Point {
-            x: size.x * at(column),
-            y: size.y * at(row),
-        })
-    };
-    let places = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
-    places.map(place)
-}
 
 /// Whether a rectangle has a place for a disc.
 fn has_place(scenario: &Scenario, within: Rectangle, radius_m: f64, layer: Layer) -> bool {
@@ -52,7 +36,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let scenario = &checked.scenario;
     let mut errors = Vec::new();
     for (placement, count, at) in points(checked, at) {
-        let within = within(placement, &world).filter(|_| count > 0);
+        let within = within(placement, world).filter(|_| count > 0);
         if within.is_some_and(|within| !has_place(scenario, within, 0.0, Layer::Ground)) {
             errors.push(at.key("count").error("0: their area has no free place"));
         }
@@ -98,20 +82,10 @@ fn points<'c, 'd>(
     items.chain(goals).chain(controllers)
 }
 
-/// The areas of those without given places.
-pub(super) fn within(placement: &Placement, world: &Rectangle) -> Option<Rectangle> {
-    match placement {
-        Placement::Fixed { .. } => None,
-        Placement::Uniform { within_m } | Placement::Clustered { within_m, .. } => {
-            Some(within_m.unwrap_or(*world))
-        }
-    }
-}
-
 /// There is a place for one robot of the kind.
 fn error_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<InputError> {
     let scenario = &checked.scenario;
-    let within = within(&kind.start, &rectangle(&checked.spec.world)).filter(|_| kind.count > 0)?;
+    let within = within(&kind.start, scenario.world()).filter(|_| kind.count > 0)?;
     (!has_place(scenario, within, kind.radius_m, kind.layer)).then(|| {
         let radius_m = kind.radius_m;
         at.key("count").error(format!(
