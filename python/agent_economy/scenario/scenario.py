@@ -188,7 +188,7 @@ class Scenario:
 
     @cached_property
     def warnings(self) -> tuple[ScenarioWarning, ...]:
-        """Warnings about a single run, such as robots without room (docs/scenario.md lists them)."""
+        """Warnings about a single run, such as robots without room (see docs/scenario.md)."""
         return warnings(self.source, [{}])
 
     @cached_property
