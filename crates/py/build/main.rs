@@ -24,7 +24,9 @@ fn main() -> io::Result<()> {
 /// `target/PROFILE/build/PACKAGE/out`.
 fn profile() -> String {
     let out = env::var_os("OUT_DIR").map(PathBuf::from);
-    let folder = out.as_deref().and_then(|out| out.ancestors().nth(3)?.file_name());
+    let folder = out
+        .as_deref()
+        .and_then(|out| out.ancestors().nth(3)?.file_name());
     match folder.and_then(OsStr::to_str) {
         Some("debug") | None => "dev".to_owned(),
         Some(name) => name.to_owned(),
