@@ -24,10 +24,9 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 9] = [
+const EXAMINATIONS: [Examination; 8] = [
     cropped_maps::warnings,
     room::warnings,
-    out_of_reach::warnings,
     goals::warnings,
     economy::warnings,
     narrow_radios::warnings,
@@ -43,19 +42,41 @@ pub(crate) fn warnings(
     configurations: &[Vec<(String, Value)>],
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    for document in configurations::representative(document, configurations) {
+    let mut add = |warning: Warning| {
+        if !warnings.contains(&warning) {
+            warnings.push(warning);
+        }
+    };
+    let largest = configurations::largest_teams(document, configurations);
+    let in_largest: Vec<Warning> = largest.iter().flat_map(unreached).collect();
+    for (document, team) in configurations::smallest_teams(document, configurations) {
+        for mut warning in unreached(&document) {
+            // Otherwise, it is the same with any number of robots.
+            if !team.is_empty() && !in_largest.contains(&warning) {
+                warning.effect = format!("with {team}: {}", warning.effect);
+            }
+            add(warning);
+        }
+    }
+    for document in largest {
         let Ok(checked) = ScenarioSpec::read(&document) else {
             continue;
         };
         let found = EXAMINATIONS.iter();
-        for warning in found.flat_map(|examine| examine(&checked, &document.place())) {
-            if !warnings.contains(&warning) {
-                warnings.push(warning);
-            }
-        }
+        let found = found.flat_map(|examine| examine(&checked, &document.place()));
+        found.for_each(&mut add);
     }
     warnings.truncate(MAX_WARNINGS);
     warnings
+}
+
+/// Warnings about parts of the world that no robot of a team reaches: fewer robots reach less.
+fn unreached(document: &Document) -> Vec<Warning> {
+    let checked = ScenarioSpec::read(document);
+    checked.map_or_else(
+        |_| Vec::new(),
+        |checked| out_of_reach::warnings(&checked, &document.place()),
+    )
 }
 
 #[cfg(test)]

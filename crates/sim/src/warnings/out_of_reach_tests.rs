@@ -107,6 +107,34 @@ fn robots_that_start_at_random_in_two_rooms_miss_what_is_where_none_starts() {
 }
 
 #[test]
+fn the_smallest_team_that_is_compared_decides_what_is_missed_and_is_named() {
+    let path = "robots.rover.count".to_owned();
+    let sizes = |counts: &[i64]| -> Vec<Vec<(String, Value)>> {
+        let each = counts.iter();
+        each.map(|count| vec![(path.clone(), Value::Integer(*count))])
+            .collect()
+    };
+    let text = ROOMS.replace(LEFT, "{ kind = \"uniform\" }");
+    let of = |text: &str, counts: &[i64]| {
+        let document = Document::parse("t.toml", text).unwrap();
+        let found = warnings(&document, &sizes(counts));
+        let found = found.iter().map(ToString::to_string);
+        let found: Vec<String> = found.filter(|each| each.contains("can reach")).collect();
+        found
+    };
+    let found = of(&text, &[0, 1, 20]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("with robots.rover.count = 1: in a run, on average"));
+    assert!(
+        found[0].contains("can reach 50.0% of its free area"),
+        "{found:?}"
+    );
+    // A room that no number of robots reaches has one warning, of no team.
+    let found = of(ROOMS, &[0, 1, 20]);
+    assert_eq!(found, warnings_of(&[]));
+}
+
+#[test]
 fn a_range_does_not_reach_through_walls_unless_the_sensor_does() {
     let far = ("range_m = 0.5", "range_m = 8");
     assert!(is_warned(

@@ -170,7 +170,7 @@ fn of_a_study_the_largest_teams_are_examined_in_every_world() {
         .collect();
     let document = document(&text, "[0, 0, 0]");
     assert_eq!(
-        configurations::representative(&document, &configurations).len(),
+        configurations::largest_teams(&document, &configurations).len(),
         2
     );
     let reported = shown(&warnings(&document, &configurations));
@@ -181,7 +181,7 @@ fn of_a_study_the_largest_teams_are_examined_in_every_world() {
     );
     // A value that the file has anyway keeps its line.
     let own = vec![("robots.rover.count".to_owned(), Value::Integer(4))];
-    let documents = configurations::representative(&document, &[own]);
+    let documents = configurations::largest_teams(&document, &[own]);
     assert_eq!(documents, [document]);
 }
 
