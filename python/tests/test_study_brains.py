@@ -1,5 +1,6 @@
 """Studies with brains and controllers in Python: the same runs, stored, resumed and tightened."""
 
+import json
 import os
 import re
 import signal
@@ -15,6 +16,7 @@ from example_brains import AHEAD, SMALL, Bumper, Talker
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario, study
+from agent_economy.study.user_code import source_hash
 
 TEAMS = {"robots.bumper.count": "2..4"}
 SHORT = SMALL.replace("time_limit_s = 60", "time_limit_s = 12")
@@ -223,7 +225,7 @@ def test_brains_that_other_processes_cannot_import_are_refused() -> None:
     [
         ({"rover": Bumper}, 'brains = "rover": must be one of "bumper"'),
         ({"bumper": 3}, r"brains\.bumper = 3: must be a Batch, or a class"),
-        ("example_brains:NONE", "the module example_brains has no NONE"),
+        ("example_brains:NONE", r"the module example_brains \(.*\) has no NONE"),
         ("example_brains:SMALL", r"brains: example_brains:SMALL = .*must be a dict by the names"),
         ("no_such_module:BRAINS", "there is no module no_such_module"),
         ("example_brains", "must be MODULE:NAME"),
@@ -248,3 +250,89 @@ def test_plans_without_brains_keep_their_identity() -> None:
         Scenario.loads(SHORT).replace("study.vary", TEAMS), runs=3, brains={"bumper": Talker}
     )
     assert other.identity != plan.identity
+
+
+def source_of(folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, **files: str) -> str:
+    """Return the hash of a module, of files given by path with __ for /."""
+    for place, text in files.items():
+        path = folder / f"{place.replace('__', '/')}.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    monkeypatch.syspath_prepend(folder)
+    for module in [each for each in sys.modules if each.partition(".")[0] in ("own", "first")]:
+        del sys.modules[module]
+    return source_hash("brains", [name])
+
+
+@pytest.mark.parametrize(
+    ("name", "files"),
+    [
+        ("own.brains", {"own__brains": "from .helper import X", "own__helper": "X = 1"}),
+        ("own.sub.brains", {"own__sub__brains": "from ..helper import X", "own__helper": "X = 1"}),
+        ("own", {"own": "def f():\n    from other_of_own import X", "other_of_own": "X = 1"}),
+        ("own", {"own": "from first.second import helper", "first__second__helper": "X = 1"}),
+        ("own", {"own": "import first.second.helper", "first__second__helper": "X = 1"}),
+    ],
+)
+@pytest.mark.parametrize("with_init", [False, True])
+def test_the_hash_covers_what_a_module_imports_from_any_kind_of_package(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    name: str,
+    files: dict[str, str],
+    with_init: bool,  # noqa: FBT001  (a case)
+) -> None:
+    if with_init:
+        # Also beside the module: the folder is that of a package, too.
+        for folder in (tmp_path, *(tmp_path / place for place in ("own", "own/sub", "first"))):
+            folder.mkdir(exist_ok=True)
+            (folder / "__init__.py").touch()
+    if (tmp_path / "own").is_dir() and name == "own":
+        (tmp_path / "own/__init__.py").unlink()
+    first = source_of(tmp_path, monkeypatch, name, **files)
+    assert source_of(tmp_path, monkeypatch, name, **files) == first
+    changed = {place: text.replace("X = 1", "X = 2") for place, text in files.items()}
+    assert source_of(tmp_path, monkeypatch, name, **changed) != first
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ("raise ValueError('boom')", r"ValueError: boom \(.*faulty\.py:1\)"),
+        ("def f(:", "SyntaxError: .*faulty.py, line 1"),
+        ("import no_such_thing", "ModuleNotFoundError: No module named 'no_such_thing'"),
+        ("import sys; sys.exit('bye')", "SystemExit: bye"),
+    ],
+)
+def test_a_module_that_cannot_be_imported_is_refused_in_one_line(
+    code: Path, text: str, error: str
+) -> None:
+    (code / "faulty.py").write_text(text, "utf-8")
+    refused = command(code, "small.toml", "--brains", "faulty:BRAINS")
+    assert refused.returncode == 2
+    assert re.fullmatch(
+        f"brains = 'faulty:BRAINS': .*cannot be imported: {error}.*\n", refused.stderr
+    )
+
+
+def test_what_brains_print_and_how_they_end_does_not_look_like_an_answer(code: Path) -> None:
+    (code / "turns.py").write_text(TURNS.replace("pass", "print('hello')"), "utf-8")
+    given = ("small.toml", "--brains", "my_brains:BRAINS", "--runs", "2", "--json")
+    done = command(code, *given, "--out", "printing")
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["runs"] == 6
+    assert "hello" in done.stderr
+    (code / "turns.py").write_text(TURNS.replace("pass", "raise SystemExit(0)"), "utf-8")
+    failed = command(code, *given, "--out", "exiting")
+    assert failed.returncode == 1
+    assert re.search(r"in the brain of bumper/0|SystemExit: 0 .*turns\.py:5", failed.stderr)
+
+
+def test_modules_of_the_working_folder_replace_no_other_module(code: Path) -> None:
+    (code / "random.py").write_text("raise ValueError('not this one')", "utf-8")
+    # `python -m` puts the working folder first, the command does not.
+    program = [str(Path(sys.executable).with_name("agent-economy")), "study", "small.toml"]
+    for brains in ([], ["--brains", "my_brains:BRAINS"]):
+        given = [*program, "--runs", "2", "--workers", "1", "--out", f"study{len(brains)}", *brains]
+        done = subprocess.run(given, cwd=code, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr

@@ -3,7 +3,7 @@
 import signal
 import sys
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal, NoReturn
 
@@ -235,7 +235,6 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             "max_runs": max_runs,
             "brains": brains,
         }
-        import_from(Path.cwd())
         settings = {name: value for name, value in precision.items() if value is not None}
         refuse_two_executors(workers, dask)
         if require:
@@ -243,7 +242,11 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         if resume is None:
             if confidence is not None:
                 settings["confidence"] = confidence
-            plan = studies.make_plan(Scenario.load(required(scenario), changes), **settings)
+            if brains is not None:
+                import_from(Path.cwd())
+            # What a user's module prints must not mix with --json.
+            with redirect_stdout(sys.stderr):
+                plan = studies.make_plan(Scenario.load(required(scenario), changes), **settings)
             if decide:
                 plan = decided(plan, max_runs=max_runs)
             folder = out or usual_folder(plan)
@@ -261,6 +264,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         if vary and (also := others_varied(plan, vary)):
             typer.echo(f"also over {also}, of the scenario", err=True)
         if plan.engine.brains is not None:
+            import_from(Path.cwd())
             typer.echo(f"with the brains {plan.engine.brains}", err=True)
         try:
             answer = compute_answer(plan, folder, workers, dask)
@@ -270,9 +274,9 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
 
 
 def import_from(folder: Path) -> None:
-    """Let this process and its workers import brains from a folder, as `python -m` does."""
+    """Let this process and its workers import brains from a folder, after all other modules."""
     if str(folder) not in sys.path:
-        sys.path.insert(0, str(folder))
+        sys.path.append(str(folder))
 
 
 def others_varied(plan: Plan, vary: list[str]) -> str:

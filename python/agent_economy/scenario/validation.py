@@ -71,9 +71,11 @@ def path(name: str, value: str | PathLike[str]) -> Path:
     """Return an argument as a path.
 
     Raises:
-        InputError: If it is not a string or a path.
+        InputError: If it is not a string or a path, empty, or cannot be one.
     """
-    of_type(name, value, str | PathLike, "the path of a file or folder")
+    allowed = "the path of a file or folder"
+    of_type(name, value, str | PathLike, allowed)
+    check(value != "" and "\0" not in str(value), name, value, allowed)
     return Path(value)
 
 

@@ -85,8 +85,8 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             `Simulation`: classes or functions at the top level of a module. Or the name of such a
             dict, "MODULE:NAME". The runs are computed by one process per processor, each of which
             imports the brains by name; without workers, the script must guard its code with
-            `if __name__ == "__main__":`. The hash of their source, with the modules of the same
-            folder that it imports, identifies the study.
+            `if __name__ == "__main__":`. The hash of their source, with the modules that it imports
+            and that are not installed, identifies the study.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
         out: Folder of the study; None stores nothing.
         compute: Computes blocks of runs, always the same for the same block. `Workers.columns`

@@ -4,8 +4,9 @@ A study stores the names of brains and the hash of their source. Each process th
 imports them by name, and refuses source with another hash.
 """
 
-import traceback
+import sys
 from collections.abc import Iterator, Mapping
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from functools import cached_property, partial
 from types import FunctionType
@@ -22,7 +23,7 @@ from agent_economy.runs.simulation import Simulation
 from agent_economy.scenario import Scenario, validation
 from agent_economy.study.errors import StudyError
 from agent_economy.study.run_block import Columns, RunBlock
-from agent_economy.study.user_code import load, name_of, source_hash
+from agent_economy.study.user_code import load, name_of, reason, source_hash
 
 IN_BATCH = "Batch("
 
@@ -82,7 +83,8 @@ class StudyBrains:
         Raises:
             InputError: If it cannot be imported here, or its source is another one.
         """
-        brains = {kind: imported(f"brains.{kind}", name) for kind, name in self.names.items()}
+        with redirect_stdout(sys.stderr):
+            brains = {kind: imported(f"brains.{kind}", name) for kind, name in self.names.items()}
         source = source_hash("brains", modules_of(self.names, brains))
         if source != self.source:
             message = (
@@ -110,14 +112,15 @@ class StudyBrains:
         """
         table = {name: np.full(block.shape, np.nan) for name in columns}
         for row, configuration in enumerate(block.configurations):
-            create = partial(
-                Simulation, scenarios[configuration], seed, threads=1, brains=self.loaded
-            )
+            scenario, brains = scenarios[configuration], self.loaded
+            create = partial(Simulation, scenario, seed, threads=1, brains=brains)
             for place in range(block.runs):
                 run = block.first_run + place
                 try:
-                    outcome = finished(create, run)
-                except Exception as error:
+                    # What brains print must not mix with an answer for programs.
+                    with redirect_stdout(sys.stderr):
+                        outcome = finished(create, run)
+                except (Exception, SystemExit) as error:
                     at = f"configuration {configuration}, run {run}"
                     raise StudyError(failure(at, error)) from error
                 for name, value in outcome.items():
@@ -179,9 +182,7 @@ def module_of(make: Make | Batch) -> str:
     return str(defined.__module__)
 
 
-def failure(at: str, error: Exception) -> str:
+def failure(at: str, error: BaseException) -> str:
     """Return why a run failed, with the last line of the user's code."""
     notes = " ".join(getattr(error, "__notes__", ()))
-    frames = traceback.extract_tb(error.__traceback__)
-    last = f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
-    return f"{at}{', ' + notes if notes else ''}: {type(error).__name__}: {error}{last}"
+    return f"{at}{', ' + notes if notes else ''}: {reason(error)}"

@@ -55,7 +55,7 @@ class Description:
 
 def in_words(question: Mapping[str, Any]) -> str:
     """Return a stored question in words."""
-    confidence = f"confidence {question['confidence']:g}"
+    confidence = f"confidence {question['confidence']:.15g}"
     if "delta" in question:
         return f"delta {question['delta']:g}, {confidence}, {question['guarantee']}"
     finer = f"; then decided at a tolerance of {question['finer']:g}" if "finer" in question else ""

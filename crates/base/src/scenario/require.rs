@@ -54,7 +54,7 @@ fn tolerance(section: &Section, usual: f64, rest: f64) -> Option<f64> {
         return Some(usual);
     }
     let allowed = format!(
-        "a number above 0 and at most {}, which is 1 - probability",
+        "a number above 0 and below {}, which is 1 - probability",
         (rest * 1e12).round() / 1e12
     );
     section.number_if("tolerance", &allowed, |tolerance| {

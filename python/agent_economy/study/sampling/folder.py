@@ -146,7 +146,7 @@ def differences(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> Iterato
     """Yield what differs in what determines the runs."""
     hashes = {
         "bounds_of_each": "  the bounds of single configurations differ",
-        "source": "  the source of the sampler, or of what it imports from its folder, was changed",
+        "source": "  the source of the sampler, or of what it imports, was changed",
     }
     yield from differing(
         *({k: v for k, v in each.items() if k not in hashes} for each in (stored, wanted))

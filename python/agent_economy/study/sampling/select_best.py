@@ -63,7 +63,7 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
     merits at their bounds are clipped, and numbered from 0 whatever the seed is.
 
     A folder belongs to one sampler: to its name, the source of its module and of what that imports
-    from the same place, and the numbers, strings, flags and None among the arguments of a
+    and is not installed, and the numbers, strings, flags and None among the arguments of a
     `functools.partial`. What else it captures (other arguments, closures, attributes of an object,
     files) is not compared: use another folder if it changes.
 
@@ -85,6 +85,8 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
         on_progress,
         "a function or None",
     )
+    random_numbers = (common_random_numbers, "True or False")
+    check(isinstance(common_random_numbers, bool), "common_random_numbers", *random_numbers)
     limits = checked_arguments(k, bounds, delta, confidence, guarantee, seed, max_runs)
     # Numbers of NumPy have fewer digits, and are written otherwise.
     seed, delta, confidence = int(seed), float(delta), float(confidence)
