@@ -247,7 +247,7 @@ except InputError as error:
     [
         ("__main__", "sampler: is defined in __main__, which is not a file"),
         (None, "sampler: is defined in builtins, which is not a file"),
-        ("no_such_module", "sampler = .*there is no module no_such_module"),
+        ("no_such_module", "sampler = 'no_such_module': there is no module no_such_module"),
     ],
 )
 def test_a_sampler_without_a_source_file_is_refused_only_with_a_folder(
