@@ -27,7 +27,7 @@ pub(super) fn largest_teams(
     documents.collect()
 }
 
-/// The documents of those `configurations` whose robots come to the fewest places, each with its numbers of robots in
+/// The documents of those `configurations` whose robots reach the fewest places, each with its numbers of robots in
 /// words: of the configurations that are equal otherwise, the smallest team and the smallest number of each kind.
 pub(super) fn smallest_teams(
     document: &Document,
