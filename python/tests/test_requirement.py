@@ -175,7 +175,7 @@ def test_a_hopeless_team_does_not_squeeze_the_shares_of_the_contenders(
         ({"require.all": ["time_s is 5"]}, "expected an operator"),
         ({"require.all": []}, "a list of 1 to 20 conditions"),
         ({"require.probability": 1}, "a share of missions above 0 and below 1"),
-        ({"require.tolerance": 0.2}, "at most 0.1, which is 1 - probability"),
+        ({"require.tolerance": 0.2}, "below 0.1, which is 1 - probability"),
         ({"study.minimize": "wanderers"}, "did you mean 'wanderer'"),
         ({"study.minimize": "__import__('os')"}, "is not allowed"),
         ({"study.minimize": "1 / (wanderer - 1)"}, "must not divide by zero"),
