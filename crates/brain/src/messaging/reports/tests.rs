@@ -355,17 +355,20 @@ proptest! {
             let reported = reports.map(|report| {
                 let prior = track.sources[track.slot_by(report.provenance.observer)].prior;
                 let prior_probability = probability(prior);
-                let confidence = if report.confidence <= MAX_PRIOR {
-                    report.confidence.min(prior_probability)
+                let given = report.confidence.clamp(1e-6, 1.0 - 1e-6);
+                let confidence = if given <= MAX_PRIOR {
+                    given.min(prior_probability)
                 } else {
-                    report.confidence
+                    given
                 };
                 log_odds(0.9 * confidence + 0.1 * prior_probability) - prior
             });
-            let others = i32::try_from(reported.clone().count()).unwrap();
-            let [sure, prior] = [0.1_f64.powi(others), probability(track.prior)];
-            let reported = (track.prior + reported.sum::<f64>())
-                .clamp(log_odds(prior * sure), log_odds(1.0 - (1.0 - prior) * sure));
+            // Support raises the belief up to a bound; denials lower it from there.
+            let (support, denial): (Vec<f64>, Vec<f64>) = reported.partition(|each| *each > 0.0);
+            let supporters = i32::try_from(support.len()).unwrap();
+            let sure = 1.0 - (1.0 - probability(track.prior)) * 0.1_f64.powi(supporters);
+            let raised = (track.prior + support.iter().sum::<f64>()).min(log_odds(sure));
+            let reported = raised + denial.iter().sum::<f64>();
             let expected = probability(reported + observations.log_ratio);
             prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);
         }
