@@ -48,8 +48,11 @@ pub(crate) fn warnings(
         }
     };
     let largest = configurations::largest_teams(document, configurations);
-    let in_largest: Vec<Warning> = largest.iter().flat_map(unreached).collect();
-    for (document, team) in configurations::smallest_teams(document, configurations) {
+    let smallest = configurations::smallest_teams(document, configurations);
+    let is_varied = smallest.iter().any(|(_, team)| !team.is_empty());
+    let compared = largest.iter().filter(|_| is_varied);
+    let in_largest: Vec<Warning> = compared.flat_map(unreached).collect();
+    for (document, team) in smallest {
         for mut warning in unreached(&document) {
             // Otherwise, it is the same with any number of robots.
             if !team.is_empty() && !in_largest.contains(&warning) {
