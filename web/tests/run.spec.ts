@@ -166,7 +166,7 @@ test("a robot is selected by address and by button, and its brain is displayed",
 });
 
 test("obstacles are added on the canvas, and removed in the list", async ({ page, server }) => {
-  await page.goto(runAt(server, scenario));
+  await openRun(page, server, scenario);
   await openTab(page, "Edit");
   await page.getByRole("button", { name: "Add circle" }).click();
   await page.mouse.move(450, 330);
