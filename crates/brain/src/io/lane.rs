@@ -186,6 +186,9 @@ pub struct Mark {
     /// at the place, contacts and misses: an item of that kind that its sensors can detect, against
     /// nothing there but false alarms.
     pub log_ratios: [f32; MARK_KINDS],
+    /// How often all looks of the robot since it has stopped tracking the item miss a visible item there, in nats: since
+    /// something there has been destroyed. 0 while it tracks the item.
+    pub missed_since: f32,
 }
 
 impl Mark {
@@ -202,6 +205,7 @@ impl Mark {
         let is_certain = self.deviation_m > 0.0 && self.deviation_m <= 1e3;
         let mut ratios = self.log_ratios.into_iter();
         is_certain
+            && (0.0..=MAX_LOG_RATIO).contains(&self.missed_since)
             && self.at_m.into_iter().all(is_near)
             && ratios.all(|ratio| ratio.abs() <= MAX_LOG_RATIO)
     }
@@ -313,6 +317,7 @@ mod tests {
             at_m: [1.0, 2.0],
             deviation_m: 0.3,
             log_ratios: [4.0, -2.0, 0.0, 0.0],
+            missed_since: 0.0,
         };
         assert!(mark.is_valid());
         for absurd in [
@@ -326,6 +331,10 @@ mod tests {
             },
             Mark {
                 log_ratios: [f32::INFINITY; MARK_KINDS],
+                ..mark
+            },
+            Mark {
+                missed_since: -1.0,
                 ..mark
             },
         ] {

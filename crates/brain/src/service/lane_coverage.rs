@@ -4,6 +4,7 @@
 //! looks of each robot from that robot, and count them once.
 
 use super::ability::Moment;
+use super::lane_masks::masks;
 use crate::io::lane::{CELLS_PER_MESSAGE, Coverage, Lane};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::coverage_map::{CoverageMap, DetectorScan};
@@ -73,8 +74,9 @@ impl LaneCoverage {
                     observations: 1.0,
                     blur_m: pose.blur_m(),
                 };
-                self.own
-                    .update(&self.field, (&map.field, &map.occupancy), &scan);
+                let masks = masks(&self.lane, beliefs, detector, &pose);
+                let map = (&map.field, &map.occupancy);
+                self.own.update_with(&self.field, map, (&scan, &masks));
                 self.note_look(pose.at, detector.range_m);
             }
         }

@@ -10,6 +10,7 @@ use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::Track;
 use alloc::vec::Vec;
+use base::geometry::Point;
 use base::hashed::Hashed;
 
 /// Maximum number of marks; controllers wait for those of further tracks, and declare nothing.
@@ -41,6 +42,8 @@ struct Reported {
     mark: Mark,
     /// How often all looks before the first contact missed a visible item there, in nats.
     missed_nats: f32,
+    /// The same for all looks until its track ended; none while there is one.
+    ended_nats: Option<f32>,
     /// The mark that was sent last.
     sent: Option<Mark>,
 }
@@ -53,12 +56,12 @@ impl LaneMarks {
     }
 
     /// Updates the marks by the tracks of a robot; that of a track that no longer exists remains as it
-    /// was. `missed_nats` are those of all of its looks at a
+    /// was, except for the looks since then. `missed_nats` are those of all of its looks at a
     /// place before this step.
     pub(super) fn update(
         &mut self,
         (beliefs, position_noise_m): (&Beliefs, f64),
-        missed_nats: impl Fn(&Track) -> f64,
+        missed_nats: impl Fn(Point) -> f64,
     ) {
         let deviation_m = beliefs.pose().map_or(0.0, |pose| pose.deviation_m);
         let deviation_m = deviation_m.max(MIN_POSE_ERROR * position_noise_m);
@@ -71,17 +74,27 @@ impl LaneMarks {
             if let Some(index) = known {
                 mark.add_nats(-self.list[index].missed_nats);
                 self.list[index].mark = mark;
+                self.list[index].ended_nats = None;
             } else if self.list.len() < MAX_MARKS {
                 #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-                let missed_nats = missed_nats(track) as f32;
+                let missed_nats = missed_nats(track.at) as f32;
                 mark.add_nats(-missed_nats);
                 self.list.push(Reported {
                     mark,
                     missed_nats,
+                    ended_nats: None,
                     sent: None,
                 });
             } else {
                 self.is_full = true;
+            }
+        }
+        let tracks = beliefs.items.tracks.iter();
+        let contacts = tracks.filter_map(|track| track.own_contact(beliefs.id));
+        let tracked: Vec<u32> = contacts.map(|source| source.provenance.track_id).collect();
+        for reported in &mut self.list {
+            if !tracked.contains(&reported.mark.id.number) {
+                reported.note_looks(&missed_nats);
             }
         }
     }
@@ -117,6 +130,14 @@ impl LaneMarks {
 }
 
 impl Reported {
+    /// Takes the looks since its track ended: since something there has been destroyed.
+    #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+    fn note_looks(&mut self, missed_nats: impl Fn(Point) -> f64) {
+        let nats = missed_nats(self.mark.at()) as f32;
+        let ended_nats = *self.ended_nats.get_or_insert(nats);
+        self.mark.missed_since = (nats - ended_nats).max(0.0);
+    }
+
     fn has_changed(&self) -> bool {
         let Some(sent) = self.sent else {
             return true;
@@ -126,7 +147,10 @@ impl Reported {
         let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m;
         let mut ratios = ratios.map(|(now, then)| (now - then).abs());
         let mut moved = moved.map(|(now, then)| (now - then).abs());
-        ratios.any(|change| change > CHANGE_NATS) || moved.any(|change_m| change_m > max_m)
+        let missed = self.mark.missed_since - sent.missed_since;
+        missed > CHANGE_NATS
+            || ratios.any(|change| change > CHANGE_NATS)
+            || moved.any(|change_m| change_m > max_m)
     }
 }
 
@@ -161,5 +185,6 @@ fn mark_of(
         at_m: [track.at.x as f32, track.at.y as f32],
         deviation_m: libm::sqrt(variance_m2) as f32,
         log_ratios,
+        missed_since: 0.0,
     })
 }

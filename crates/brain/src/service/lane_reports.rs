@@ -163,8 +163,8 @@ impl LaneReports {
         };
         let coverage = &work.coverage;
         work.marks
-            .update((beliefs, moment.body.position_noise_m), |track| {
-                coverage.nats_at(track.at)
+            .update((beliefs, moment.body.position_noise_m), |at| {
+                coverage.nats_at(at)
             });
         work.coverage.update(moment, beliefs);
         if now_s < work.next_s || now_s >= work.named_s + SILENCE_S {

@@ -20,6 +20,7 @@ pub(crate) mod holder;
 pub(crate) mod jobs;
 mod lane_coverage;
 mod lane_marks;
+mod lane_masks;
 pub(crate) mod lane_reports;
 pub(crate) mod lanes;
 pub(crate) mod numbers;

@@ -4,7 +4,7 @@ use super::place::Place;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{Mark, MarkVerdict, RobotId, Statement};
+use brain::{Mark, RobotId, Statement};
 
 /// Maximum number of places; marks of further ones are refused, and remain missing.
 const MAX_PLACES: usize = 10_000;
@@ -49,7 +49,7 @@ impl Marks {
     fn add(&mut self, mark: Mark) {
         // What is detected where something has been destroyed is another item.
         let places = self.places.iter_mut();
-        let places = places.filter(|place| !place.is_neutralised());
+        let places = places.filter(|place| place.is_other > 0.5 && !place.is_neutralised());
         let near = places.filter_map(|place| Some((place.distance_to(&mark)?, place)));
         let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
         if let Some((_, place)) = nearest {
@@ -60,29 +60,34 @@ impl Marks {
         }
     }
 
-    /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place. What a charge
-    /// destroys is neutralised in all places within its reach that may be the same item: marks of one item can be several
-    /// places.
-    pub(super) fn state(&mut self, statement: &Statement, reach_m: f64) {
+    /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place. A charge destroys one
+    /// item, of which the marks can be several places.
+    pub(super) fn state(&mut self, statement: &Statement, items_per_m2: f64) {
+        let Some(index) = self.stated(statement) else {
+            return;
+        };
+        let was_neutralised = self.places[index].is_neutralised();
+        self.places[index].state(statement.verdict, statement.mark);
+        if self.places[index].is_neutralised() && !was_neutralised {
+            let destroyed = self.places[index].clone();
+            let others = self.places.iter_mut();
+            let others = others.filter(|place| !place.is_neutralised());
+            others.for_each(|place| place.note_destroyed(&destroyed, items_per_m2));
+        }
+    }
+
+    /// The place that a statement is about.
+    fn stated(&self, statement: &Statement) -> Option<usize> {
         let at = Point::from(statement.at_m.map(f64::from));
         let is_named = |place: &Place| place.marks.iter().any(|mark| mark.id == statement.mark);
         let named = self.places.iter().position(is_named);
-        let index = named.or_else(|| {
+        named.or_else(|| {
             let places = self.places.iter().enumerate();
             let away = places.map(|(index, place)| (place.at.to(at).length(), index, place));
             let near = away.filter(|(away_m, _, place)| *away_m <= place.reach_m());
             let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
             nearest.map(|(_, index, _)| index)
-        });
-        if let Some(place) = index.and_then(|index| self.places.get_mut(index)) {
-            place.state(statement.verdict, statement.mark);
-        }
-        if statement.verdict == MarkVerdict::Neutralised {
-            let places = self.places.iter_mut();
-            let reached =
-                places.filter(|place| place.at.to(at).length() <= reach_m.min(place.same_item_m()));
-            reached.for_each(|place| place.state(statement.verdict, statement.mark));
-        }
+        })
     }
 
     /// The robots that have marked something within a distance of a position.

@@ -2,7 +2,7 @@
 
 use super::coverage::Searched;
 use super::marks::Marks;
-use super::place::Place;
+use super::place::{GONE, Place};
 use super::remaining::{Remaining, missed_share};
 use super::risk::Risk;
 use super::settings::Clearance;
@@ -12,6 +12,7 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
 use brain::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use core::f64::consts::TAU;
 use core::ops::Range;
 
 /// Probabilities of a mine are at most this: no mark is certain.
@@ -22,9 +23,6 @@ const BORDER_DEVIATIONS: f64 = 3.0;
 
 /// Two marks of one item are at most this far apart, in metres, even if they are two places.
 const NEAR_M: f64 = 1.5;
-
-/// Probability that an item that has been marked is gone without a statement: a vehicle has set it off.
-const GONE: f64 = 0.01;
 
 /// What a controller believes of a lane.
 #[derive(Debug, Clone, Hashed)]
@@ -63,6 +61,13 @@ pub struct BelievedMark {
 }
 
 impl BelievedMark {
+    /// Expected number of mines per square metre at a position.
+    fn per_m2(&self, at: Point) -> f64 {
+        let variance_m2 = self.deviation_m * self.deviation_m;
+        let distance = self.at.to(at).length_squared() / (2.0 * variance_m2);
+        self.mine * libm::exp(-distance) / (TAU * variance_m2)
+    }
+
     /// Whether what has been marked may lie in a lane. A mine at the border may seem to be beyond it.
     pub(crate) fn may_be_in(&self, lane: &Lane) -> bool {
         lane.area().distance_m(self.at) <= BORDER_DEVIATIONS * self.deviation_m
@@ -126,9 +131,9 @@ impl LanePicture {
     /// Takes a statement of a robot about a mark.
     pub fn take_statement(&mut self, statement: &Statement) {
         if statement.at_m.into_iter().all(f32::is_finite) {
-            let charge = self.clearance.neutralise;
-            let reach_m = charge.map_or(0.0, |charge| charge.reach_m);
-            self.marks.state(statement, reach_m);
+            let items: f64 = self.clearance.expected.iter().sum();
+            let items_per_m2 = items / self.clearance.lane.area().area_m2();
+            self.marks.state(statement, items_per_m2);
         }
     }
 
@@ -163,6 +168,22 @@ impl LanePicture {
         gains
     }
 
+    /// The part of the believed density of mines at a position that is that of marks.
+    ///
+    /// If the density is right, the mines that are left, weighted by it, are as many as are expected at marks.
+    #[must_use]
+    pub fn share_of_marks(&self, at: Point) -> f64 {
+        let lane = self.clearance.lane;
+        let cell = lane.nearest_cell(at);
+        let unmarked = self.unmarked(cell) / lane.cell_area(cell).area_m2();
+        let marked: f64 = self.marks().map(|mark| mark.per_m2(at)).sum();
+        if marked > 0.0 {
+            marked / (marked + unmarked)
+        } else {
+            0.0
+        }
+    }
+
     /// The probability that at least one mine is left in the lane.
     #[must_use]
     pub fn risk(&self) -> Risk {
@@ -185,7 +206,7 @@ impl LanePicture {
         let is_open = !place.is_neutralised();
         let hazards = self.clearance.hazards().filter(|_| is_open);
         let mine: f64 = hazards.map(|(kind, _)| probabilities[kind]).sum();
-        let mine = mine.min(MAX_PROBABILITY);
+        let mine = (mine * place.is_left()).min(MAX_PROBABILITY);
         let missed = self.missed_by_charges(place);
         BelievedMark {
             number: place.number,

@@ -13,6 +13,12 @@ const GATE: f64 = 4.0;
 /// Error of the position of a statement, in metres: that of a robot's pose, and its distance.
 const STATEMENT_M: f64 = 1.0;
 
+/// Share of the items of which a robot has two marks.
+const TWO_MARKS: f64 = 0.1;
+
+/// Probability that an item that has been marked is gone without a statement: a vehicle has set it off.
+pub(super) const GONE: f64 = 0.01;
+
 /// Maximum number of marks of a place.
 const MAX_MARKS: usize = 64;
 
@@ -29,6 +35,8 @@ pub(super) struct Place {
     /// Mean of the positions, weighted by their precision, and its variance along each axis.
     pub(super) at: Point,
     pub(super) variance_m2: f64,
+    /// Probability that its item, if there is one, is none of those that have been destroyed beside it.
+    pub(super) is_other: f64,
 }
 
 impl Place {
@@ -40,6 +48,7 @@ impl Place {
             missed: Vec::new(),
             at: mark.at(),
             variance_m2: variance_m2(&mark),
+            is_other: 1.0,
         };
         place.put(mark);
         place
@@ -84,9 +93,36 @@ impl Place {
         u32::try_from(self.missed.len()).unwrap_or(u32::MAX)
     }
 
-    /// Another place within this distance, with about the same deviation, may be the same item.
-    pub(super) fn same_item_m(&self) -> f64 {
-        GATE * libm::sqrt(2.0 * self.variance_m2)
+    /// Takes that the item of another place has been destroyed: that of this place may be the same one. The denser items
+    /// are, the rather it is another one; a robot that has marked both seldom has two marks of one item.
+    ///
+    /// ```text
+    /// odds of another item = density of items / (N(distance; variance of both places) x share of items with two marks)
+    /// ```
+    pub(super) fn note_destroyed(&mut self, other: &Self, items_per_m2: f64) {
+        let is_of_both = |mark: &Mark| other.robots().contains(&mark.id.issuer);
+        let joint_m2 = self.variance_m2 + other.variance_m2;
+        let square = self.at.to(other.at).length_squared() / joint_m2;
+        if square <= GATE * GATE {
+            let has_two = self.marks.iter().any(is_of_both);
+            let share = if has_two { TWO_MARKS } else { 1.0 };
+            let same_per_m2 = share * libm::exp(-square / 2.0) / (TAU * joint_m2);
+            self.is_other *= items_per_m2 / (items_per_m2 + same_per_m2);
+        }
+    }
+
+    /// Probability that its item, if there was one, has not been destroyed, by what has been destroyed beside it and by
+    /// the looks since then.
+    pub(super) fn is_left(&self) -> f64 {
+        let nats: f64 = self
+            .marks
+            .iter()
+            .map(|mark| f64::from(mark.missed_since))
+            .sum();
+        let least = if nats > 0.0 { GONE } else { 0.0 };
+        let gone = (1.0 - self.is_other).max(least);
+        let left = (1.0 - gone) * libm::exp(-nats);
+        left / (left + gone)
     }
 
     /// Statements within this distance can be about it.

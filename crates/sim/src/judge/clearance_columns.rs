@@ -12,6 +12,7 @@ use std::borrow::Cow;
 /// those of goals contain them.
 pub(super) fn columns(robots: &[&str], has: Features) -> Vec<Column> {
     let mut columns = statement();
+    columns.extend(remains());
     columns.extend(times());
     columns.extend(robots.iter().enumerate().map(on_station));
     columns.extend(counts());
@@ -34,6 +35,17 @@ fn statement() -> Vec<Column> {
         .with_term("declared_not_clear", 33),
         column("given_up", Flag, share, move |of| flag(of.is_given_up)).with_term("given_up", 38),
         column("stated_risk", Real, share, |of| of.stated_risk).with_term("stated_risk", 34),
+    ]
+}
+
+/// The two parts of the risk, as the controller stated them and as they were.
+fn remains() -> Vec<Column> {
+    let count = |_: &Scenario| Bounds::NOT_NEGATIVE;
+    vec![
+        column("stated_unmarked", Real, count, |of| of.stated_unmarked),
+        column("stated_marked", Real, count, |of| of.stated_marked),
+        column("left_unmarked", Real, count, |of| of.left_unmarked),
+        column("left_marked", Real, count, |of| of.left_marked),
     ]
 }
 

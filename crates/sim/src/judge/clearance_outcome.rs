@@ -1,6 +1,6 @@
 //! The outcome of a lane that controllers were to clear.
 
-use super::clearance_tally::{ClearanceTally, Stated};
+use super::clearance_tally::{ClearanceTally, Remains, Stated};
 use super::moment::Moment;
 use crate::clock::seconds;
 
@@ -15,6 +15,14 @@ pub struct ClearanceOutcome {
     pub is_given_up: bool,
     /// The risk that was stated when it was declared clear or given up; 1 if it was neither.
     pub stated_risk: f64,
+    /// Mines without a mark that the controller expected to be left then; 0 if it was neither, as for the next three.
+    pub stated_unmarked: f64,
+    /// Mines at marks that it expected to be left.
+    pub stated_marked: f64,
+    /// Mines that were left and belong to the first number.
+    pub left_unmarked: f64,
+    /// Mines that were left and belong to the second number.
+    pub left_marked: f64,
     /// Time until it was declared clear; the time limit if it was not.
     pub declared_s: f64,
     /// Time until all marks that may be mines had a verdict; the time limit if some had none at the end.
@@ -41,12 +49,19 @@ impl ClearanceOutcome {
             })
         };
         let declared: Option<Stated> = tally.stated.filter(|stated| stated.is_clear);
+        let remains = tally
+            .stated
+            .map_or(Remains::default(), |stated| stated.remains);
         let kinds = scenario.kinds.iter().zip(&tally.on_station);
         Self {
             is_declared: declared.is_some(),
-            is_clear: declared.is_some_and(|stated| stated.left == 0),
+            is_clear: declared.is_some_and(|stated| stated.remains.mines == 0),
             is_given_up: tally.stated.is_some_and(|stated| !stated.is_clear),
             stated_risk: tally.stated.map_or(1.0, |stated| stated.risk),
+            stated_unmarked: remains.believed_unmarked,
+            stated_marked: remains.believed_marked,
+            left_unmarked: f64::from(remains.mines) - remains.at_marks,
+            left_marked: remains.at_marks,
             declared_s: time_s(declared.map(|stated| stated.at)),
             interrogated_s: time_s(tally.interrogated_at),
             on_station_s: kinds

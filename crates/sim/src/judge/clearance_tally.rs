@@ -9,12 +9,25 @@ use std::collections::BTreeMap;
 /// How far a controller has come with the lane.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Progress {
+    /// Its index.
+    pub(crate) controller: usize,
     /// Whether it has declared the lane clear, once it has stated anything.
     pub(crate) is_clear: Option<bool>,
     /// The risk that it has stated; none if the decision was made elsewhere.
     pub(crate) risk: Option<f64>,
     /// Whether a mark that may be a mine has no verdict.
     pub(crate) has_open_marks: bool,
+}
+
+/// The mines that are left in the lane, and what a controller believes of them.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Remains {
+    pub(crate) mines: u32,
+    /// The part of them that is at the controller's marks.
+    pub(crate) at_marks: f64,
+    /// Numbers of mines that the controller expects without a mark, and at marks.
+    pub(crate) believed_unmarked: f64,
+    pub(crate) believed_marked: f64,
 }
 
 /// The first declaration that the lane is clear, or the last of the controllers that gave it up.
@@ -25,8 +38,8 @@ pub(super) struct Stated {
     pub(super) is_clear: bool,
     /// The risk that the controller stated; 1 if it stated none.
     pub(super) risk: f64,
-    /// Mines that were left then.
-    pub(super) left: u32,
+    /// What was left then.
+    pub(super) remains: Remains,
 }
 
 /// What was noted of a lane.
@@ -87,16 +100,19 @@ impl ClearanceTally {
         &mut self,
         tick: u64,
         controllers: impl Iterator<Item = Progress>,
-        left: impl Fn() -> u32,
+        remains: impl Fn(usize) -> Remains,
     ) -> bool {
         let (mut has_open_marks, mut is_undecided) = (false, false);
-        let mut last: Option<(bool, f64)> = None;
+        let mut last: Option<(bool, f64, usize)> = None;
         for controller in controllers {
             has_open_marks |= controller.has_open_marks;
             is_undecided |= controller.is_clear.is_none();
-            let is_declared = last.is_some_and(|(is_clear, _)| is_clear);
+            let is_declared = last.is_some_and(|(is_clear, ..)| is_clear);
             let stated = controller.is_clear.filter(|_| !is_declared);
-            let stated = stated.map(|is_clear| (is_clear, controller.risk.unwrap_or(1.0)));
+            let stated = stated.map(|is_clear| {
+                let risk = controller.risk.unwrap_or(1.0);
+                (is_clear, risk, controller.controller)
+            });
             last = stated.or(last);
         }
         self.interrogated_at = if has_open_marks {
@@ -104,15 +120,15 @@ impl ClearanceTally {
         } else {
             self.interrogated_at.or(Some(tick))
         };
-        let stated = last.filter(|(is_clear, _)| *is_clear || !is_undecided);
-        let Some((is_clear, risk)) = stated.filter(|_| self.stated.is_none()) else {
+        let stated = last.filter(|(is_clear, ..)| *is_clear || !is_undecided);
+        let Some((is_clear, risk, controller)) = stated.filter(|_| self.stated.is_none()) else {
             return false;
         };
         self.stated = Some(Stated {
             at: tick,
             is_clear,
             risk,
-            left: left(),
+            remains: remains(controller),
         });
         true
     }

@@ -1,11 +1,12 @@
 //! What can be observed of a lane that controllers are to clear.
 
 use super::state::State;
+use crate::judge::clearance_tally::Remains;
 use crate::scenario::Scenario;
-use base::geometry::Rectangle;
+use base::geometry::{Point, Rectangle};
 use brain::{Lane, RobotId};
 use core::f64::consts::FRAC_1_SQRT_2;
-use economy::{BelievedMark, LaneStatement, Risk};
+use economy::{BelievedMark, LanePicture, LaneStatement, Risk};
 
 /// What a controller believes of the lane that it is to clear.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,24 +93,38 @@ impl State {
     /// Number of targets in the lane that are not destroyed; 0 without a lane.
     #[must_use]
     pub fn mines_left(&self, scenario: &Scenario) -> u32 {
-        let Some(clearance) = scenario.clearance() else {
-            return 0;
-        };
-        let lane = clearance.lane.area();
+        u32::try_from(self.each_mine_left(scenario).count()).unwrap_or(u32::MAX)
+    }
+
+    /// The positions of the targets in the lane that are not destroyed.
+    fn each_mine_left(&self, scenario: &Scenario) -> impl Iterator<Item = Point> {
+        let lane = scenario.clearance().map(|clearance| clearance.lane.area());
         let kinds = (0..).zip(self.items.kinds());
-        let left = kinds.filter(|(item, kind)| {
-            scenario.items[usize::from(*kind)].is_target
-                && !self.items.is_gone(*item)
-                && lane.contains(self.items.place(*item))
-        });
-        u32::try_from(left.count()).unwrap_or(u32::MAX)
+        kinds.filter_map(move |(item, kind)| {
+            let is_left = scenario.items[usize::from(kind)].is_target && !self.items.is_gone(item);
+            let at = self.items.place(item);
+            (is_left && lane.is_some_and(|lane| lane.contains(at))).then_some(at)
+        })
+    }
+
+    /// The mines that are left, and what a controller believes of them.
+    pub(crate) fn remains(&self, scenario: &Scenario, controller: usize) -> Remains {
+        let agent = self.controllers.get(controller);
+        let picture = agent.and_then(|agent| agent.controller.lane());
+        let risk = picture.map(LanePicture::risk);
+        let at_marks = |at: Point| picture.map_or(0.0, |picture| picture.share_of_marks(at));
+        Remains {
+            mines: self.mines_left(scenario),
+            at_marks: self.each_mine_left(scenario).map(at_marks).sum(),
+            believed_unmarked: risk.map_or(0.0, |risk| risk.unmarked),
+            believed_marked: risk.map_or(0.0, |risk| risk.marked),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use base::geometry::Point;
 
     fn lane(at: Point) -> BelievedLane {
         let lane = Lane {

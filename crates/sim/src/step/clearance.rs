@@ -17,16 +17,17 @@ pub(super) fn observe(scenario: &Scenario, state: &mut State, workers: &[WorkerS
     let bodies = state.ids.iter().zip(&state.body_states);
     let active = bodies.filter(|(_, body)| body.status == Status::Active);
     active.for_each(|(id, _)| tally.on_station(id.kind));
-    let controllers = state.controllers.iter();
-    let working = controllers.filter(|agent| agent.participant.is_working(&state.body_states));
-    let with_lane = working.filter(|agent| agent.controller.lane().is_some());
-    let controllers = with_lane.map(|agent| Progress {
+    let controllers = state.controllers.iter().enumerate();
+    let working = controllers.filter(|(_, agent)| agent.participant.is_working(&state.body_states));
+    let with_lane = working.filter(|(_, agent)| agent.controller.lane().is_some());
+    let controllers = with_lane.map(|(controller, agent)| Progress {
+        controller,
         is_clear: agent.stated,
         risk: agent.controller.lane_statement().map(|stated| stated.risk),
         has_open_marks: agent.controller.has_open_marks(),
     });
-    let left = || state.mines_left(scenario);
-    let is_counted = tally.observe(state.tick, controllers, left);
+    let remains = |controller: usize| state.remains(scenario, controller);
+    let is_counted = tally.observe(state.tick, controllers, remains);
     state.tally.clearance = Some(tally);
     is_counted
 }

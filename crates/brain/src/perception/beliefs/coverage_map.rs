@@ -87,7 +87,51 @@ pub(crate) struct DetectorScan<'g> {
     pub(crate) blur_m: f64,
 }
 
+/// A part of a look in which an item may be taken for another one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mask {
+    pub(crate) at: Point,
+    pub(crate) radius_m: f64,
+    /// Probability that an item there that is detected is not taken for the other one.
+    pub(crate) reveals: f64,
+}
+
 impl CoverageMap {
+    /// Updates all cells of a field that are in view; those within masks as far as the look reveals an item there.
+    #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
+    pub(crate) fn update_with(
+        &mut self,
+        field: &Field,
+        map: (&Field, &Occupancy),
+        (scan, masks): (&DetectorScan, &[Mask]),
+    ) {
+        let mut before: Vec<(usize, f32, f32)> = Vec::new();
+        for mask in masks {
+            let reach = Point {
+                x: mask.radius_m,
+                y: mask.radius_m,
+            };
+            let [columns, rows] = field.columns_and_rows(reach.to(mask.at), mask.at.plus(reach));
+            for row in rows {
+                let cells = row * field.columns + columns.start..row * field.columns + columns.end;
+                let within =
+                    cells.filter(|cell| field.centre(*cell).to(mask.at).length() <= mask.radius_m);
+                before.extend(within.map(|cell| (cell, self.missed[cell], mask.reveals as f32)));
+            }
+        }
+        self.update(field, map, scan);
+        // A cell within several masks is looked at with the lowest probability.
+        before.sort_by(|one, other| {
+            (one.0, one.2)
+                .partial_cmp(&(other.0, other.2))
+                .unwrap_or(core::cmp::Ordering::Equal)
+        });
+        before.dedup_by_key(|(cell, ..)| *cell);
+        for (cell, missed, reveals) in before {
+            self.missed[cell] = missed - (missed - self.missed[cell]) * reveals;
+        }
+    }
+
     /// Updates all cells of a field that are in view, on a map with its own field.
     pub(crate) fn update(
         &mut self,

@@ -235,6 +235,7 @@ impl Searcher<'_> {
             at_m: [mean.x as f32, mean.y as f32],
             deviation_m: (noise_m / count.sqrt()) as f32,
             log_ratios: [log_ratio(0), log_ratio(1), 0.0, 0.0],
+            missed_since: 0.0,
         }
     }
 }

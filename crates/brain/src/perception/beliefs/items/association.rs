@@ -265,7 +265,7 @@ impl Track {
     }
 
     /// Probability of its item by own observations alone; 0 without any.
-    pub(super) fn own_probability(&self, own: RobotId) -> f64 {
+    pub(crate) fn own_probability(&self, own: RobotId) -> f64 {
         let mut sources = self.sources[..self.count].iter();
         let source = sources.find(|source| source.provenance.observer == own);
         source.map_or(0.0, |source| probability(source.log_odds()))
