@@ -9,6 +9,9 @@ use brain::{Mark, RobotId, Statement};
 /// Maximum number of places; marks of further ones are refused, and remain missing.
 const MAX_PLACES: usize = 10_000;
 
+/// Marks of one robot are at most this many places that may be one item.
+const MAX_OF_ROBOT: usize = 3;
+
 /// All places that robots have marked.
 #[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Marks {
@@ -51,6 +54,12 @@ impl Marks {
         let places = self.places.iter_mut();
         let places = places.filter(|place| place.is_other > 0.5 && !place.is_neutralised());
         let near = places.filter_map(|place| Some((place.distance_to(&mark)?, place)));
+        let near: Vec<(f64, &mut Place)> = near.collect();
+        let robot = mark.id.issuer;
+        // Two marks of one robot are two places, unless it has too many there to be distinguished.
+        let has_many = near.iter().filter(|(_, place)| place.is_of(robot)).count() >= MAX_OF_ROBOT;
+        let near = near.into_iter();
+        let near = near.filter(|(_, place)| has_many || !place.is_of(robot));
         let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
         if let Some((_, place)) = nearest {
             place.put(mark);

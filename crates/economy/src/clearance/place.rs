@@ -115,8 +115,7 @@ impl Place {
     /// the looks since then.
     pub(super) fn is_left(&self) -> f64 {
         let nats: f64 = self
-            .marks
-            .iter()
+            .surest(None)
             .map(|mark| f64::from(mark.missed_since))
             .sum();
         let least = if nats > 0.0 { GONE } else { 0.0 };
@@ -139,16 +138,32 @@ impl Place {
         self.marks.iter().map(|mark| mark.id.issuer).collect()
     }
 
-    /// Distance of a mark in joint standard deviations, squared; `None` if it belongs to another place:
-    /// two marks of one robot are two places.
+    /// Distance of a mark in joint standard deviations, squared; `None` if it belongs to another place.
     pub(super) fn distance_to(&self, mark: &Mark) -> Option<f64> {
-        let is_same_robot = |known: &Mark| known.id.issuer == mark.id.issuer;
-        if self.marks.len() >= MAX_MARKS || self.marks.iter().any(is_same_robot) {
-            return None;
-        }
         let joint_m2 = self.variance_m2 + variance_m2(mark);
         let square = self.at.to(mark.at()).length_squared() / joint_m2;
-        (square <= GATE * GATE).then_some(square)
+        (self.marks.len() < MAX_MARKS && square <= GATE * GATE).then_some(square)
+    }
+
+    /// Whether a robot has a mark there.
+    pub(super) fn is_of(&self, robot: RobotId) -> bool {
+        self.marks.iter().any(|mark| mark.id.issuer == robot)
+    }
+
+    /// For each robot, the mark that is most probably of an item of a kind, or of any: of those that it still tracks, if
+    /// there are any.
+    fn surest(&self, kind: Option<usize>) -> impl Iterator<Item = &Mark> + Clone {
+        let is_surer = move |one: &Mark, other: &Mark| {
+            let any = |mark: &Mark| mark.log_ratios.into_iter().fold(f32::MIN, f32::max);
+            let strength =
+                |mark: &Mark| kind.map_or_else(|| any(mark), |kind| mark.log_ratios[kind]);
+            let rank = |mark: &Mark| (-mark.missed_since, strength(mark), mark.id.number);
+            rank(one) > rank(other)
+        };
+        self.marks.iter().filter(move |mark| {
+            let mut rivals = self.marks.iter();
+            !rivals.any(|one| one.id.issuer == mark.id.issuer && is_surer(one, mark))
+        })
     }
 
     /// Log likelihood ratio of those marks that `is_of_item` chooses, for a kind of items that all of their sensors
@@ -159,7 +174,7 @@ impl Place {
     ///   = exp(sum L_r) x 2 pi s^2 x exp(-sum |x_0 - x_r|^2 / 2 s_r^2),  1 / s^2 = sum 1 / s_r^2
     /// ```
     pub(super) fn log_ratio_m2(&self, kind: usize, is_of_item: impl Fn(&Mark) -> bool) -> f64 {
-        let marks = self.marks.iter().filter(|mark| is_of_item(mark));
+        let marks = self.surest(Some(kind)).filter(|mark| is_of_item(mark));
         let (at, joint_m2) = fused(marks.clone());
         let each = marks.map(|mark| {
             let away_m2 = at.to(mark.at()).length_squared();
@@ -169,7 +184,7 @@ impl Place {
     }
 
     fn fuse(&mut self) {
-        (self.at, self.variance_m2) = fused(self.marks.iter());
+        (self.at, self.variance_m2) = fused(self.surest(None));
     }
 }
 
