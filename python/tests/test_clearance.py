@@ -62,11 +62,20 @@ def row(**changes: Any) -> dict[str, Any]:
         "stated_risk": 0.046,
     }
     acts = {"marked": 8, "false_marks": 1, "confirmed": 7, "false_confirmations": 2}
-    ends = {"declared_s": 412.2, "neutralised": 6, "left": 0, "robots_lost": 3}
+    times = {"declared_s": 412.2, "given_up_s": 300.4}
+    ends = {"neutralised": 6, "left": 0, "robots_lost": 3}
     reasons = ("called_off", "controllers_lost", "robots_lost")
     ended = {f"ended_{reason}": False for reason in reasons}
-    ended |= {"given_up_s": 300.4}
-    return {**stated, **acts, **ends, **ended, "unmarked_from_air": 2, "met_unmarked": 1, **changes}
+    return {
+        **stated,
+        **acts,
+        **times,
+        **ends,
+        **ended,
+        "unmarked_from_air": 2,
+        "met_unmarked": 1,
+        **changes,
+    }
 
 
 def required(**changes: Any) -> study.Plan:
