@@ -62,7 +62,10 @@ impl Colleagues {
 
     /// Those that share a lane with a controller: they are of the same kind.
     pub(super) fn on_lane_of(&self, own: RobotId) -> impl Iterator<Item = RobotId> {
-        let same = self.list.iter().filter(move |other| other.id.kind == own.kind);
+        let same = self
+            .list
+            .iter()
+            .filter(move |other| other.id.kind == own.kind);
         same.map(|colleague| colleague.id)
     }
 
