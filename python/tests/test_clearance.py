@@ -62,8 +62,20 @@ def row(**changes: Any) -> dict[str, Any]:
         "stated_risk": 0.046,
     }
     acts = {"marked": 8, "false_marks": 1, "confirmed": 7, "false_confirmations": 2}
-    ends = {"declared_s": 412.2, "neutralised": 6, "left": 0, "robots_lost": 3}
-    return {**stated, **acts, **ends, "unmarked_from_air": 2, "met_unmarked": 1, **changes}
+    times = {"declared_s": 412.2, "given_up_s": 300.4}
+    ends = {"neutralised": 6, "left": 0, "robots_lost": 3}
+    reasons = ("called_off", "controllers_lost", "robots_lost")
+    ended = {f"ended_{reason}": False for reason in reasons}
+    return {
+        **stated,
+        **acts,
+        **times,
+        **ends,
+        **ended,
+        "unmarked_from_air": 2,
+        "met_unmarked": 1,
+        **changes,
+    }
 
 
 def required(**changes: Any) -> study.Plan:
@@ -141,12 +153,17 @@ def test_a_run_states_the_declaration_and_the_truth() -> None:
 def test_a_lane_that_is_not_declared_does_not_look_clear() -> None:
     given_up = dict(lane_rows(row(declared=False, given_up=True, stated_risk=0.34, left=3)))
     assert given_up["lane"] == (
-        "not declared clear: given up with a stated risk of 34.0%; 3 mines left"
+        "not declared clear: given up at 300 s with a stated risk of 34.0%, as nothing lowered the "
+        "risk; 3 mines left"
     )
+    called = row(declared=False, given_up=True, ended_called_off=True, stated_risk=0.34)
+    assert "as a person ended the mission" in dict(lane_rows(called))["lane"]
+    lost = dict(lane_rows(row(declared=False, ended_controllers_lost=True)))
+    assert lost["lane"].startswith("neither declared clear nor given up: all controllers were lost")
     neither = dict(lane_rows(row(declared=False, stated_risk=1.0, left=0)))
     assert neither["lane"] == "neither declared clear nor given up; 0 mines left"
     certain = dict(lane_rows(row(declared=False, given_up=True, stated_risk=1.0, left=0)))
-    assert "given up with a stated risk of 100.0%" in certain["lane"]
+    assert "given up at 300 s with a stated risk of 100.0%" in certain["lane"]
 
 
 def test_runs_without_a_lane_have_no_such_rows() -> None:

@@ -64,6 +64,7 @@ pub use io::lane::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerd
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
+pub use navigation::hazards::min_work_range_m;
 pub use navigation::speed_governor::stopping_m;
 pub use perception::beliefs::pose::Pose;
 pub use perception::beliefs::{BeliefsSpec, TrustSpec};

@@ -1,13 +1,15 @@
 //! Quantities that follow from the values of a scenario, for people who check it.
 
 use crate::bodies::RobotSpec;
-use crate::scenario::ScenarioSpec;
+use crate::scenario::{Checked, ScenarioSpec};
 use crate::sensors::items::{Detection, ItemsSpec};
 use crate::sensors::pass::{Pass, Path};
 use crate::sensors::{Measures, SensorSpec};
+use crate::warnings::lane_reach::{lane_reach, percent};
 
 /// What a pass of each item detector detects, for each kind of item that it detects: (sensor and kind, text).
-pub(crate) fn derived(spec: &ScenarioSpec) -> Vec<(String, String)> {
+pub(crate) fn derived(checked: &Checked) -> Vec<(String, String)> {
+    let spec = &checked.spec;
     let mut derived = Vec::new();
     for (owner, robot) in &spec.robots {
         for (name, sensor) in &robot.sensors {
@@ -20,22 +22,33 @@ pub(crate) fn derived(spec: &ScenarioSpec) -> Vec<(String, String)> {
             }
         }
     }
-    derived.extend(floors(spec));
+    derived.extend(floor(checked));
     derived
 }
 
-/// The lowest risk that clearing a lane can reach, for each kind of controllers with a lane.
-fn floors(spec: &ScenarioSpec) -> impl Iterator<Item = (String, String)> {
-    let lanes = spec.controllers.iter();
-    lanes.filter_map(|(name, kind)| {
-        let clearance = kind.clearance.as_ref()?.ready(spec);
-        let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
-        let text = format!(
-            "{expected} expected mines; the risk never falls below {}, however often all sensors look",
-            percent(clearance.floor())
-        );
-        Some((format!("controllers.{name}.clearance"), text))
-    })
+/// The lowest risk that clearing a lane can reach.
+fn floor(checked: &Checked) -> Option<(String, String)> {
+    let mut kinds = checked.spec.controllers.iter();
+    let (name, _) = kinds.find(|(_, kind)| kind.clearance.is_some())?;
+    let clearance = checked.scenario.clearance()?;
+    let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
+    let reach = lane_reach(checked);
+    let floor = reach
+        .map_or(0.0, |reach| reach.floor)
+        .max(clearance.floor());
+    let unseen = reach.map_or(0.0, |reach| reach.unseen);
+    let unseen = (unseen > 0.0).then(|| {
+        format!(
+            "{} of the lane is out of reach of every robot; ",
+            percent(unseen)
+        )
+    });
+    let text = format!(
+        "{expected} expected mines; {}the risk never falls below {}, however often all sensors look",
+        unseen.unwrap_or_default(),
+        percent(floor)
+    );
+    Some((format!("controllers.{name}.clearance"), text))
 }
 
 /// `None` if the sensor never detects that kind, or there is nothing to state.
@@ -78,15 +91,6 @@ fn rounded(length_m: f64) -> f64 {
     text.parse().unwrap_or(length_m)
 }
 
-/// A probability; only what is certain is 0% or 100%.
-fn percent(share: f64) -> String {
-    match 100.0 * share {
-        percent if percent > 0.0 && percent < 0.1 => "less than 0.1%".to_owned(),
-        percent if percent > 99.9 && share < 1.0 => "more than 99.9%".to_owned(),
-        percent => format!("{percent:.1}%"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,7 +106,7 @@ mod tests {
         );
         let document = Document::parse("t", &text).unwrap();
         let read = ScenarioSpec::read(&document);
-        derived(&read.unwrap_or_else(|errors| panic!("{errors}")).spec)
+        derived(&read.unwrap_or_else(|errors| panic!("{errors}")))
     }
 
     const MINE: &str = "robots.rover.sensors.eye, mine";

@@ -55,7 +55,7 @@ impl Engine for Metric {
         read.map_or_else(
             |_| Vec::new(),
             |checked| {
-                let mut derived = derived::derived(&checked.spec);
+                let mut derived = derived::derived(&checked);
                 derived.extend(checked.scenario.recoveries());
                 derived
             },

@@ -30,8 +30,14 @@ def statement(row: Mapping[str, Any]) -> str:
         at = f"declared clear at {row['declared_s']:.0f} s"
         return f"{at} with a stated risk of {percent(risk)}{wrong}"
     if row["given_up"]:
-        return f"not declared clear: given up with a stated risk of {percent(risk)}"
-    return "neither declared clear nor given up"
+        at = f"given up at {row['given_up_s']:.0f} s"
+        why = (
+            "a person ended the mission" if row["ended_called_off"] else "nothing lowered the risk"
+        )
+        return f"not declared clear: {at} with a stated risk of {percent(risk)}, as {why}"
+    lost = [name for name in ("controllers", "robots") if row[f"ended_{name}_lost"]]
+    why = f": all {lost[0]} were lost" if lost else ""
+    return f"neither declared clear nor given up{why}"
 
 
 def act_rows(row: Mapping[str, Any]) -> Iterator[Row]:

@@ -372,6 +372,7 @@ class Dispatch(TypedDict, total=False):
     coverage: Coverage
     mark: Mark
     statement: Statement
+    lane_gain: float
 
 
 class AboutItem(TypedDict):

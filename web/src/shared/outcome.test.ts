@@ -43,3 +43,25 @@ test("the times of finds are left out, and counts of kinds with similar names ar
   const columns = ["found_cow_1_s", "missed_cow_1_s", "found_cow_1_s_1_s", "time_s"];
   expect(withoutFindTimes(columns)).toEqual(["found_cow_1_s", "missed_cow_1_s", "time_s"]);
 });
+
+test("a flag and the time at which it was set are one row", () => {
+  const rows = (outcome: Parameters<typeof outcomeRows>[0]) =>
+    outcomeRows(outcome, 0).map(({ name, value, unit }) => `${name} ${value} ${unit}`.trim());
+  const times = { declared_s: 352, given_up_s: 600, time_s: 352 };
+  expect(rows({ declared: true, given_up: false, ...times })).toEqual([
+    "declared 352 s",
+    "given up no",
+    "time 352 s",
+  ]);
+  expect(rows({ declared: 0, given_up: 1, ...times })).toEqual([
+    "declared no",
+    "given up 600 s",
+    "time 352 s",
+  ]);
+});
+
+test("only the reason for which a run is over is a row", () => {
+  const outcome = { ended_hopeless: true, ended_time_limit: false };
+  expect(outcomeRows(outcome, 0)).toEqual([{ name: "ended", value: "hopeless", unit: "" }]);
+  expect(outcomeRows({ ended_hopeless: 0, ended_time_limit: 0 }, 0)).toEqual([]);
+});

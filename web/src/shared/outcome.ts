@@ -31,7 +31,29 @@ export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
     ...first.filter((name) => shown.includes(name)),
     ...shown.filter((name) => !first.includes(name)),
   ];
-  return [...rows, ...names.flatMap((name) => row(name, rest[name]))];
+  return [
+    ...rows,
+    ...names.flatMap((name) => reason(name, rest) ?? event(name, rest) ?? row(name, rest[name])),
+  ];
+}
+
+/** The row of why a run is over, which columns such as ended_hopeless state; undefined for other columns. */
+function reason(name: string, outcome: Partial<Outcome>): OutcomeRow[] | undefined {
+  if (!name.startsWith("ended_")) return undefined;
+  const words = named(name.slice("ended_".length)).words;
+  return outcome[name] ? [{ name: "ended", value: words, unit: "" }] : [];
+}
+
+/**
+ * The row of something that happens once, such as declared with its time declared_s: the time if it did; undefined for
+ * other columns, and no row for the time itself.
+ */
+function event(name: string, outcome: Partial<Outcome>): OutcomeRow[] | undefined {
+  const happened = name.endsWith("_s") ? name.slice(0, -2) : undefined;
+  if (happened !== undefined && happened in outcome) return [];
+  const time = outcome[`${name}_s`];
+  if (time === undefined) return undefined;
+  return outcome[name] ? row(`${name}_s`, time) : [{ name: named(name).words, value: "no", unit: "" }];
 }
 
 /**

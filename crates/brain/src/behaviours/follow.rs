@@ -60,6 +60,7 @@ impl Ready {
                 at: Point::default(),
                 tolerance_m: 0.1,
                 max_deviation_m: f64::INFINITY,
+                is_at_hazard: false,
                 max_speed_m_s: body.max_speed_m_s,
                 value: spec.value,
             },

@@ -83,6 +83,7 @@ impl Ready {
                 at: Point::default(),
                 tolerance_m: (0.1 * width_m).clamp(0.2, 2.0),
                 max_deviation_m: f64::INFINITY,
+                is_at_hazard: false,
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
                 value: spec.value,
             },

@@ -89,6 +89,7 @@ impl Ready {
                 at: Point::default(),
                 tolerance_m: spec.within_m,
                 max_deviation_m: max_deviation_m(spec.within_m),
+                is_at_hazard: false,
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
                 value: spec.value,
             },

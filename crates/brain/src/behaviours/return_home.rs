@@ -67,6 +67,7 @@ impl Ready {
                 at: Point::default(),
                 tolerance_m: spec.within_m,
                 max_deviation_m: f64::INFINITY,
+                is_at_hazard: false,
                 max_speed_m_s: body.max_speed_m_s,
                 value: spec.value,
             },

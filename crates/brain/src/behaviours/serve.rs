@@ -7,7 +7,7 @@ use crate::goals::proposal::{Destination, Proposal};
 use crate::io::act::ActKind;
 use crate::io::body::{Body, RobotId};
 use crate::io::command::{Command, Motion};
-use crate::io::dispatch::Work;
+use crate::navigation::hazards::kept_m;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
 use crate::service::ability::{Ability, Moment};
@@ -75,7 +75,9 @@ impl Ready {
                 all_round_m: all_round_m(body),
                 ahead_m: ahead_m(body),
                 position_noise_m: body.position_noise_m,
+                keep_m: kept_m(body),
                 charge: body.tool(ActKind::Neutralise).copied(),
+                fence: body.tool(ActKind::Isolate).copied(),
                 capabilities: body.capabilities.as_slice().into(),
                 robot_kinds: body.others.len(),
             },
@@ -96,11 +98,12 @@ impl Ready {
 
     /// The motion at a goal: robots face the marks at which they look or act.
     fn standing(&self, job: &Job, pose: &Pose, situation: &Situation) -> Motion {
-        let looks = matches!(job.task.work, Work::Interrogate | Work::Neutralise);
+        let looks = job.task.work.is_at_item();
         if !looks || self.ability.is_stationary() {
             return Motion::default();
         }
-        let mark = job.charge_at().unwrap_or(job.task.at());
+        let item = job.fence_at().or_else(|| job.charge_at());
+        let mark = item.unwrap_or(job.task.at());
         let towards = pose.at.to(mark);
         let off_rad = wrapped(libm::atan2(towards.y, towards.x) - pose.heading_rad);
         let max_rad_s = situation.body.max_turn_rate_rad_s;
@@ -177,9 +180,10 @@ impl Behaviour for Ready {
         Some(Proposal::Destination(Destination {
             id: job.task.id,
             at,
-            tolerance_m: near_m * job.approach(),
+            tolerance_m: ability.approach_m(&job.task, near_m),
             max_deviation_m: job.max_deviation_m(),
-            max_speed_m_s: ability.speed_m_s,
+            is_at_hazard: ability.is_at_hazard(&job.task),
+            max_speed_m_s: ability.speed_at_m_s(&job.task, [pose.at.to(at).length(), near_m]),
             value: self.value * f64::from(job.task.value),
         }))
     }

@@ -88,6 +88,7 @@ impl Ready {
                 at: Point::default(),
                 tolerance_m: width_m / 4.0,
                 max_deviation_m: f64::INFINITY,
+                is_at_hazard: false,
                 max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
                 value: spec.value,
             },

@@ -154,6 +154,7 @@ pub(crate) fn destination(speed_m_s: Option<f64>, value: f64, body: &Body) -> De
         at: Point::default(),
         tolerance_m: 0.3,
         max_deviation_m: f64::INFINITY,
+        is_at_hazard: false,
         max_speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),
         value,
     }

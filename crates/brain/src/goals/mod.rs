@@ -252,6 +252,7 @@ mod tests {
             at: Point { x, y },
             tolerance_m: 0.5,
             max_deviation_m: 0.25,
+            is_at_hazard: false,
             max_speed_m_s: 1.0,
             value,
         }

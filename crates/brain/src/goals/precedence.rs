@@ -61,6 +61,7 @@ mod tests {
         at: Point { x: 0.0, y: 0.0 },
         tolerance_m: 0.5,
         max_deviation_m: 0.25,
+        is_at_hazard: false,
         max_speed_m_s: 2.0,
         value: 3.0,
     };

@@ -26,6 +26,10 @@ pub(crate) struct Destination {
     /// It is reached only if the standard deviation of the position is at most this; infinite without a
     /// limit.
     pub(crate) max_deviation_m: f64,
+    /// Whether it is a place of work on an item that may destroy the robot: the robot goes as near as `tolerance_m` needs,
+    /// and no nearer than it is safe.
+    #[hashed(skip)]
+    pub(crate) is_at_hazard: bool,
     pub(crate) max_speed_m_s: f64,
     /// Value of being there, relative to other destinations.
     pub(crate) value: f64,

@@ -92,6 +92,8 @@ pub enum Dispatch {
     Mark(Mark),
     /// From a robot to controllers: what it states about a mark.
     Statement(Statement),
+    /// From a controller to others: the expected number of mines of a lane that its goals may still find or destroy.
+    LaneGain(f32),
 }
 
 impl Dispatch {
@@ -120,7 +122,11 @@ impl Dispatch {
             | Self::RenewOne(_)
             | Self::RenewedOne(_) => 0,
             Self::Call { .. } | Self::Bid(_) | Self::Entrust(_) | Self::Serial(_) => 2,
-            Self::Query {} | Self::Report(_) | Self::Fitness(_) | Self::Seen(_) => 3,
+            Self::Query {}
+            | Self::Report(_)
+            | Self::Fitness(_)
+            | Self::Seen(_)
+            | Self::LaneGain(_) => 3,
             _ => 1,
         }
     }
@@ -179,6 +185,13 @@ pub enum Work {
     Interrogate,
     /// To neutralise a confirmed mark.
     Neutralise,
+}
+
+impl Work {
+    /// Whether a robot looks at, or acts on, an item that has been marked.
+    pub(crate) fn is_at_item(self) -> bool {
+        matches!(self, Self::Interrogate | Self::Neutralise)
+    }
 }
 
 /// A goal, and the number of a request of the robot or controller that holds its lease.
@@ -390,6 +403,8 @@ mod tests {
                 at_m: [0.0; 2],
                 verdict: MarkVerdict::Rejected,
             }),
+            Dispatch::LaneGain(0.5),
+            Dispatch::LaneGain(0.25),
         ];
         let mut hashes: Vec<u64> = all.into_iter().map(hash).collect();
         hashes.sort_unstable();

@@ -297,6 +297,7 @@ fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
             at,
             tolerance_m: 0.5,
             max_deviation_m: f64::INFINITY,
+            is_at_hazard: false,
             max_speed_m_s: 1.0,
             value: 1.0,
         });
@@ -330,6 +331,7 @@ fn a_goal_that_moves_is_broadcast_at_its_new_place_and_is_neither_done_nor_relea
             at: Point { x, y: 10.0 },
             tolerance_m: 0.5,
             max_deviation_m: f64::INFINITY,
+            is_at_hazard: false,
             max_speed_m_s: 1.0,
             value: 1.0,
         };

@@ -10,6 +10,9 @@
 //! The distance is the largest at which the item is a danger with a probability of at least [`MIN_PROBABILITY`]: that
 //! there is an item, of one of the kinds that are a danger at that distance.
 //!
+//! The paths of a robot to an item on which it is to work keep less clear of it if its sensor or tool does not reach it
+//! from outside the disc: up to the distance with the margin 0.1 m for control + 3 standard deviations.
+//!
 //! A robot inside a disc leaves it: it does not come nearer to the item, but may move away from it.
 
 use super::reachable::Reachable;
@@ -33,6 +36,16 @@ const DEVIATIONS: f64 = 2.0;
 /// Margin for turns and brakes: bodies do not follow paths exactly, in metres.
 const CONTROL_M: f64 = 0.4;
 
+/// The same near an item on which the robot is to work: it stops there.
+const WORK_DEVIATIONS: f64 = 3.0;
+const WORK_CONTROL_M: f64 = 0.1;
+
+/// Robots use at most this much less than the range of a sensor or tool, in metres.
+pub(crate) const WORK_REACH_M: f64 = 0.1;
+
+/// How much farther than the edge of the disc of such an item a robot may be, in metres.
+const WORK_ROOM_M: f64 = 0.2;
+
 /// The highest margin for the error of a position and for control, in metres: items reported with large errors must not close the
 /// field.
 const MAX_MARGIN_M: f64 = 2.0;
@@ -51,6 +64,8 @@ const MIN_END_MARGIN_M: f64 = 0.02;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Hazards {
     discs: Vec<Disc>,
+    /// The smallest radius that each disc can have for work on its item.
+    min_radii_m: Vec<f64>,
     /// Kept between steps to reuse its allocation.
     shares: Vec<f64>,
 }
@@ -59,6 +74,7 @@ impl Hazards {
     /// Takes the discs from the beliefs of a robot.
     pub(crate) fn update(&mut self, beliefs: &Beliefs, body: &Body) {
         self.discs.clear();
+        self.min_radii_m.clear();
         if body.hazards_m.is_empty() {
             return;
         }
@@ -69,12 +85,26 @@ impl Hazards {
                 continue;
             }
             self.write_shares(track, beliefs, body.hazards_m.len());
-            let margin_m = CONTROL_M + DEVIATIONS * libm::sqrt(track.variance_m2.max(0.0));
+            let deviation_m = libm::sqrt(track.variance_m2.max(0.0));
+            let margin_m = CONTROL_M + DEVIATIONS * deviation_m;
             if let Some(danger_m) = danger_m(&body.hazards_m, &self.shares, exists) {
+                let work_m = WORK_CONTROL_M + WORK_DEVIATIONS * deviation_m;
+                self.min_radii_m.push(danger_m + body.radius_m + work_m);
                 self.discs.push(Disc {
                     centre: track.at,
                     radius_m: danger_m + body.radius_m + margin_m.min(MAX_MARGIN_M),
                 });
+            }
+        }
+    }
+
+    /// Lets a path end within a distance of a place of work, as far as that is safe: the discs around it are as small as
+    /// necessary.
+    pub(crate) fn admit(&mut self, place: Point, within_m: f64) {
+        for (disc, min_radius_m) in self.discs.iter_mut().zip(&self.min_radii_m) {
+            if disc.centre.to(place).length() < disc.radius_m {
+                let needed_m = (within_m - WORK_ROOM_M).max(*min_radius_m);
+                disc.radius_m = disc.radius_m.min(needed_m);
             }
         }
     }
@@ -197,6 +227,20 @@ impl Hazards {
             reachable.limit_by_disc(pose.in_own_frame(disc.centre), disc.radius_m);
         }
     }
+}
+
+/// The distance that a robot keeps at its work from an item that may destroy it and whose position is exact; 0 if none may.
+pub(crate) fn kept_m(body: &Body) -> f64 {
+    let dangers = body.hazards_m.iter().flatten();
+    let largest_m = dangers.copied().max_by(f64::total_cmp);
+    largest_m.map_or(0.0, |danger_m| danger_m + body.radius_m + WORK_CONTROL_M)
+}
+
+/// The range of a sensor or tool of a robot below which it reaches no item from where the item cannot destroy it, for the
+/// distance at which that is a danger to the footprint of the robot.
+#[must_use]
+pub fn min_work_range_m(danger_m: f64, radius_m: f64) -> f64 {
+    danger_m + radius_m + WORK_CONTROL_M + WORK_REACH_M
 }
 
 /// The largest distance at which an item is a danger with the minimum probability, by the danger and the share of each

@@ -37,6 +37,9 @@ const CLEARANCE: f64 = 0.35;
 /// its cell, as a fraction of the cell size.
 const TIGHT_CLEARANCE: f64 = 0.5;
 
+/// At an item that may destroy it, a robot stops at most this far inside the tolerance of its goal, in metres.
+const STOP_AT_HAZARD_M: f64 = 0.1;
+
 /// The path of one robot, and its memory for driving along it.
 #[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Navigator {
@@ -154,6 +157,9 @@ impl Navigator {
             return Motion::default();
         };
         self.hazards.update(beliefs, situation.body);
+        if destination.is_at_hazard {
+            self.hazards.admit(destination.at, destination.tolerance_m);
+        }
         let goal = destination.goal();
         let waypoint = match &beliefs.map {
             Some(map) => self.next_waypoint(destination, &pose, map, situation),
@@ -195,7 +201,13 @@ impl Navigator {
         remaining_m: f64,
         situation: &Situation,
     ) -> f64 {
-        let stop_within_m = remaining_m - self.end_tolerance_m(destination) / 2.0;
+        let tolerance_m = self.end_tolerance_m(destination);
+        let inside_m = if destination.is_at_hazard {
+            (tolerance_m / 2.0).min(STOP_AT_HAZARD_M)
+        } else {
+            tolerance_m / 2.0
+        };
+        let stop_within_m = remaining_m - (tolerance_m - inside_m);
         if self.shunting.is_yielding() {
             destination.max_speed_m_s
         } else {

@@ -5,6 +5,7 @@ use crate::io::act::Tool;
 use crate::io::body::{Body, RobotId};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
+use crate::navigation::hazards::WORK_REACH_M;
 use crate::perception::beliefs::{Beliefs, Map};
 use alloc::sync::Arc;
 use base::geometry::Point;
@@ -14,6 +15,18 @@ const MIN_SPEED_M_S: f64 = 1e-3;
 
 /// An uncertain position is within this many standard deviations.
 const DEVIATIONS: f64 = 3.0;
+
+/// Robots that look or act drive this part of the permitted distance to the place: estimated positions move while they
+/// look.
+const APPROACH: f64 = 0.8;
+
+/// Robots that have to come that near stand at least this far outside the distance that they keep from what may destroy
+/// them, for the error of its position, in metres.
+const ROOM_M: f64 = 0.3;
+
+/// Time for which what is marked is in view before a robot is too near to it, in seconds, and the lowest speed for that.
+const LOOK_S: f64 = 3.0;
+const MIN_CLOSE_SPEED_M_S: f64 = 0.1;
 
 /// What a robot can do.
 #[derive(Debug, Clone, Default)]
@@ -30,8 +43,12 @@ pub(crate) struct Ability {
     pub(crate) ahead_m: f64,
     /// Standard deviation of its position sensor.
     pub(crate) position_noise_m: f64,
+    /// The distance that it keeps from what may destroy it, if the position of that is exact; 0 if nothing may.
+    pub(crate) keep_m: f64,
     /// Its tool to neutralise items, if it has one.
     pub(crate) charge: Option<Tool>,
+    /// Its tool to fence items off, if it has one.
+    pub(crate) fence: Option<Tool>,
     pub(crate) capabilities: Arc<[u8]>,
     /// Kinds of participants from this number on are controllers.
     pub(crate) robot_kinds: usize,
@@ -53,7 +70,8 @@ impl Ability {
             0.0
         };
         let charge = self.charge.filter(|_| task.work == Work::Neutralise);
-        let charge_s = charge.map_or(0.0, |tool| tool.duration_s);
+        let fence = self.fence.filter(|_| task.work == Work::Interrogate);
+        let charge_s = charge.or(fence).map_or(0.0, |tool| tool.duration_s);
         f64::from(task.service_s) + charge_s + self.travel_s(search_m)
     }
 
@@ -75,13 +93,57 @@ impl Ability {
         if self.ahead_m <= 0.0 {
             return task.radius_m.into();
         }
-        (self.ahead_m - self.uncertain_m(task)).max(self.ahead_m / 2.0)
+        let from_m = (self.ahead_m - self.uncertain_m(task)).max(self.ahead_m / 2.0);
+        from_m.max(self.within_reach_m(self.ahead_m))
     }
 
-    /// Distance from an item at which its charge reaches it.
-    pub(crate) fn act_from_m(&self) -> f64 {
-        let range_m = self.charge.map_or(0.0, |tool| tool.range_m);
-        (range_m - DEVIATIONS * self.position_noise_m).max(range_m / 2.0)
+    /// Whether it fences off the items that it confirms, with the charges that it has left: it cannot neutralise them.
+    pub(crate) fn isolates(&self, charges: Option<u32>) -> bool {
+        self.fence.is_some() && (self.charge.is_none() || charges == Some(0))
+    }
+
+    /// Distance from an item at which a tool reaches it.
+    pub(crate) fn act_from_m(&self, tool: Option<&Tool>) -> f64 {
+        let range_m = tool.map_or(0.0, |tool| tool.range_m);
+        let from_m = (range_m - DEVIATIONS * self.position_noise_m).max(range_m / 2.0);
+        from_m.max(self.within_reach_m(range_m))
+    }
+
+    /// A distance within a range at which it is safe; less if there is none.
+    fn within_reach_m(&self, range_m: f64) -> f64 {
+        if self.keep_m > 0.0 {
+            (range_m - WORK_REACH_M).min(self.keep_m + ROOM_M)
+        } else {
+            0.0
+        }
+    }
+
+    /// How near it drives to a place at which it has to be within a distance.
+    pub(crate) fn approach_m(&self, task: &Task, near_m: f64) -> f64 {
+        if !task.work.is_at_item() {
+            return near_m;
+        }
+        (APPROACH * near_m).max(near_m.min(self.within_reach_m(f64::INFINITY)))
+    }
+
+    /// Its maximum speed at a distance from a place at which it has to be within another. Where what is marked may be nearer
+    /// than it is safe, the robot is slow enough to detect it before.
+    pub(crate) fn speed_at_m_s(&self, task: &Task, [away_m, near_m]: [f64; 2]) -> f64 {
+        let uncertain_m = self.uncertain_m(task);
+        let is_exposed = self.is_at_hazard(task) && near_m < self.keep_m + uncertain_m;
+        let is_in_view = away_m < near_m + uncertain_m + self.ahead_m;
+        if is_exposed && is_in_view {
+            let seen_m = (self.ahead_m - self.keep_m).max(0.0);
+            self.speed_m_s
+                .min((seen_m / LOOK_S).max(MIN_CLOSE_SPEED_M_S))
+        } else {
+            self.speed_m_s
+        }
+    }
+
+    /// Whether it looks at, or acts on, an item there that may destroy it.
+    pub(crate) fn is_at_hazard(&self, task: &Task) -> bool {
+        self.keep_m > 0.0 && task.work.is_at_item()
     }
 
     /// How far a marked item may be from the mark, by the errors of the mark and of its own position.

@@ -2,12 +2,12 @@
 //! holds their leases, and reports.
 
 use super::ability::{Ability, Moment};
-use super::charge_state::Firing;
+use super::charge_state::{Fence, Firing};
 use super::failures::Failures;
 use super::finished::Finished;
 use super::holder::Holder;
 use super::jobs::{Job, Jobs};
-use super::lane_reports::{LANE_REPORT_PERIOD_S, LaneReports};
+use super::lane_reports::{Interrogation, LANE_REPORT_PERIOD_S, LaneReports};
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
@@ -44,9 +44,9 @@ pub(crate) struct Assignee {
     /// The goal that it proposed last.
     pub(super) proposed: Option<GoalId>,
     pub(super) lane: LaneReports,
-    /// The goal of this step in which it has interrogated a mark.
+    /// The goal of this step in which it has interrogated a mark, and whether it has fenced the item off.
     #[hashed(skip)]
-    interrogated: Option<Task>,
+    interrogated: Option<(Task, bool)>,
     pub(super) firing: Firing,
     #[hashed(skip)]
     pub(super) outbox: Vec<Message>,
@@ -100,9 +100,13 @@ impl Assignee {
                 self.lane.name((lane, phase), beliefs, self.now_s);
             }
         }
-        if let Some(task) = self.interrogated.take() {
-            let within_m = ability.uncertain_m(&task);
-            self.lane.state((&task, within_m), moment.body, beliefs);
+        if let Some((task, is_isolated)) = self.interrogated.take() {
+            let looked = Interrogation {
+                within_m: ability.uncertain_m(&task),
+                task,
+                is_isolated,
+            };
+            self.lane.state(&looked, moment.body, beliefs);
         }
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
             match dispatch {
@@ -426,10 +430,14 @@ impl Assignee {
         } else if job.task.work == Work::Neutralise {
             // A charge that has gone off is part of the service that has begun.
             if job.served_s > 0.0 || left_s > ability.work_s(&job.task) {
-                self.neutralise(goal, moment);
+                self.neutralise(goal, ability, moment);
             }
         } else if job.left_s() <= 0.0 {
-            self.finish(goal);
+            if self.is_to_isolate(goal, ability, moment) {
+                self.isolate(goal);
+            } else {
+                self.finish(goal);
+            }
         } else if job.served_s > 0.0 || left_s > job.left_s() + moment.body.period_s {
             job.served_s += moment.body.period_s;
         }
@@ -438,7 +446,8 @@ impl Assignee {
     pub(super) fn finish(&mut self, goal: GoalId) {
         if let (Some(job), Some(lease)) = (self.jobs.remove(goal), self.holder.release(goal)) {
             let number = lease.number;
-            self.interrogated = Some(job.task).filter(|task| task.work == Work::Interrogate);
+            self.interrogated = Some((job.task, job.charges.fence == Fence::Done))
+                .filter(|(task, _)| task.work == Work::Interrogate);
             self.finished
                 .add(Claim { goal, number }, job.owner, self.now_s);
         }
@@ -483,7 +492,7 @@ fn is_near(job: &Job, ability: &Ability, at: Point, deviation_m: f64) -> bool {
     } else if job.max_deviation_m().is_finite() {
         within_m(near_m, deviation_m)
     } else {
-        near_m * job.approach()
+        ability.approach_m(&job.task, near_m)
     };
     at.to(target).length() <= near_m
 }

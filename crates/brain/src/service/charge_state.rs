@@ -30,6 +30,21 @@ pub(crate) struct Charges {
     pub(crate) has_looked: bool,
     /// Whether one has been commanded and its result is not known.
     pub(crate) is_firing: bool,
+    pub(crate) fence: Fence,
+}
+
+/// Whether a robot fences off an item that it cannot neutralise.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hashed)]
+pub(crate) enum Fence {
+    /// It has no reason to.
+    #[default]
+    None,
+    /// It is to do so, or is doing it.
+    Wanted,
+    /// It has.
+    Done,
+    /// It has tried, but it was out of the tool's range.
+    Failed,
 }
 
 /// Goals without charges have the hash that they had before there were charges.
@@ -38,6 +53,9 @@ impl Hashed for Charges {
         if *self != Self::default() {
             self.fired.add_to(hash);
             [self.is_success, self.has_looked, self.is_firing].add_to(hash);
+            if self.fence != Fence::None {
+                self.fence.add_to(hash);
+            }
         }
     }
 }

@@ -3,7 +3,8 @@
 
 use super::ability::{Ability, Moment};
 use super::assignee::Assignee;
-use super::charge_state::{Aim, Firing};
+use super::charge_state::{Aim, Fence, Firing};
+use super::jobs::Job;
 use crate::io::act::{Act, ActKind};
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::goal_id::GoalId;
@@ -20,7 +21,13 @@ impl Assignee {
         };
         let lane = &self.lane;
         for job in &mut self.jobs.list {
-            if job.task.work == Work::Neutralise {
+            let isolates = ability.isolates(moment.percept.charges);
+            let is_aimed = match job.task.work {
+                Work::Neutralise => true,
+                Work::Interrogate => isolates,
+                Work::Visit | Work::Search => false,
+            };
+            if is_aimed {
                 let within_m = ability.uncertain_m(&job.task);
                 let is_hazard = |kind| lane.is_hazard(kind);
                 job.aim = Aim::new(&job.task, beliefs, (within_m, is_hazard));
@@ -31,6 +38,10 @@ impl Assignee {
     /// Takes the results of charges: they are those of the goal that the robot serves.
     pub(super) fn take_results(&mut self, moment: &Moment) {
         for acted in &moment.percept.acted {
+            if acted.kind == ActKind::Isolate {
+                self.take_fence(acted.is_success);
+                continue;
+            }
             let job = self.firing.0.and_then(|(goal, _)| self.jobs.get_mut(goal));
             let Some(job) = job.filter(|_| acted.kind == ActKind::Neutralise) else {
                 continue;
@@ -55,12 +66,19 @@ impl Assignee {
     }
 
     /// Looks for the item of a goal at which the robot is, and acts on it.
-    pub(super) fn neutralise(&mut self, goal: GoalId, moment: &Moment) {
+    pub(super) fn neutralise(&mut self, goal: GoalId, ability: &Ability, moment: &Moment) {
         let Some(job) = self.jobs.get_mut(goal) else {
             return;
         };
         if let Some(at) = job.charge_at() {
             let is_spent = job.charges.fired >= MAX_CHARGES || moment.percept.charges == Some(0);
+            let is_open =
+                job.aim.is_some() && matches!(job.charges.fence, Fence::None | Fence::Wanted);
+            if is_spent && is_open && ability.isolates(moment.percept.charges) {
+                job.charges.fence = Fence::Wanted;
+                self.isolate(goal);
+                return;
+            }
             if is_spent {
                 let (task, charges) = (job.task, job.charges);
                 if charges.fired > 0 && !charges.is_success {
@@ -84,6 +102,61 @@ impl Assignee {
                 self.lane.add(missed(&task));
             }
             self.finish(goal);
+        }
+    }
+}
+
+impl Assignee {
+    /// Whether an interrogation ends with a fence: the robot has confirmed an item that it cannot neutralise.
+    pub(super) fn is_to_isolate(
+        &mut self,
+        goal: GoalId,
+        ability: &Ability,
+        moment: &Moment,
+    ) -> bool {
+        let Some(job) = self.jobs.get_mut(goal) else {
+            return false;
+        };
+        let is_confirmed = job.task.work == Work::Interrogate && job.aim.is_some();
+        if is_confirmed
+            && job.charges.fence == Fence::None
+            && ability.isolates(moment.percept.charges)
+        {
+            job.charges.fence = Fence::Wanted;
+        }
+        job.fence_at().is_some()
+    }
+
+    /// Fences the item of a goal off: a tool that takes time is used until its result is known.
+    pub(super) fn isolate(&mut self, goal: GoalId) {
+        let job = self.jobs.get(goal);
+        if let Some(at) = job.and_then(Job::fence_at) {
+            let kind = ActKind::Isolate;
+            self.acts.push(Act { kind, at });
+        }
+    }
+
+    /// Takes the result of a fence: it is that of the goal that the robot serves.
+    fn take_fence(&mut self, is_success: bool) {
+        let mut jobs = self.jobs.list.iter_mut();
+        let Some(job) = jobs.find(|job| job.charges.fence == Fence::Wanted) else {
+            return;
+        };
+        job.charges.fence = if is_success {
+            Fence::Done
+        } else {
+            Fence::Failed
+        };
+        let aim = job
+            .aim
+            .filter(|_| is_success && job.task.work == Work::Neutralise);
+        let statement = aim.map(|aim| Statement {
+            mark: aim.mark,
+            at_m: [aim.at.x, aim.at.y].map(short),
+            verdict: MarkVerdict::Isolated,
+        });
+        if let Some(statement) = statement {
+            self.lane.add(statement);
         }
     }
 }

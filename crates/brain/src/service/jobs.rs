@@ -1,7 +1,7 @@
 //! The goals that a robot serves, in the order in which it serves them.
 
 use super::ability::Ability;
-use super::charge_state::{Aim, Charges};
+use super::charge_state::{Aim, Charges, Fence};
 use crate::goals::proposal::max_deviation_m;
 use crate::goals::tour::Tour;
 use crate::io::body::RobotId;
@@ -14,9 +14,6 @@ use base::hashed::Hashed;
 
 /// Times in messages have the precision of 32-bit floats.
 const ROUNDING_S: f64 = 1e-6;
-
-/// Robots that look or act drive this part of the permitted distance to the place.
-const APPROACH: f64 = 0.8;
 
 /// A goal that a robot serves.
 #[derive(Debug, Clone, Copy, Hashed)]
@@ -60,8 +57,11 @@ impl Job {
 
     /// Where the robot has to be, and how near.
     pub(crate) fn target(&self, ability: &Ability) -> (Point, f64) {
+        if let Some(at) = self.fence_at() {
+            return (at, ability.act_from_m(ability.fence.as_ref()));
+        }
         if let Some(at) = self.charge_at() {
-            return (at, ability.act_from_m());
+            return (at, ability.act_from_m(ability.charge.as_ref()));
         }
         let corner = ability.lanes.corner(&self.task, self.corners);
         if let Some(corner) = corner.filter(|_| ability.sweeps(&self.task)) {
@@ -79,14 +79,6 @@ impl Job {
         self.served_s > 0.0 || self.charges.is_firing
     }
 
-    /// How near the robot drives, relative to how near it has to be: estimated positions move while it looks.
-    pub(crate) fn approach(&self) -> f64 {
-        match self.task.work {
-            Work::Visit | Work::Search => 1.0,
-            Work::Interrogate | Work::Neutralise => APPROACH,
-        }
-    }
-
     /// The largest standard deviation of its position with which the robot knows that it is there.
     /// Any is enough for a search, and for looks and acts, whose distances allow for the error.
     pub(crate) fn max_deviation_m(&self) -> f64 {
@@ -96,9 +88,18 @@ impl Job {
         }
     }
 
+    /// Where it is to fence something off, if it is.
+    pub(crate) fn fence_at(&self) -> Option<Point> {
+        let aim = self.aim.filter(|_| self.charges.fence == Fence::Wanted);
+        aim.map(|aim| aim.at)
+    }
+
     /// Where it is to act with a charge, if it is: at what it has detected, or at the mark itself if it
     /// has detected nothing and no charge has gone off there.
     pub(crate) fn charge_at(&self) -> Option<Point> {
+        if self.task.work != Work::Neutralise {
+            return None;
+        }
         let has_looked = self.charges.has_looked && self.charges.fired == 0;
         let aim = self.aim.map(|aim| aim.at);
         aim.or_else(|| has_looked.then(|| self.task.at()))
@@ -107,6 +108,7 @@ impl Job {
     /// Whether it remains only to be there for the time of service.
     pub(crate) fn is_swept(&self, ability: &Ability) -> bool {
         !ability.sweeps(&self.task)
+            || self.fence_at().is_some()
             || self.charge_at().is_some()
             || ability.is_stationary()
             || ability.lanes.corner(&self.task, self.corners).is_none()

@@ -60,6 +60,16 @@ impl Hashed for LaneReports {
     }
 }
 
+/// The interrogation of a mark that has ended.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Interrogation {
+    pub(crate) task: Task,
+    /// How far the marked item may be from the mark.
+    pub(crate) within_m: f64,
+    /// Whether the robot has fenced the item off.
+    pub(crate) is_isolated: bool,
+}
+
 #[derive(Debug, Clone, Hashed)]
 struct Work {
     coverage: LaneCoverage,
@@ -101,11 +111,16 @@ impl LaneReports {
     }
 
     /// States what the robot believes of a mark that it has interrogated: whether one of the items that are
-    /// to be cleared is within a distance of it.
-    pub(crate) fn state(&mut self, (task, within_m): (&Task, f64), body: &Body, beliefs: &Beliefs) {
+    /// to be cleared is within a distance of it, or that it has fenced it off.
+    pub(crate) fn state(&mut self, looked: &Interrogation, body: &Body, beliefs: &Beliefs) {
+        let Interrogation {
+            task,
+            within_m,
+            is_isolated,
+        } = looked;
         let tracks = beliefs.items.tracks.iter();
         let near = tracks.filter(|track| {
-            let is_near = track.at.to(task.at()).length() <= within_m;
+            let is_near = track.at.to(task.at()).length() <= *within_m;
             let is_likely = probability(track.log_odds()) >= CONFIRM_ABOVE;
             is_near && is_likely && self.is_hazard(track.kind)
         });
@@ -121,7 +136,11 @@ impl LaneReports {
         self.add(Statement {
             mark: task.id,
             at_m: task.at_m,
-            verdict,
+            verdict: if *is_isolated {
+                MarkVerdict::Isolated
+            } else {
+                verdict
+            },
         });
     }
 

@@ -286,7 +286,7 @@ impl LanePicture {
     /// An item that a sensor model has detected is one that it can detect. If the model has not,
     /// either all of its looks have missed the item, or the model is blind to it.
     fn log_odds(&self, place: &Place, kind: usize, detected: &[bool]) -> f64 {
-        let area_m2 = self.clearance.lane.area().area_m2();
+        let area_m2 = self.remaining.free_m2;
         let expected = self.clearance.expected.get(kind).copied();
         let Some(expected) = expected.filter(|expected| *expected > 0.0) else {
             return f64::NEG_INFINITY;

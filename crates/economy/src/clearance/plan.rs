@@ -60,7 +60,9 @@ pub(crate) struct Proposal {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Plan {
     pub(crate) proposals: Vec<Proposal>,
-    /// Whether the goals that robots in range can serve lower the risk.
+    /// The expected number of mines that those of its own tiles find or destroy which robots in range can serve.
+    pub(crate) gain: f64,
+    /// Whether these, or the goals of other controllers, lower the risk.
     pub(crate) is_possible: bool,
     /// Whether a mark that may be a mine has no verdict.
     pub(crate) has_open_marks: bool,
@@ -76,6 +78,12 @@ pub(crate) struct Circumstances<'c> {
     pub(crate) interrogations: &'c dyn Fn(u32) -> u32,
     /// Whether no robot can do it at present.
     pub(crate) is_impossible: &'c dyn Fn(Subject) -> bool,
+    /// Whether it has been served in vain, so that it is not to be served again.
+    pub(crate) is_vain: &'c dyn Fn(Subject) -> bool,
+    /// Whether the goals of a tile are those of this controller.
+    pub(crate) is_own: &'c dyn Fn(u32) -> bool,
+    /// The expected number of mines that the goals of the other controllers in range may find or destroy.
+    pub(crate) others_gain: f64,
 }
 
 impl Plan {
@@ -93,18 +101,17 @@ impl Plan {
             let interrogations = (circumstances.interrogations)(mark.number);
             proposals.extend(work_at(mark, clearance, &tiles, interrogations));
         }
+        proposals.retain(|one| !(circumstances.is_vain)(one.subject));
         let risk = picture.risk_with(marks.iter().copied());
         let expected = risk.expected();
-        let is_possible = |one: &Proposal| {
-            let is_impossible = (circumstances.is_impossible)(one.subject);
-            circumstances.has(clearance, one.skill) && !is_impossible
-        };
-        let possible = proposals.iter().filter(|one| is_possible(one));
+        let possible = proposals.iter();
+        let possible = possible.filter(|one| circumstances.allow(clearance, one));
         let gain: f64 = possible.map(|one| one.value).sum();
         proposals.retain(|one| one.value > MIN_SHARE * expected);
         Self {
             proposals,
-            is_possible: gain > MIN_POSSIBLE_SHARE * expected,
+            gain,
+            is_possible: gain + circumstances.others_gain > MIN_POSSIBLE_SHARE * expected,
             has_open_marks: marks.iter().any(|mark| mark.is_open(clearance)),
             risk: risk.probability,
         }
@@ -112,6 +119,12 @@ impl Plan {
 }
 
 impl Circumstances<'_> {
+    /// Whether a goal is one of this controller that a robot in range can serve.
+    fn allow(&self, clearance: &Clearance, one: &Proposal) -> bool {
+        let is_impossible = (self.is_impossible)(one.subject);
+        (self.is_own)(one.tile) && self.has(clearance, one.skill) && !is_impossible
+    }
+
     /// Whether a robot in range has a skill.
     fn has(&self, clearance: &Clearance, skill: Skill) -> bool {
         let mut kinds = self.kinds.iter();

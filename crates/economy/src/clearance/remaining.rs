@@ -10,7 +10,9 @@ use core::ops::Range;
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
 #[derive(Debug, Clone)]
 pub(super) struct Remaining {
-    /// The part of the lane that each cell is, and the tile in which it lies.
+    /// The free ground of the lane, in square metres.
+    pub(super) free_m2: f64,
+    /// The part of it that each cell is, and the tile in which it lies.
     shares: Vec<f64>,
     pub(super) tiles: Vec<u32>,
     /// For each way to search, the looks of one search by each sensor model, in nats.
@@ -23,13 +25,14 @@ impl Remaining {
     pub(super) fn new(clearance: &Clearance) -> Self {
         let lane = clearance.lane;
         let tiles = clearance.tiles();
-        let area_m2 = lane.area().area_m2();
+        let free_m2 = clearance.free_area_m2();
         let cells = 0..lane.cells();
         let tile = |cell| u32::try_from(tiles.nearest_cell(lane.centre(cell))).unwrap_or(u32::MAX);
         let shares = cells.clone();
-        let shares = shares.map(|cell| lane.cell_area(cell).area_m2() / area_m2);
+        let shares = shares.map(|cell| clearance.free_m2(cell) / free_m2);
         let ways = clearance.searches.iter();
         Self {
+            free_m2,
             shares: shares.collect(),
             tiles: cells.map(tile).collect(),
             ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
@@ -59,8 +62,17 @@ impl Remaining {
                 left.sum::<f64>()
             };
             self.now[cell] = expected(&[]);
-            for (way, after) in self.ways.iter().zip(&mut self.after) {
-                after[cell] = expected(way);
+            for ((way, skill), after) in self
+                .ways
+                .iter()
+                .zip(&clearance.searches)
+                .zip(&mut self.after)
+            {
+                after[cell] = if clearance.can_see(*skill, cell) {
+                    expected(way)
+                } else {
+                    self.now[cell]
+                };
             }
         }
     }

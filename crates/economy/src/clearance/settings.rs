@@ -9,7 +9,10 @@ use brain::Lane;
 pub struct Clearance {
     /// The lane, and the kinds of items that make it unsafe until they are neutralised.
     pub lane: Lane,
-    /// Expected number of items of each kind in the lane, uniformly distributed; the number is Poisson
+    /// Share of each cell that is free ground, not inside of obstacles; empty if all of the lane is. Items are on free
+    /// ground only, so that there is nothing to search elsewhere.
+    pub free_shares: Vec<f64>,
+    /// Expected number of items of each kind in the lane, uniformly distributed over its free ground; the number is Poisson
     /// distributed. At most four kinds: marks distinguish no more.
     pub expected: Vec<f64>,
     /// The kinds of robots, as ids count them.
@@ -68,6 +71,8 @@ pub struct RobotModel {
     /// Probability that one search of a place misses an item that the sensor can detect, as its
     /// negative logarithm in nats.
     pub search_nats: f64,
+    /// The cells that its sensors can see from where its robots can be; empty if all.
+    pub seen: Vec<bool>,
 }
 
 impl Clearance {
@@ -75,12 +80,62 @@ impl Clearance {
     /// mine to which all sensor models are blind.
     #[must_use]
     pub fn floor(&self) -> f64 {
-        let models = self.models();
+        chance_of_any(self.undetected(&self.models()))
+    }
+
+    /// The same for those robots that `is_sent` chooses, with the parts of the lane that they cannot see.
+    #[must_use]
+    pub fn floor_of(&self, is_sent: impl Fn(usize) -> bool) -> f64 {
+        let free_m2 = self.free_area_m2();
+        let left = (0..self.lane.cells()).map(|cell| {
+            let robots = self.robots.iter().enumerate();
+            let see = robots.filter(|(kind, robot)| is_sent(*kind) && robot.sees(cell));
+            let robots: Vec<&RobotModel> = see.map(|(_, robot)| robot).collect();
+            self.free_m2(cell) / free_m2 * self.undetected(&one_of_each_model(robots.into_iter()))
+        });
+        chance_of_any(left.sum())
+    }
+
+    /// The share of the free ground that none of those robots can see.
+    #[must_use]
+    pub fn unseen_by(&self, is_sent: impl Fn(usize) -> bool) -> f64 {
+        let is_unseen = |cell: &usize| {
+            let mut robots = self.robots.iter().enumerate();
+            !robots.any(|(kind, robot)| is_sent(kind) && robot.sees(*cell))
+        };
+        let unseen = (0..self.lane.cells()).filter(is_unseen);
+        let unseen_m2: f64 = unseen.map(|cell| self.free_m2(cell)).sum();
+        unseen_m2 / self.free_area_m2()
+    }
+
+    /// The expected number of mines to which some models are blind.
+    fn undetected(&self, models: &[&RobotModel]) -> f64 {
         let left = self.hazards().map(|(kind, expected)| {
             let blind = models.iter().map(|robot| robot.blind_share_of(kind));
             expected * blind.product::<f64>()
         });
-        chance_of_any(left.sum())
+        left.sum()
+    }
+
+    /// The free ground of a cell, in square metres.
+    pub(crate) fn free_m2(&self, cell: usize) -> f64 {
+        let share = self.free_shares.get(cell).copied().unwrap_or(1.0);
+        share * self.lane.cell_area(cell).area_m2()
+    }
+
+    /// The free ground of the lane, in square metres.
+    #[must_use]
+    pub fn free_area_m2(&self) -> f64 {
+        if self.free_shares.is_empty() {
+            return self.lane.area().area_m2();
+        }
+        (0..self.lane.cells()).map(|cell| self.free_m2(cell)).sum()
+    }
+
+    /// Whether robots with a skill can see a cell.
+    pub(crate) fn can_see(&self, skill: Skill, cell: usize) -> bool {
+        let mut robots = self.robots.iter();
+        robots.any(|robot| robot.has(skill) && robot.sees(cell))
     }
 
     /// The kinds that make the lane unsafe, and their expected numbers.
@@ -91,13 +146,7 @@ impl Clearance {
 
     /// One kind of robots of each sensor model.
     pub(crate) fn models(&self) -> Vec<&RobotModel> {
-        let mut models: Vec<&RobotModel> = Vec::new();
-        for robot in &self.robots {
-            if !models.iter().any(|known| known.model == robot.model) {
-                models.push(robot);
-            }
-        }
-        models
+        one_of_each_model(self.robots.iter())
     }
 
     /// For each kind of robots, the index of its sensor model in [`models`](Self::models).
@@ -108,7 +157,22 @@ impl Clearance {
     }
 }
 
+fn one_of_each_model<'r>(robots: impl Iterator<Item = &'r RobotModel>) -> Vec<&'r RobotModel> {
+    let mut models: Vec<&RobotModel> = Vec::new();
+    for robot in robots {
+        if !models.iter().any(|known| known.model == robot.model) {
+            models.push(robot);
+        }
+    }
+    models
+}
+
 impl RobotModel {
+    /// Whether its sensors can see a cell.
+    pub(crate) fn sees(&self, cell: usize) -> bool {
+        self.seen.is_empty() || self.seen.get(cell) == Some(&true)
+    }
+
     pub(crate) fn has(&self, skill: Skill) -> bool {
         skill.capability == 0 || self.capabilities.contains(&skill.capability)
     }

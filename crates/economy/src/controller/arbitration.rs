@@ -159,6 +159,7 @@ impl Controller {
     /// A lease has ended by message: the goal is offered again, unless it already is.
     pub(super) fn reopen(&mut self, claim: Claim) {
         let now_s = self.now_s;
+        self.clearing.note_failure(claim.goal);
         if let Some(owned) = self.goal_mut(claim.goal).filter(|owned| !owned.is_done) {
             let was_contested = owned
                 .assigned

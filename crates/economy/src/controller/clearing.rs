@@ -5,6 +5,7 @@
 
 use super::Controller;
 use super::lane_work::{LaneWork, Planned};
+use super::owned::Owned;
 use crate::clearance::plan::{Circumstances, Plan, Subject};
 use alloc::vec::Vec;
 use brain::{Act, Dispatch, GoalId, Percept, RobotId};
@@ -28,17 +29,22 @@ impl Controller {
             work.next_lane_s = now_s + LANE_PERIOD_S;
             let lane = work.picture.clearance().lane;
             self.send(RobotId::EVERYONE, Dispatch::Lane(lane));
+            if let Some(gain) = work.gain {
+                self.report_gain(gain);
+            }
         }
         if now_s >= work.next_plan_s && work.decision.statement.is_none() {
             work.next_plan_s = now_s + PLAN_PERIOD_S;
             let plan = self.plan(&mut work);
             work.has_open_marks = plan.has_open_marks;
+            work.gain = Some(plan.gain);
             work.decision.decide(&work.picture, &plan, now_s);
             if self.settings.is_called_off {
                 work.decision.give_up(&plan, now_s);
             }
             if let Some(statement) = work.decision.statement {
                 act = Some(statement.act());
+                work.gain = Some(0.0);
                 self.cancel(&mut work, |_| false);
             } else {
                 self.issue(&mut work, plan, percept);
@@ -55,6 +61,7 @@ impl Controller {
         kinds.dedup();
         let interrogated = &work.interrogated;
         let impossible = self.impossible(work);
+        let (turn, turns) = self.turn();
         Plan::new(
             &work.picture,
             &Circumstances {
@@ -64,19 +71,35 @@ impl Controller {
                     times.map_or(0, |(_, times)| *times)
                 },
                 is_impossible: &|subject| impossible.contains(&subject),
+                is_vain: &|subject| work.tried.is_vain(subject),
+                is_own: &|tile| tile % turns == turn,
+                others_gain: self.colleagues.lane_gain(self.own),
             },
         )
     }
 
-    /// What no robot in range can do at present, such as to neutralise when no charge is left.
+    /// Reports to the other controllers what its goals may still find or destroy: a lane is hopeless only if none of
+    /// them lowers the risk.
+    fn report_gain(&mut self, gain: f64) {
+        #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+        let gain = gain as f32;
+        let others: Vec<RobotId> = self.colleagues.on_lane_of(self.own).collect();
+        for other in others {
+            self.send(other, Dispatch::LaneGain(gain));
+        }
+    }
+
+    /// What no robot in range could do when it was offered last, such as to neutralise when no charge is left, and what
+    /// has failed again and again.
     fn impossible(&self, work: &LaneWork) -> Vec<Subject> {
         let is_unserved = |goal: GoalId| {
             let mut goals = self.goals.iter();
             let owned = goals.find(|owned| owned.task.id == goal);
-            owned.is_some_and(|owned| owned.unserved(self.now_s).is_some())
+            owned.is_some_and(Owned::is_hopeless)
         };
         let planned = work.planned.iter();
-        let impossible = planned.filter(|planned| is_unserved(planned.goal));
+        let impossible =
+            planned.filter(|planned| planned.has_failed_often() || is_unserved(planned.goal));
         impossible.map(|planned| planned.subject).collect()
     }
 
@@ -92,6 +115,7 @@ impl Controller {
         let mut proposals = plan.proposals;
         proposals
             .retain(|proposal| proposal.tile % turns == turn && !work.is_planned(proposal.subject));
+        proposals.retain(|proposal| !work.tried.judge(proposal));
         proposals.sort_by(|one, other| other.value.total_cmp(&one.value));
         let mut free = self.free_searches(work);
         for proposal in proposals {
@@ -108,6 +132,8 @@ impl Controller {
             work.planned.push(Planned {
                 goal,
                 subject: proposal.subject,
+                value: proposal.value,
+                failures: 0,
                 done_s: None,
             });
         }
@@ -149,9 +175,9 @@ impl Controller {
         work.planned.retain(|planned| !idle.contains(&planned.goal));
     }
 
-    /// Its turn among the controllers in range, and the number of turns.
+    /// Its turn among the controllers in range that share the lane, and the number of turns.
     fn turn(&self) -> (u32, u32) {
-        let others = self.colleagues.list.iter().map(|colleague| colleague.id);
+        let others = self.colleagues.on_lane_of(self.own);
         let (before, after): (Vec<RobotId>, Vec<RobotId>) = others.partition(|id| *id < self.own);
         let count = |ids: &[RobotId]| u32::try_from(ids.len()).unwrap_or(u32::MAX);
         let turn = count(&before);

@@ -1,6 +1,7 @@
 //! The other controllers.
 
 use alloc::vec::Vec;
+use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::RobotId;
 
@@ -20,16 +21,59 @@ pub(super) struct Colleague {
     pub(super) id: RobotId,
     serial: u32,
     received_s: f64,
+    /// The expected number of mines of a lane that its goals may still find or destroy, once it has reported it.
+    lane_gain: LaneGain,
+}
+
+/// What the goals of another controller may still find or destroy of a lane.
+#[derive(Debug, Clone, Copy, Default)]
+struct LaneGain(Option<f64>);
+
+/// Controllers without a lane have the hash that they had before there were lanes.
+impl Hashed for LaneGain {
+    fn add_to(&self, hash: &mut Hash) {
+        if let Some(gain) = self.0 {
+            gain.add_to(hash);
+        }
+    }
 }
 
 impl Colleagues {
     pub(super) fn note(&mut self, id: RobotId, serial: u32, now_s: f64) {
-        self.list.retain(|colleague| colleague.id != id);
+        let known = self.list.iter().position(|colleague| colleague.id == id);
+        let known = known.map(|index| self.list.remove(index));
         self.list.push(Colleague {
             id,
             serial,
             received_s: now_s,
+            lane_gain: known
+                .map(|colleague| colleague.lane_gain)
+                .unwrap_or_default(),
         });
+    }
+
+    /// Takes what the goals of another controller in range may still find or destroy of a lane.
+    pub(super) fn note_lane_gain(&mut self, id: RobotId, gain: f64) {
+        let mut list = self.list.iter_mut();
+        if let Some(colleague) = list.find(|colleague| colleague.id == id) {
+            colleague.lane_gain = LaneGain(Some(gain).filter(|gain| *gain >= 0.0));
+        }
+    }
+
+    /// Those that share a lane with a controller: they are of the same kind.
+    pub(super) fn on_lane_of(&self, own: RobotId) -> impl Iterator<Item = RobotId> {
+        let same = self
+            .list
+            .iter()
+            .filter(move |other| other.id.kind == own.kind);
+        same.map(|colleague| colleague.id)
+    }
+
+    /// What the goals of those that share a lane may still find or destroy; infinite until all have reported it.
+    pub(super) fn lane_gain(&self, own: RobotId) -> f64 {
+        let same = self.list.iter().filter(|other| other.id.kind == own.kind);
+        let gains = same.map(|colleague| colleague.lane_gain.0.unwrap_or(f64::INFINITY));
+        gains.sum()
     }
 
     pub(super) fn expire(&mut self, now_s: f64) {

@@ -1,6 +1,7 @@
 //! What a controller knows of a mined lane, and the goals that it has planned.
 
 use super::owned::Owned;
+use super::tried::Tried;
 use crate::clearance::plan::{Proposal, Subject};
 use crate::clearance::{Clearance, Decision, LanePicture, LaneStatement};
 use alloc::boxed::Box;
@@ -13,6 +14,9 @@ use brain::{Dispatch, GoalId, RobotId, Task};
 /// Messages of a robot that has served a goal arrive within this time, in seconds: what it has searched
 /// is not searched again before.
 const REST_S: f64 = 10.0;
+
+/// A goal that robots have lost this many times counts as impossible. It is still offered.
+const MAX_FAILURES: u8 = 6;
 
 /// Lowest value of a goal: values are relative, and not 0.
 const MIN_VALUE: f64 = 1e-3;
@@ -40,8 +44,11 @@ pub(super) struct LaneWork {
     pub(super) planned: Vec<Planned>,
     /// How often places have been interrogated.
     pub(super) interrogated: Vec<(u32, u32)>,
+    pub(super) tried: Tried,
     pub(super) next_plan_s: f64,
     pub(super) next_lane_s: f64,
+    /// The expected number of mines that its goals may find or destroy, since the first plan.
+    pub(super) gain: Option<f64>,
     /// Whether a mark that may be a mine had no verdict at the last plan.
     #[hashed(skip)]
     pub(super) has_open_marks: bool,
@@ -52,6 +59,10 @@ pub(super) struct LaneWork {
 pub(super) struct Planned {
     pub(super) goal: GoalId,
     pub(super) subject: Subject,
+    /// What it was to find or destroy when it was planned.
+    pub(super) value: f64,
+    /// How often a robot has lost it without serving it.
+    pub(super) failures: u8,
     /// When it had been served; until then none.
     pub(super) done_s: Option<f64>,
 }
@@ -64,6 +75,7 @@ impl Hashed for Planned {
             Subject::Mine { place } => (place, u8::MAX),
         };
         ((self.goal, self.done_s), subject).add_to(hash);
+        (self.value, self.failures).add_to(hash);
     }
 }
 
@@ -75,6 +87,8 @@ impl Clearing {
                 decision: Decision::default(),
                 planned: Vec::new(),
                 interrogated: Vec::new(),
+                tried: Tried::default(),
+                gain: None,
                 next_plan_s: f64::NEG_INFINITY,
                 next_lane_s: f64::NEG_INFINITY,
                 has_open_marks: false,
@@ -89,6 +103,15 @@ impl Clearing {
 
     pub(super) fn statement(&self) -> Option<LaneStatement> {
         self.work.as_ref()?.decision.statement
+    }
+
+    /// Notes that a robot has lost a goal without serving it.
+    pub(super) fn note_failure(&mut self, goal: GoalId) {
+        let work = self.work.iter_mut();
+        let mut planned = work.flat_map(|work| &mut work.planned);
+        if let Some(planned) = planned.find(|planned| planned.goal == goal) {
+            planned.failures = planned.failures.saturating_add(1);
+        }
     }
 
     /// Takes a message of a robot about the lane.
@@ -115,7 +138,8 @@ impl LaneWork {
             }
             planned.done_s = Some(now_s);
             match planned.subject {
-                Subject::Tile { .. } | Subject::Mine { .. } => {}
+                Subject::Tile { .. } => self.tried.served(planned.subject, planned.value),
+                Subject::Mine { .. } => {}
                 Subject::Suspect { place } => {
                     let mut known = self.interrogated.iter_mut();
                     match known.find(|(known, _)| *known == place) {
@@ -138,6 +162,11 @@ impl LaneWork {
 }
 
 impl Planned {
+    /// Whether robots have lost it so often that another award hardly serves it.
+    pub(super) fn has_failed_often(&self) -> bool {
+        self.failures >= MAX_FAILURES
+    }
+
     /// Whether it is a search in a way that has not been served.
     pub(super) fn is_open_search(&self, way: u8) -> bool {
         let is_search = matches!(self.subject, Subject::Tile { search, .. } if search == way);

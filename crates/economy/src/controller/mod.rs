@@ -9,7 +9,7 @@
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
 //!   [`colleagues`]: the other controllers, by their [`presence`];
-//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state.
+//! * [`clearing`]: the goals of a mined lane, [`lane_work`], their state, and [`tried`], searches in vain.
 
 mod arbitration;
 mod auction;
@@ -27,6 +27,7 @@ mod picture;
 mod presence;
 mod receive;
 mod tenures;
+mod tried;
 mod trust;
 mod unserved;
 mod wards;
@@ -261,6 +262,12 @@ impl Controller {
     pub fn has_open_marks(&self) -> bool {
         let work = self.clearing.work.as_ref();
         work.is_some_and(|work| work.has_open_marks)
+    }
+
+    /// Whether a person has ended its mission on the lane.
+    #[must_use]
+    pub fn is_called_off(&self) -> bool {
+        self.settings.is_called_off
     }
 
     /// What it has stated about the lane, if it has.

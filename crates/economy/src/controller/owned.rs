@@ -216,6 +216,11 @@ impl Owned {
         (now_s < self.rest.until_s).then_some(self.reason)
     }
 
+    /// Whether no robot could serve it when it was offered last, and none has been awarded it since.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.rest.total_s > 0.0 && self.assigned.is_none()
+    }
+
     pub(super) fn assign(&mut self, assigned: Assigned) {
         note_assignee(&mut self.assignees, assigned.robot);
         // Its award ends its reservation.

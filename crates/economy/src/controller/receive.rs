@@ -225,6 +225,7 @@ impl Controller {
         let from = received.from;
         match dispatch {
             Dispatch::Serial(serial) => self.colleagues.note(from, serial, self.now_s),
+            Dispatch::LaneGain(gain) => self.colleagues.note_lane_gain(from, gain.into()),
             Dispatch::Seen(seen) => {
                 let at = Point::from(seen.at_m.map(f64::from));
                 self.picture

@@ -17,6 +17,7 @@ fn settings() -> Settings {
             cell_m: 2.0,
             hazards: 1,
         },
+        free_shares: Vec::new(),
         expected: vec![2.0],
         robots: vec![RobotModel {
             search_nats: 3.0,
@@ -158,6 +159,59 @@ fn two_controllers_in_range_plan_different_tiles_and_one_that_is_lost_is_replace
         stations[0].step(&[report()]);
     });
     assert_eq!(stations[0].goals().len(), 3);
+}
+
+#[test]
+fn a_controller_of_another_kind_shares_no_lane() {
+    let mut station = Station::new(0);
+    let other = RobotId { kind: 2, index: 0 };
+    for _ in 0..700 {
+        station.step(&[(other, Dispatch::Serial(7))]);
+    }
+    // Without robots in range, it gives the lane up although the other one reports nothing about it.
+    assert!(station.controller.lane_statement().is_some());
+    let mut station = Station::new(0);
+    for _ in 0..40 {
+        station.step(&[report(), (other, Dispatch::Serial(7))]);
+    }
+    assert_eq!(station.goals(), [5.0, 15.0, 25.0]);
+}
+
+/// Whether a station without robots in range, which another one reports a gain to, gives its lane up within two minutes.
+fn gives_up(gain: Option<f32>) -> bool {
+    let mut station = Station::new(0);
+    let other = RobotId { kind: 1, index: 1 };
+    for _ in 0..1200 {
+        let mut inbox = vec![(other, Dispatch::Serial(1))];
+        inbox.extend(gain.map(|gain| (other, Dispatch::LaneGain(gain))));
+        station.step(&inbox);
+    }
+    let statement = station.controller.lane_statement();
+    statement.is_some_and(|statement| !statement.is_clear)
+}
+
+#[test]
+fn a_lane_is_given_up_when_no_controller_in_range_has_a_goal_that_lowers_the_risk() {
+    assert!(gives_up(Some(0.0)));
+    assert!(!gives_up(Some(0.5)));
+    assert!(!gives_up(Some(f32::NAN)) && !gives_up(Some(-1.0)));
+    assert!(!gives_up(None), "the other has not reported yet");
+}
+
+#[test]
+fn controllers_report_what_their_goals_may_find_to_each_other_only() {
+    let mut station = Station::new(0);
+    let other = RobotId { kind: 1, index: 1 };
+    let mut gains = Vec::new();
+    for _ in 0..200 {
+        let sent = station.step(&[report(), (other, Dispatch::Serial(1))]);
+        gains.extend(sent.into_iter().filter_map(|sent| match sent {
+            Dispatch::LaneGain(gain) => Some(gain),
+            _ => None,
+        }));
+    }
+    // Two mines expected, of which half are in its tiles.
+    assert!(!gains.is_empty() && gains.iter().all(|gain| (0.8..1.0).contains(gain)));
 }
 
 #[test]

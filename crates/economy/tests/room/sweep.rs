@@ -31,6 +31,7 @@ fn clearance() -> Clearance {
             cell_m: 2.0,
             hazards: 1,
         },
+        free_shares: Vec::new(),
         expected: vec![2.0],
         robots: vec![RobotModel {
             search_nats: 3.0,

@@ -1,10 +1,12 @@
 //! A kind of controller, converted for runs.
 
 use super::ControllerSpec;
+use super::lane::around_obstacles;
 use crate::clock::ClockSpec;
 use crate::radio::Radio;
 use crate::scenario::ScenarioSpec;
 use crate::sensors::Sensor;
+use base::geometry::Point;
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
 use economy::Settings;
@@ -35,16 +37,27 @@ pub(crate) enum ControllerBase {
 }
 
 impl ControllerKind {
-    /// The kind that `spec` describes in a scenario.
-    pub(crate) fn new((name, spec): (&String, &ControllerSpec), scenario: &ScenarioSpec) -> Self {
+    /// The kind that `spec` describes in a scenario, of which controllers of lanes know what obstacles cover, if there are any.
+    pub(crate) fn new(
+        (name, spec): (&String, &ControllerSpec),
+        scenario: &ScenarioSpec,
+        is_covered: Option<&dyn Fn(Point) -> bool>,
+    ) -> Self {
         let ClockSpec {
             step_s, max_drift, ..
         } = scenario.clock;
         let kinds = [scenario.robots.len(), scenario.controllers.len()];
         let kinds = kinds.map(|kinds| u8::try_from(kinds).unwrap_or(u8::MAX));
         let clearance = spec.clearance.as_ref();
+        let clearance = clearance.map(|clearance| {
+            let clearance = clearance.ready(scenario);
+            Arc::new(match is_covered {
+                Some(is_covered) => around_obstacles(clearance, is_covered),
+                None => clearance,
+            })
+        });
         let settings = Settings {
-            clearance: clearance.map(|clearance| Arc::new(clearance.ready(scenario))),
+            clearance,
             ..spec.settings(max_drift, kinds)
         };
         let carrier = spec.aboard.as_ref();

@@ -4,12 +4,16 @@ use super::clearance::{ClearanceSpec, SkillSpec};
 use crate::bodies::RobotSpec;
 use crate::goals::kind::capability;
 use crate::scenario::ScenarioSpec;
+use crate::scenario::areas::number;
 use crate::sensors::items::{Detection, ItemsSpec};
 use crate::sensors::pass::{Pass, Path};
 use crate::sensors::{Measures, SensorSpec};
 use base::geometry::{Point, Rectangle};
 use brain::{Lane, MARK_KINDS};
 use economy::{Charge, Clearance, RobotModel, Skill};
+
+/// Places of a cell along each side that are examined for obstacles.
+const SAMPLES: u32 = 4;
 
 /// A pass counts as at most this many nats: more are never certain.
 const MAX_SEARCH_NATS: f64 = 6.0;
@@ -30,6 +34,7 @@ impl ClearanceSpec {
                 cell_m: self.cell_m as f32,
                 hazards: hazards.fold(0, |bits, (_, place)| bits | 1 << place),
             },
+            free_shares: Vec::new(),
             expected: self.expected(scenario),
             robots: scenario
                 .robots
@@ -77,6 +82,30 @@ impl SkillSpec {
     }
 }
 
+/// The lane in a world with obstacles: controllers know which ground these cover.
+pub(crate) fn around_obstacles(
+    clearance: Clearance,
+    is_covered: &dyn Fn(Point) -> bool,
+) -> Clearance {
+    let lane = clearance.lane;
+    let share = |cell: usize| {
+        let area = lane.cell_area(cell);
+        let size = area.size();
+        let along = |step: u32| (f64::from(step) + 0.5) / f64::from(SAMPLES);
+        let steps = (0..SAMPLES).flat_map(|row| (0..SAMPLES).map(move |column| (column, row)));
+        let places = steps.map(|(column, row)| Point {
+            x: area.min().x + size.x * along(column),
+            y: area.min().y + size.y * along(row),
+        });
+        let free = places.filter(|place| !is_covered(*place)).count();
+        number(free) / f64::from(SAMPLES * SAMPLES)
+    };
+    Clearance {
+        free_shares: (0..lane.cells()).map(share).collect(),
+        ..clearance
+    }
+}
+
 /// The weakest charge of all robots.
 fn charge(skill: Skill, scenario: &ScenarioSpec) -> Charge {
     let robots = scenario.robots.values();
@@ -114,6 +143,7 @@ fn model(
         blind_share: scenario.items.keys().take(MARK_KINDS).map(blind).collect(),
         capabilities: numbers.map(|name| capability(name, capabilities)).collect(),
         search_nats: nats.sum::<f64>().min(MAX_SEARCH_NATS),
+        seen: Vec::new(),
     }
 }
 

@@ -32,6 +32,8 @@ pub(crate) struct ActTally {
     pub(super) false_confirmations: Vec<Point>,
     /// Robots that items destroyed.
     pub(super) robots_lost: u32,
+    /// Charges that robots of each kind have used, by the key of the kind.
+    charges: BTreeMap<u32, u64>,
 }
 
 /// What was done to one item.
@@ -76,6 +78,10 @@ impl ActTally {
         let is_from_air = scenario.kind_of(done.by).layer == Layer::Air;
         let is_mark_from_air = is_from_air && done.act.kind == ActKind::Mark;
         let mut is_counted = false;
+        if done.act.kind == ActKind::Neutralise {
+            let kind = scenario.kind_of(done.by).key;
+            *self.charges.entry(kind).or_default() += 1;
+        }
         if done.is_success {
             for item in &done.items {
                 let acts = self.items.entry(*item).or_default();
@@ -101,6 +107,11 @@ impl ActTally {
             events.note(tick, event(done, items));
         }
         is_counted
+    }
+
+    /// Charges that robots of a kind have used, by the key of the kind.
+    pub(super) fn charges_of(&self, kind: u32) -> u64 {
+        self.charges.get(&kind).copied().unwrap_or_default()
     }
 
     /// Notes that a robot on the ground has detected an item or come too near to it.

@@ -49,6 +49,23 @@ impl Scenario {
         self.of_team(|kind| self.distance_of_m(kind, hardest))
     }
 
+    /// The energy of all robots of the kind of a number.
+    pub(super) fn max_energy_of_j(&self, number: usize) -> f64 {
+        let hardest = self.hardest();
+        self.sum_over_kind(number, |kind| self.energy_of_j(kind, hardest))
+    }
+
+    /// The distance of all robots of the kind of a number.
+    pub(super) fn max_distance_of_m(&self, number: usize) -> f64 {
+        let hardest = self.hardest();
+        self.sum_over_kind(number, |kind| self.distance_of_m(kind, hardest))
+    }
+
+    fn sum_over_kind(&self, number: usize, of_one: impl Fn(&Kind) -> f64) -> f64 {
+        let kind = self.kinds.get(number);
+        kind.map_or(0.0, |kind| f64::from(kind.count) * of_one(kind))
+    }
+
     fn of_team(&self, of_one: impl Fn(&Kind) -> f64) -> f64 {
         let kinds = self.kinds.iter();
         kinds.map(|kind| f64::from(kind.count) * of_one(kind)).sum()

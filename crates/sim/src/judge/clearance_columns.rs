@@ -1,6 +1,7 @@
 //! The outcome columns of scenarios in which controllers are to clear a lane.
 
 use super::clearance_outcome::ClearanceOutcome;
+use super::end::LaneEnd;
 use super::goal_columns::Column;
 use crate::scenario::Scenario;
 use crate::scenario::features::Features;
@@ -8,13 +9,15 @@ use base::engine::Bounds;
 use base::engine::ColumnKind::{self, Flag, Real, Whole};
 use std::borrow::Cow;
 
-/// Columns of the statement and its truth, of times, with those of these kinds of robots, and of messages, unless
-/// those of goals contain them.
+/// Columns of the statement and its truth, of the end, of times, with those of these kinds of robots and what these have
+/// used, and of messages, unless those of goals contain them.
 pub(super) fn columns(robots: &[&str], has: Features) -> Vec<Column> {
     let mut columns = statement();
     columns.extend(remains());
+    columns.extend(ends());
     columns.extend(times());
     columns.extend(robots.iter().enumerate().map(on_station));
+    columns.extend(robots.iter().enumerate().flat_map(used));
     columns.extend(counts());
     if !has.goals {
         columns.extend(messages());
@@ -49,10 +52,28 @@ fn remains() -> Vec<Column> {
     ]
 }
 
+/// Why a run is over, besides a declaration.
+fn ends() -> Vec<Column> {
+    let end = |name: &'static str, end: LaneEnd| {
+        let share = |_: &Scenario| Bounds::up_to(1.0);
+        column(name, Flag, share, move |of| {
+            f64::from(u8::from(of.end == Some(end)))
+        })
+    };
+    vec![
+        end("ended_hopeless", LaneEnd::Hopeless),
+        end("ended_called_off", LaneEnd::CalledOff),
+        end("ended_controllers_lost", LaneEnd::ControllersLost),
+        end("ended_robots_lost", LaneEnd::RobotsLost),
+        end("ended_time_limit", LaneEnd::TimeLimit),
+    ]
+}
+
 fn times() -> Vec<Column> {
     let time = |on: &Scenario| Bounds::up_to(on.longest_s());
     vec![
         column("declared_s", Real, time, |of| of.declared_s),
+        column("given_up_s", Real, time, |of| of.given_up_s),
         column("interrogated_s", Real, time, |of| of.interrogated_s).with_term("interrogated", 35),
     ]
 }
@@ -63,6 +84,25 @@ fn on_station((number, name): (usize, &&str)) -> Column {
     column(format!("on_station_{name}_s"), Real, time, move |of| {
         of.on_station_s.get(number).copied().unwrap_or_default()
     })
+}
+
+/// What all robots of a kind have used.
+fn used((kind, name): (usize, &&str)) -> [Column; 3] {
+    let of = move |of: &ClearanceOutcome| of.used.get(kind).copied().unwrap_or_default();
+    let charges = move |_: &Scenario| Bounds::NOT_NEGATIVE;
+    let energy = move |on: &Scenario| Bounds::up_to(on.max_energy_of_j(kind));
+    let distance = move |on: &Scenario| Bounds::up_to(on.max_distance_of_m(kind));
+    [
+        column(format!("charges_used_{name}"), Whole, charges, move |all| {
+            number(of(all).charges)
+        }),
+        column(format!("energy_{name}_j"), Real, energy, move |all| {
+            of(all).energy_j
+        }),
+        column(format!("distance_{name}_m"), Real, distance, move |all| {
+            of(all).distance_m
+        }),
+    ]
 }
 
 fn counts() -> Vec<Column> {

@@ -1,6 +1,7 @@
 //! The outcome of a lane that controllers were to clear.
 
 use super::clearance_tally::{ClearanceTally, Remains, Stated};
+use super::end::LaneEnd;
 use super::moment::Moment;
 use crate::clock::seconds;
 
@@ -25,10 +26,16 @@ pub struct ClearanceOutcome {
     pub left_marked: f64,
     /// Time until it was declared clear; the time limit if it was not.
     pub declared_s: f64,
+    /// Time until it was given up; the time limit if it was not.
+    pub given_up_s: f64,
+    /// Why the run was over; none while it is not, and if the condition of `[end]` ended it.
+    pub end: Option<LaneEnd>,
     /// Time until all marks that may be mines had a verdict; the time limit if some had none at the end.
     pub interrogated_s: f64,
     /// Mean time for which robots of each kind were active.
     pub on_station_s: Vec<f64>,
+    /// What the robots of each kind have used, including those that were removed.
+    pub used: Vec<KindUse>,
     /// Messages sent.
     pub messages_sent: u64,
     /// Messages that a participant could not send or receive, because there were too many in a step.
@@ -49,6 +56,7 @@ impl ClearanceOutcome {
             })
         };
         let declared: Option<Stated> = tally.stated.filter(|stated| stated.is_clear);
+        let given_up: Option<Stated> = tally.stated.filter(|stated| !stated.is_clear);
         let remains = tally
             .stated
             .map_or(Remains::default(), |stated| stated.remains);
@@ -56,23 +64,56 @@ impl ClearanceOutcome {
         Self {
             is_declared: declared.is_some(),
             is_clear: declared.is_some_and(|stated| stated.remains.mines == 0),
-            is_given_up: tally.stated.is_some_and(|stated| !stated.is_clear),
+            is_given_up: given_up.is_some(),
             stated_risk: tally.stated.map_or(1.0, |stated| stated.risk),
             stated_unmarked: remains.believed_unmarked,
             stated_marked: remains.believed_marked,
             left_unmarked: f64::from(remains.mines) - remains.at_marks,
             left_marked: remains.at_marks,
             declared_s: time_s(declared.map(|stated| stated.at)),
+            given_up_s: time_s(given_up.map(|stated| stated.at)),
+            end: moment.lane_end(tally),
             interrogated_s: time_s(tally.interrogated_at),
             on_station_s: kinds
                 .map(|(kind, steps)| {
                     seconds(*steps, scenario.step_s) / f64::from(kind.count.max(1))
                 })
                 .collect(),
+            used: used(moment),
             messages_sent: tally.messages_sent,
             messages_dropped: tally.messages_dropped,
             awards: tally.awards,
             reallocations: tally.reallocations,
         }
     }
+}
+
+/// What the robots of a kind have used.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct KindUse {
+    /// Charges.
+    pub charges: u64,
+    /// Energy.
+    pub energy_j: f64,
+    /// Distance.
+    pub distance_m: f64,
+}
+
+/// What the robots of each kind have used. Robots are in the order of their kinds.
+fn used(moment: &Moment) -> Vec<KindUse> {
+    let Moment {
+        scenario, tally, ..
+    } = moment;
+    let mut bodies = moment.body_states.iter();
+    let used = scenario.kinds.iter().map(|kind| {
+        let removed = tally.removed_of.get(&kind.key).copied().unwrap_or_default();
+        let cost = removed.and(bodies.by_ref().take(kind.count as usize));
+        let charges = tally.acts.as_deref();
+        KindUse {
+            charges: charges.map_or(0, |acts| acts.charges_of(kind.key)),
+            energy_j: cost.energy_j,
+            distance_m: cost.distance_m,
+        }
+    });
+    used.collect()
 }

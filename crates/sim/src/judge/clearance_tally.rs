@@ -17,6 +17,8 @@ pub(crate) struct Progress {
     pub(crate) risk: Option<f64>,
     /// Whether a mark that may be a mine has no verdict.
     pub(crate) has_open_marks: bool,
+    /// Whether a person has ended its mission.
+    pub(crate) is_called_off: bool,
 }
 
 /// The mines that are left in the lane, and what a controller believes of them.
@@ -40,12 +42,16 @@ pub(super) struct Stated {
     pub(super) risk: f64,
     /// What was left then.
     pub(super) remains: Remains,
+    /// Whether a person had ended the mission.
+    pub(super) is_called_off: bool,
 }
 
 /// What was noted of a lane.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct ClearanceTally {
     pub(super) stated: Option<Stated>,
+    /// Whether no controller with the lane works any more.
+    pub(super) has_lost_controllers: bool,
     /// Since which step no mark waits for a verdict.
     pub(super) interrogated_at: Option<u64>,
     /// Steps in which robots of each kind were active, summed over its robots.
@@ -77,6 +83,11 @@ impl ClearanceTally {
         self.stated.is_some_and(|stated| !stated.is_clear)
     }
 
+    /// Whether they gave it up as a person ended the mission.
+    pub(super) fn is_called_off(&self) -> bool {
+        self.stated.is_some_and(|stated| stated.is_called_off)
+    }
+
     /// Notes a message that a participant sends.
     pub(crate) fn sent(&mut self, message: &Message) {
         self.messages_sent += 1;
@@ -103,8 +114,12 @@ impl ClearanceTally {
         remains: impl Fn(usize) -> Remains,
     ) -> bool {
         let (mut has_open_marks, mut is_undecided) = (false, false);
+        let mut is_called_off = false;
+        self.has_lost_controllers = true;
         let mut last: Option<(bool, f64, usize)> = None;
         for controller in controllers {
+            self.has_lost_controllers = false;
+            is_called_off |= controller.is_called_off;
             has_open_marks |= controller.has_open_marks;
             is_undecided |= controller.is_clear.is_none();
             let is_declared = last.is_some_and(|(is_clear, ..)| is_clear);
@@ -129,6 +144,7 @@ impl ClearanceTally {
             is_clear,
             risk,
             remains: remains(controller),
+            is_called_off: is_called_off && !is_clear,
         });
         true
     }
@@ -137,6 +153,8 @@ impl ClearanceTally {
     pub(super) fn continued(&self, scenario: &Scenario) -> Self {
         let mut next = self.clone();
         next.on_station.resize(scenario.kinds.len(), 0);
+        // There may be others now.
+        next.has_lost_controllers = false;
         next
     }
 

@@ -18,14 +18,34 @@ enum EndRule {
     NoRobotActive,
     /// The controllers have given up the lane that they were to clear.
     GivenUp,
+    /// No controller works any more that could declare the lane clear, with which the run would be complete.
+    ControllersLost,
+}
+
+/// Why a run in which controllers were to clear a lane is over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LaneEnd {
+    /// It was declared clear.
+    Declared,
+    /// The controllers gave it up: nothing that they could do lowered the risk.
+    Hopeless,
+    /// The controllers gave it up, as a person ended the mission.
+    CalledOff,
+    /// No controller worked any more.
+    ControllersLost,
+    /// No robot could move any more.
+    RobotsLost,
+    /// The time limit was reached.
+    TimeLimit,
 }
 
 impl EndRule {
-    const ALL: [Self; 4] = [
+    const ALL: [Self; 5] = [
         Self::Complete,
         Self::TimeLimit,
         Self::NoRobotActive,
         Self::GivenUp,
+        Self::ControllersLost,
     ];
 
     fn holds(self, moment: &Moment) -> bool {
@@ -37,6 +57,7 @@ impl EndRule {
                 let clearance = moment.tally.clearance.as_deref();
                 clearance.is_some_and(ClearanceTally::has_given_up)
             }
+            Self::ControllersLost => moment.has_lost_controllers(),
             Self::NoRobotActive => !bodies.any(|body| body.status == Status::Active),
         }
     }
@@ -46,6 +67,37 @@ impl Moment<'_> {
     /// Whether the run is over: one of the rules holds.
     pub(crate) fn is_over(&self) -> bool {
         EndRule::ALL.iter().any(|rule| rule.holds(self))
+    }
+
+    fn has_lost_controllers(&self) -> bool {
+        let clearance = self.tally.clearance.as_deref();
+        let is_lost = clearance.is_some_and(|clearance| clearance.has_lost_controllers);
+        let end = self.scenario.end.as_ref();
+        is_lost && end.is_some_and(|end| end.count == Count::Declared)
+    }
+
+    /// Why a run in which controllers were to clear a lane is over, if it is and is not complete otherwise.
+    pub(super) fn lane_end(&self, clearance: &ClearanceTally) -> Option<LaneEnd> {
+        if clearance.has_declared() {
+            return Some(LaneEnd::Declared);
+        }
+        if EndRule::Complete.holds(self) {
+            return None;
+        }
+        let rules = [
+            EndRule::GivenUp,
+            EndRule::ControllersLost,
+            EndRule::NoRobotActive,
+            EndRule::TimeLimit,
+        ];
+        let rule = rules.into_iter().find(|rule| rule.holds(self))?;
+        Some(match rule {
+            EndRule::GivenUp if clearance.is_called_off() => LaneEnd::CalledOff,
+            EndRule::GivenUp => LaneEnd::Hopeless,
+            EndRule::ControllersLost => LaneEnd::ControllersLost,
+            EndRule::NoRobotActive => LaneEnd::RobotsLost,
+            EndRule::TimeLimit | EndRule::Complete => LaneEnd::TimeLimit,
+        })
     }
 
     /// Whether the condition with which a run is complete holds now.

@@ -29,6 +29,7 @@ mod stays;
 pub(crate) mod tally;
 mod unseen;
 
-pub use clearance_outcome::ClearanceOutcome;
+pub use clearance_outcome::{ClearanceOutcome, KindUse};
+pub use end::LaneEnd;
 pub use goal_outcome::GoalOutcome;
 pub use outcome::Outcome;

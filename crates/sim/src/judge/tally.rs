@@ -15,6 +15,7 @@ use base::hash::Hash;
 use base::hashed::Hashed;
 use brain::RobotId;
 use std::collections::BTreeMap;
+use std::iter;
 
 /// Counts of a run, besides those of each robot.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -33,6 +34,8 @@ pub(crate) struct Tally {
     pub(super) collisions: u64,
     /// The cost of robots that were removed.
     pub(super) removed: Cost,
+    /// The same of each kind of robots, by the key of the kind.
+    pub(super) removed_of: BTreeMap<u32, Cost>,
     /// Counts of goals, in a scenario with kinds of goals.
     pub(crate) goals: Option<Box<GoalTally>>,
     /// What was done to items, in a scenario where anything can be.
@@ -174,18 +177,23 @@ impl Tally {
     }
 
     /// The tally of the run as it continues with the items of another scenario and without the robots that are
-    /// `removed`. Of each item that stays, `kept` has its number there and here, and of each robot, `ids` has its id here
+    /// `removed`, each with the key of its kind. Of each item that stays, `kept` has its number there and here, and of each robot, `ids` has its id here
     /// and there. Whether the run is complete is not noted.
     pub(crate) fn continued(
         &self,
         (scenario, items): (&Scenario, &Items),
         kept: &[(usize, usize)],
-        (removed, ids): (&[BodyState], &BTreeMap<RobotId, RobotId>),
+        (removed, ids): (&[(u32, BodyState)], &BTreeMap<RobotId, RobotId>),
     ) -> Self {
         let mut next = Self {
-            removed: self.removed.and(removed.iter()),
+            removed: self.removed.and(removed.iter().map(|(_, state)| state)),
+            removed_of: self.removed_of.clone(),
             ..Self::new(scenario, items)
         };
+        for (kind, state) in removed {
+            let cost = next.removed_of.entry(*kind).or_default();
+            *cost = cost.and(iter::once(state));
+        }
         next.counted_steps = self.counted_steps;
         (next.false_alarms, next.collisions) = (self.false_alarms, self.collisions);
         for (now, was) in kept {

@@ -44,13 +44,17 @@ pub(super) fn is_same_team(count: usize, old: &[Option<usize>]) -> bool {
     old.len() == count && old.iter().all(Option::is_some)
 }
 
-/// The body states of the robots that are removed.
-pub(super) fn removed(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
+/// The body states of the robots that are removed, each with the key of its kind.
+pub(super) fn removed(
+    (before, from): (&State, &Scenario),
+    old: &[Option<usize>],
+) -> Vec<(u32, BodyState)> {
     let mut stays = vec![false; before.robots()];
     old.iter().flatten().for_each(|robot| stays[*robot] = true);
-    let body_states = before.body_states.iter().zip(stays);
+    let keys = before.ids.iter().map(|id| from.kind_of(*id).key);
+    let body_states = keys.zip(&before.body_states).zip(stays);
     body_states
-        .filter_map(|(body_state, stays)| (!stays).then_some(*body_state))
+        .filter_map(|((key, body_state), stays)| (!stays).then_some((key, *body_state)))
         .collect()
 }
 

@@ -55,7 +55,7 @@ impl State {
         next.change_service((self, from), to, &old);
         next.make_room(to, &starts)?;
         let kept = next.keep_items(self, from, to)?;
-        let removed = removed(self, &old);
+        let removed = removed((self, from), &old);
         next.tally = self
             .tally
             .continued((to, &next.items), &kept, (&removed, &ids));

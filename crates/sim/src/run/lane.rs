@@ -21,6 +21,8 @@ pub struct BelievedLane {
     pub marks: Vec<BelievedMark>,
     /// The remaining risk.
     pub risk: Risk,
+    /// The ground of the lane that is not inside of obstacles, in square metres.
+    pub free_m2: f64,
     /// The lane is declared clear when the probability that at least one mine is left is below this.
     pub declare_below: f64,
     /// What it has stated about the lane.
@@ -60,7 +62,7 @@ impl BelievedLane {
     /// controller would just declare the lane clear.
     #[must_use]
     pub fn cleared_below_per_m2(&self) -> f64 {
-        -libm::log1p(-self.declare_below) / self.lane.area().area_m2()
+        -libm::log1p(-self.declare_below) / self.free_m2
     }
 }
 
@@ -84,6 +86,7 @@ impl State {
                     .collect(),
                 marks: picture.marks().collect(),
                 risk: picture.risk(),
+                free_m2: picture.clearance().free_area_m2(),
                 declare_below: picture.clearance().declare_below,
                 statement: agent.controller.lane_statement(),
             })
@@ -151,6 +154,7 @@ mod tests {
                 marked: 0.8,
                 probability: 0.8,
             },
+            free_m2: lane.area().area_m2(),
             declare_below: 0.05,
             statement: None,
         }

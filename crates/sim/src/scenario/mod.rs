@@ -8,10 +8,13 @@ mod facts;
 pub(crate) mod features;
 pub(crate) mod finders;
 mod kinds;
+mod lane_sight;
+pub(crate) mod lane_work;
 mod models;
 mod reading;
 mod ready;
 mod spec;
+pub(crate) mod team_reach;
 mod world_hash;
 
 pub use checked::Checked;

@@ -18,7 +18,8 @@ use crate::world::obstacles::Solid;
 use crate::world::static_geometry::{StaticGeometry, Wall};
 use crate::world::terrain::{Area, Terrain, TerrainFactors};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
-use economy::Clearance;
+use economy::{Clearance, Settings};
+use std::sync::Arc;
 
 /// Neighbour lists reach farther than necessary: by this fraction of the range of rays, but within
 /// these limits in metres. They stay valid until a robot has moved half of it.
@@ -117,6 +118,10 @@ impl Scenario {
             }
         };
         let layers = [Layer::Ground, Layer::Air];
+        let near_solids = NearCells::new(size_m, &solids, 0.0);
+        let is_covered = |place| is_covered(&solids, &near_solids, place);
+        let is_covered: &dyn Fn(Point) -> bool = &is_covered;
+        let controllers = controllers(spec, (!solids.is_empty()).then_some(is_covered));
         Self {
             step_s,
             time_limit_s: spec.clock.time_limit_s,
@@ -125,7 +130,7 @@ impl Scenario {
             torus,
             world_hash: world_hash((&world, torus.as_ref()), &solids, &areas),
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
-            near_solids: NearCells::new(size_m, &solids, 0.0),
+            near_solids,
             seen: layers.map(|layer| geometry(layer, rays_m.max(touch_m))),
             touched: layers.map(|layer| geometry(layer, touch_m)),
             contact_m: 2.0 * touch_m,
@@ -134,7 +139,7 @@ impl Scenario {
             solids,
             end: end_of(spec, &items),
             items,
-            controllers: controllers(spec),
+            controllers,
             goals: goals(spec, &capabilities),
             clocks: AgentClocks {
                 max_offset_s: spec.clock.max_offset_s,
@@ -185,6 +190,24 @@ impl Scenario {
     pub(crate) fn clearance(&self) -> Option<&Clearance> {
         let mut controllers = self.controllers.iter();
         controllers.find_map(|kind| kind.settings.clearance.as_deref())
+    }
+
+    /// The scenario with what the detectors of each kind of robots can see of the lane.
+    pub(super) fn with_seen(mut self, seen: &[Vec<bool>]) -> Self {
+        for kind in &mut self.controllers {
+            let Some(clearance) = kind.settings.clearance.as_deref() else {
+                continue;
+            };
+            let mut clearance = clearance.clone();
+            for (robot, seen) in clearance.robots.iter_mut().zip(seen) {
+                robot.seen.clone_from(seen);
+            }
+            kind.settings = Arc::new(Settings {
+                clearance: Some(Arc::new(clearance)),
+                ..(*kind.settings).clone()
+            });
+        }
+        self
     }
 
     /// The largest number of targets in a run.
@@ -339,9 +362,14 @@ impl Scenario {
     }
 
     fn is_covered(&self, place: Point) -> bool {
-        let mut near = self.near_solids.at(place).iter();
-        near.any(|number| self.solids[*number as usize].covers(place))
+        is_covered(&self.solids, &self.near_solids, place)
     }
+}
+
+/// Whether an obstacle covers a place in the world.
+fn is_covered(solids: &[Solid], near: &NearCells, place: Point) -> bool {
+    let mut near = near.at(place).iter();
+    near.any(|number| solids[*number as usize].covers(place))
 }
 
 /// By obstacle, its index in `world.obstacles` of a valid spec. An invalid one may have more copies than
@@ -377,9 +405,14 @@ fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
     EndCondition::parse(&end.when, items, has).ok()
 }
 
-fn controllers(spec: &ScenarioSpec) -> Vec<ControllerKind> {
+fn controllers(
+    spec: &ScenarioSpec,
+    is_covered: Option<&dyn Fn(Point) -> bool>,
+) -> Vec<ControllerKind> {
     let kinds = spec.controllers.iter();
-    kinds.map(|kind| ControllerKind::new(kind, spec)).collect()
+    kinds
+        .map(|kind| ControllerKind::new(kind, spec, is_covered))
+        .collect()
 }
 
 fn goals(spec: &ScenarioSpec, capabilities: &[String]) -> Vec<GoalKind> {

@@ -25,6 +25,7 @@ pub(super) fn observe(scenario: &Scenario, state: &mut State, workers: &[WorkerS
         is_clear: agent.stated,
         risk: agent.controller.lane_statement().map(|stated| stated.risk),
         has_open_marks: agent.controller.has_open_marks(),
+        is_called_off: agent.controller.is_called_off(),
     });
     let remains = |controller: usize| state.remains(scenario, controller);
     let is_counted = tally.observe(state.tick, controllers, remains);

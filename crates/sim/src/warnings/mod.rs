@@ -8,6 +8,8 @@ mod cropped_maps;
 mod economy;
 mod goals;
 mod lane_radios;
+pub(crate) mod lane_reach;
+mod lane_work;
 mod narrow_radios;
 mod out_of_reach;
 mod position_errors;
@@ -24,13 +26,15 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 8] = [
+const EXAMINATIONS: [Examination; 10] = [
     cropped_maps::warnings,
     room::warnings,
     goals::warnings,
     economy::warnings,
     narrow_radios::warnings,
     lane_radios::warnings,
+    lane_reach::warnings,
+    lane_work::warnings,
     position_errors::warnings,
     unseen_corners::warnings,
 ];
@@ -86,6 +90,8 @@ fn unreached(document: &Document) -> Vec<Warning> {
 mod economy_tests;
 #[cfg(test)]
 mod lane_radios_tests;
+#[cfg(test)]
+mod lane_reach_tests;
 #[cfg(test)]
 mod out_of_reach_tests;
 #[cfg(test)]

@@ -1,16 +1,14 @@
 //! Warnings about items and goals that may lie where no robot that has to find or serve them can come.
 
-mod found;
-
 use crate::bodies::Layer;
 use crate::scenario::Checked;
 use crate::scenario::areas::{lattice, number, within};
 use crate::scenario::finders::{Finder, finders, servers};
+use crate::scenario::team_reach::Team;
 use base::document::Place;
 use base::geometry::Point;
 use base::placement::Placement;
 use base::warning::Warning;
-use found::Team;
 use std::collections::BTreeMap;
 
 /// Parts that fewer of the runs concern have no warning.

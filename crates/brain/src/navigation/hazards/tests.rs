@@ -17,6 +17,7 @@ fn hazards(discs: &[(f64, f64, f64)]) -> Hazards {
     };
     Hazards {
         discs: discs.iter().map(disc).collect(),
+        min_radii_m: discs.iter().map(|(_, _, radius_m)| *radius_m).collect(),
         shares: Vec::new(),
     }
 }
@@ -221,4 +222,43 @@ fn a_robot_between_three_items_leaves_their_discs() {
     reachable.update(&[], &[], (0.25, 1.0));
     hazards.limit(&mut reachable, &pose(at, 0.0));
     assert!(reachable.free_m.iter().any(|free_m| *free_m > 1.0));
+}
+
+proptest! {
+    #[test]
+    fn work_at_an_item_never_ends_nearer_than_it_is_safe(
+        place in point(),
+        within_m in 0.1_f64..3.0,
+        robot in point(),
+        all in some(),
+    ) {
+        let mut near = all.clone();
+        near.min_radii_m = all.discs.iter().map(|disc| disc.radius_m / 2.0).collect();
+        near.admit(place, within_m);
+        for (now, before) in near.discs.iter().zip(&all.discs) {
+            prop_assert!(now.radius_m <= before.radius_m && now.radius_m >= before.radius_m / 2.0);
+            let is_at_place = before.centre.to(place).length() < before.radius_m;
+            prop_assert!(is_at_place || now == before);
+        }
+        if let Some(end) = near.end((place, within_m), robot, |_| true) {
+            prop_assert!(place.to(end).length() <= within_m);
+            for disc in &all.discs {
+                prop_assert!(disc.centre.to(end).length() >= disc.radius_m / 2.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_robot_goes_only_as_near_as_its_work_needs() {
+    let at = Point { x: 5.0, y: 5.0 };
+    let radius_m = |within_m: f64| {
+        let mut near = hazards(&[(5.0, 5.0, 1.6)]);
+        near.min_radii_m = vec![1.0];
+        near.admit(at, within_m);
+        near.discs[0].radius_m
+    };
+    for (within_m, expected_m) in [(2.0, 1.6), (1.5, 1.3), (0.5, 1.0)] {
+        assert!((radius_m(within_m) - expected_m).abs() < 1e-9, "{within_m}");
+    }
 }

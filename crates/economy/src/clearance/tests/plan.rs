@@ -36,6 +36,9 @@ fn planned(picture: &LanePicture, kinds: &[u8], interrogations: u32) -> Plan {
             kinds,
             interrogations: &interrogations,
             is_impossible: &|_| false,
+            is_vain: &|_| false,
+            is_own: &|_| true,
+            others_gain: 0.0,
         },
     )
 }

@@ -75,6 +75,7 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
             cell_m: 2.0,
             hazards: 1,
         },
+        free_shares: Vec::new(),
         expected: expected.to_vec(),
         robots: vec![robot(0, blind[0]), robot(1, blind[1])],
         declare_below: 0.05,

@@ -1,12 +1,14 @@
 //! Checks of lanes that controllers are to clear.
 
 use super::controllers::unknown;
+use super::lane_outcomes;
 use crate::bodies::{Layer, RobotSpec};
 use crate::controllers::clearance::{ClearanceSpec, SkillSpec};
 use crate::controllers::lane::detectors;
+use crate::scenario::lane_work;
 use crate::scenario::spec::ScenarioSpec;
 use crate::world::items::CompletedBy;
-use base::document::{Document, Node, Place, Value};
+use base::document::{Document, Place, Value};
 use base::error::InputError;
 use brain::MARK_KINDS;
 use brain::behaviours::BehaviourSpec;
@@ -14,6 +16,9 @@ use std::collections::BTreeSet;
 
 /// The lowest risk of declarations is above the floor by this factor, so that robots can reach it.
 const ABOVE_FLOOR: f64 = 1.05;
+
+/// The share of missions that a requirement without one has.
+const DEFAULT_PROBABILITY: f64 = 0.95;
 
 pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError> {
     let at = &document.place();
@@ -36,6 +41,8 @@ pub(super) fn errors(spec: &ScenarioSpec, document: &Document) -> Vec<InputError
         errors.extend(of_leases(name, clearance, spec, &all));
         errors.extend(of_floor(clearance, spec, &at));
         errors.extend(of_requirement(clearance, spec, document));
+        errors.extend(of_view(clearance, spec, &at));
+        errors.extend(of_work(clearance, spec, root));
     }
     errors
 }
@@ -178,22 +185,53 @@ fn of_requirement(
     let Some(Value::List(conditions)) = conditions else {
         return None;
     };
-    let mut conditions = conditions.iter();
-    let is_clear = |node: &Node| match &node.value {
-        Value::Text(text) => text.trim_start().starts_with("declared_clear >"),
-        _ => false,
-    };
-    if !conditions.any(is_clear) {
+    if !lane_outcomes::need_clear(conditions, spec) {
         return None;
     }
-    let at = document.place().key("require").key("probability");
-    let required: f64 = at.value()?.parse().ok()?;
+    let place = document.place().key("require");
+    let written = place.key("probability").value();
+    let required = written.map_or(Some(DEFAULT_PROBABILITY), |text| text.parse().ok())?;
     let floor = clearance.ready(spec).floor();
     let allowed = format!(
         "at most {:.3}: with probability {floor:.3}, a mine remains that no sensor detects, and the lane is not clear",
         1.0 - floor
     );
-    (required > 1.0 - floor).then(|| at.error(allowed))
+    (required > 1.0 - floor).then(|| place.key("probability").error(allowed))
+}
+
+/// Cells that are larger than what a detector sees: a cell counts as searched by looks at few of its places.
+fn of_view(clearance: &ClearanceSpec, spec: &ScenarioSpec, at: &Place) -> Option<InputError> {
+    let robots = spec.robots.iter();
+    let views = robots.flat_map(|(name, robot)| {
+        let of_robot = move |(sensor, items, _): (_, &crate::sensors::items::ItemsSpec, _)| {
+            (items.sector.range_m, name, sensor)
+        };
+        detectors(robot).map(of_robot)
+    });
+    let (range_m, robot, sensor) = views.min_by(|one, other| one.0.total_cmp(&other.0))?;
+    let at = at.key("cell_m");
+    let allowed = format!(
+        "at most {range_m}: robots.{robot}.sensors.{sensor} sees no farther than {range_m} m, and a cell counts as searched \
+         by looks at four of its places"
+    );
+    (clearance.cell_m > range_m)
+        .then(|| super::controllers::of_lease(clearance.cell_m, allowed, &at))
+}
+
+/// Sensors and tools that reach no mine from where it cannot destroy the robot.
+fn of_work(clearance: &ClearanceSpec, spec: &ScenarioSpec, root: &Place) -> Vec<InputError> {
+    let reaches = lane_work::reaches(clearance, spec);
+    let errors = reaches.iter().filter(|reach| reach.range_m <= reach.min_m);
+    let errors = errors.map(|reach| {
+        let at = root.key("robots").key(reach.robot);
+        let at = reach.keys.iter().fold(at, |at, key| at.key(key));
+        at.key("range_m").error(format!(
+            "above {:.3}: from farther away only, {}, which is a danger within {} m, cannot destroy the robot, which has a \
+             radius of {} m",
+            reach.min_m, reach.item, reach.danger_m, reach.radius_m
+        ))
+    });
+    errors.collect()
 }
 
 /// Worlds, items and sensors with which a lane cannot be cleared.

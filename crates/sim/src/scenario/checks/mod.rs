@@ -11,6 +11,7 @@ mod goals;
 mod ground;
 mod identification;
 mod items;
+mod lane_outcomes;
 mod memory;
 mod names;
 mod periodic;
@@ -21,6 +22,7 @@ mod room;
 mod tools;
 
 use super::checked::Checked;
+use super::lane_sight;
 use super::ready::Scenario;
 use super::spec::ScenarioSpec;
 use base::document::{Document, Place};
@@ -69,6 +71,13 @@ pub(super) fn checked(spec: ScenarioSpec, document: &Document) -> Result<Checked
     }
     let scenario = Scenario::new(&spec, solids, areas).among_those_of(document);
     let checked = Checked { spec, scenario };
+    let checked = match lane_sight::seen(&checked) {
+        Some(seen) => Checked {
+            scenario: checked.scenario.with_seen(&seen),
+            ..checked
+        },
+        None => checked,
+    };
     // An error in a world without the invalid obstacles is an error with them too.
     for check in CHECKS_OF_PLACES {
         let known = meaning.iter().chain(&of_places);

@@ -10,7 +10,7 @@ use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// A lane of 40 m x 12 m with an air vehicle, two ground vehicles and a controller.
-const LANE: &str = r#"
+pub(super) const LANE: &str = r#"
 clock = { step_s = 0.2, time_limit_s = 300 }
 world.size_m = [52, 20]
 [items.clutter]
@@ -70,21 +70,21 @@ neutralise = { requires = "search", service_s = 3 }
 "#;
 
 /// The lane with mines at these positions.
-fn with_mines(places: &str, count: u32) -> String {
+pub(super) fn with_mines(places: &str, count: u32) -> String {
     let fixed = format!("count = {count}, number = \"fixed\", placement.at_m = {places}");
     with(LANE, &format!("items.mine = {{ {fixed} }}"))
 }
 
-fn begin(text: &str, run: u64) -> Simulation {
+pub(super) fn begin(text: &str, run: u64) -> Simulation {
     Simulation::new(scenario(text), 1, run).unwrap()
 }
 
-fn finish(text: &str, run: u64) -> (Outcome, Simulation) {
+pub(super) fn finish(text: &str, run: u64) -> (Outcome, Simulation) {
     let mut simulation = begin(text, run);
     (simulation.finish(), simulation)
 }
 
-fn lane(outcome: &Outcome) -> &ClearanceOutcome {
+pub(super) fn lane(outcome: &Outcome) -> &ClearanceOutcome {
     outcome.clearance.as_ref().unwrap()
 }
 
@@ -92,7 +92,7 @@ fn mines_left(simulation: &Simulation) -> u32 {
     simulation.state().mines_left(simulation.scenario())
 }
 
-fn is_over(simulation: &Simulation) -> bool {
+pub(super) fn is_over(simulation: &Simulation) -> bool {
     simulation.state().is_over(simulation.scenario())
 }
 

@@ -353,3 +353,93 @@ fn item_detectors_of_a_robot_are_of_one_model_where_they_are_blind() {
         [""; 0]
     );
 }
+
+/// The lane with conditions that 99% of missions are to meet.
+fn requiring(conditions: &str) -> Vec<String> {
+    errors_in(&format!(
+        "{LANE}\n[require]\nall = [{conditions}]\nprobability = 0.99\n"
+    ))
+}
+
+#[test]
+fn a_requirement_that_only_clear_lanes_meet_is_not_above_what_looks_achieve() {
+    let refused =
+        "must be at most 0.961: with probability 0.039, a mine remains that no sensor detects";
+    for conditions in [
+        "\"declared_clear >= 1\"",
+        "\"declared_clear == 1\"",
+        "\"declared_clear > 0\"",
+        "\"declared_clear != 0\"",
+        "\" declared_clear>=0.5\"",
+        "\"collisions <= 0\", \"declared_clear > 0.2\"",
+        "\"declared >= 1\", \"declared_not_clear == 0\"",
+        "\"declared_not_clear < 1\", \"given_up == 0\", \"declared_s < 100\"",
+        "\"failed == 0\", \"declared_not_clear <= 0\"",
+        "\"time_s <= 90\", \"declared_not_clear <= 0\"",
+    ] {
+        let reported = requiring(conditions);
+        assert_eq!(reported.len(), 1, "{conditions}: {reported:#?}");
+        assert!(
+            reported[0].starts_with("require.probability = 0.99: ")
+                && reported[0].contains(refused),
+            "{conditions}: {reported:#?}"
+        );
+    }
+}
+
+#[test]
+fn a_requirement_that_other_lanes_meet_too_may_have_any_probability() {
+    for conditions in [
+        "\"declared >= 1\"",
+        "\"declared_not_clear == 0\"",
+        "\"declared_clear >= 0\"",
+        "\"declared_clear != 1\"",
+        "\"declared_clear < 1\"",
+        "\"declared_s <= 100\", \"declared_not_clear == 0\"",
+        "\"given_up == 1\", \"declared_not_clear == 0\"",
+        "\"left <= 0\"",
+    ] {
+        assert_eq!(requiring(conditions), [""; 0], "{conditions}");
+    }
+}
+
+#[test]
+fn cells_are_not_larger_than_what_detectors_see() {
+    let reported = error_with("declare_below = 0.1", "declare_below = 0.1\ncell_m = 2.5");
+    assert!(
+        reported.starts_with(&format!("{AT}.cell_m = 2.5: must be at most 2: "))
+            && reported.contains("robots.ugv.sensors.detector sees no farther than 2 m"),
+        "{reported}"
+    );
+    let fine = with("declare_below = 0.1", "declare_below = 0.1\ncell_m = 2");
+    assert_eq!(errors_in(&fine), [""; 0]);
+}
+
+#[test]
+fn sensors_and_tools_reach_mines_from_where_these_destroy_no_robot() {
+    let mines = "completed_by = \"neutralised\"\nhazard = { radius_m = 0.3 }";
+    let dangerous =
+        |this: &str, that: &str| with("completed_by = \"neutralised\"", mines).replace(this, that);
+    assert_eq!(errors_in(&dangerous("", "")), [""; 0]);
+    for (path, this) in [
+        ("tools.neutralise", "neutralise = { range_m = 2"),
+        ("sensors.detector", "kind = \"items\"\nrange_m = 2"),
+    ] {
+        let short = this.replace("range_m = 2", "range_m = 1");
+        let text = dangerous(this, &short);
+        let reported = errors_in(&text);
+        assert_eq!(
+            reported,
+            [format!(
+                "robots.ugv.{path}.range_m = 1: must be above 1.000: from farther away only, mine, which is a danger within \
+                 0.3 m, cannot destroy the robot, which has a radius of 0.5 m"
+            )]
+        );
+        // Items that destroy nothing are no reason.
+        let harmless = text.replace(
+            "radius_m = 0.3 }",
+            "radius_m = 0.3, destroy_probability = 0 }",
+        );
+        assert_eq!(errors_in(&harmless), [""; 0]);
+    }
+}

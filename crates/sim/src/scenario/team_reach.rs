@@ -1,9 +1,9 @@
 //! The chance that no robot of a team can come near enough to a place.
 
+use super::areas::{lattice, number, within};
+use super::checked::Checked;
+use super::finders::{Finder, around, reach};
 use crate::bodies::{Layer, RobotSpec};
-use crate::scenario::Checked;
-use crate::scenario::areas::{lattice, number, within};
-use crate::scenario::finders::{Finder, around, reach};
 use base::geometry::Point;
 use base::placement::Placement;
 use base::reachability::Reachability;
@@ -20,12 +20,12 @@ const MAX_SIGHT_WIDTH: f64 = 0.5;
 const ALL: f64 = 1.0 - 1e-9;
 
 /// The robots that have to find or serve something.
-pub(super) struct Team<'t> {
+pub(crate) struct Team<'t> {
     kinds: Vec<Kind<'t>>,
 }
 
 impl<'t> Team<'t> {
-    pub(super) fn new(checked: &'t Checked, finders: &'t [Finder<'t>]) -> Self {
+    pub(crate) fn new(checked: &'t Checked, finders: &'t [Finder<'t>]) -> Self {
         let kinds = finders.iter().map(|finder| Kind::new(checked, finder));
         Self {
             kinds: kinds.collect(),
@@ -33,7 +33,7 @@ impl<'t> Team<'t> {
     }
 
     /// The chance that no robot starts where it can come near enough to a place; `None` if none ever does.
-    pub(super) fn misses(&self, place: Point) -> Option<f64> {
+    pub(crate) fn misses(&self, place: Point) -> Option<f64> {
         let mut chance = None;
         for kind in &self.kinds {
             if let Some(missed) = kind.misses(place) {
@@ -47,7 +47,7 @@ impl<'t> Team<'t> {
     }
 
     /// The part of the world in which a place is, for the first kind; `None` in a gap too narrow for it.
-    pub(super) fn part_of(&self, place: Point) -> Option<u32> {
+    pub(crate) fn part_of(&self, place: Point) -> Option<u32> {
         self.kinds.first()?.reach.parts_near(place, 0.0).next()
     }
 }
