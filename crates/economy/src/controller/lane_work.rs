@@ -1,5 +1,6 @@
 //! What a controller knows of a mined lane, and the goals that it has planned.
 
+use super::conclusion::LaneConclusion;
 use super::owned::Owned;
 use crate::clearance::plan::{Proposal, Subject};
 use crate::clearance::{Clearance, Decision, LanePicture, LaneStatement};
@@ -37,6 +38,8 @@ impl Hashed for Clearing {
 pub(super) struct LaneWork {
     pub(super) picture: LanePicture,
     pub(super) decision: Decision,
+    /// What it stated beside the risk.
+    pub(super) conclusion: Option<LaneConclusion>,
     pub(super) planned: Vec<Planned>,
     /// How often places have been interrogated.
     pub(super) interrogated: Vec<(u32, u32)>,
@@ -73,6 +76,7 @@ impl Clearing {
             Box::new(LaneWork {
                 picture: LanePicture::new(clearance.clone()),
                 decision: Decision::default(),
+                conclusion: None,
                 planned: Vec::new(),
                 interrogated: Vec::new(),
                 next_plan_s: f64::NEG_INFINITY,

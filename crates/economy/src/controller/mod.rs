@@ -9,13 +9,14 @@
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
 //!   [`colleagues`]: the other controllers, by their [`presence`];
-//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state.
+//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state; [`conclusion`]: what it states beside the risk.
 
 mod arbitration;
 mod auction;
 mod bids;
 mod clearing;
 mod colleagues;
+mod conclusion;
 mod displacement;
 mod estates;
 mod heirs;
@@ -32,6 +33,7 @@ mod unserved;
 mod wards;
 
 pub(crate) use auction::{CALLS_PER_STEP, REPEAT_S};
+pub use conclusion::LaneConclusion;
 pub use tenures::RENEWAL_RETRY_S;
 
 use crate::clearance::{LanePicture, LaneStatement};
