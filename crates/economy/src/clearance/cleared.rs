@@ -165,14 +165,16 @@ fn share_of(kind: usize, cleared: &Number, left: &Number) -> ClearedShare {
             mean += likely * share * ratio(gone, still);
         }
     }
+    let mean = mean.clamp(0.0, 1.0);
     let outside = (1.0 - CONFIDENCE) / 2.0;
     ClearedShare {
         kind,
         cleared: cleared.mean,
         left: left.mean,
-        share: mean.clamp(0.0, 1.0),
-        low: quantile(outside, cleared, left),
-        high: quantile(1.0 - outside, cleared, left),
+        share: mean,
+        // Where almost all of the probability is at one end, the mean is outside the quantiles.
+        low: quantile(outside, cleared, left).min(mean),
+        high: quantile(1.0 - outside, cleared, left).max(mean),
     }
 }
 
@@ -241,7 +243,7 @@ mod tests {
         let of = shares(0, 0.02);
         // With no mine found, all of them are cleared if there are none.
         assert!((of.share - libm::exp(-0.02)).abs() < 1e-12, "{of:?}");
-        assert_eq!((of.low, of.high), (1.0, 1.0));
+        assert_eq!((of.low, of.high), (of.share, 1.0));
         assert!(shares(0, 0.1).low.abs() < 1e-12);
     }
 

@@ -38,7 +38,8 @@ impl Hashed for Clearing {
 pub(super) struct LaneWork {
     pub(super) picture: LanePicture,
     pub(super) decision: Decision,
-    /// What it stated beside the risk.
+    /// What it stated beside the risk; it follows from the picture of that time.
+    #[hashed(skip)]
     pub(super) conclusion: Option<LaneConclusion>,
     pub(super) planned: Vec<Planned>,
     /// How often places have been interrogated.

@@ -1,6 +1,6 @@
 //! The expected losses of one vehicle by mines in each cell of a passage's grid.
 
-use super::grid::PassageGrid;
+use super::grid::{PassageGrid, range};
 use super::settings::Passage;
 use crate::clearance::{BelievedMark, LanePicture};
 use alloc::vec;
@@ -60,13 +60,13 @@ impl PassageGrid {
         if amount <= 0.0 {
             return;
         }
-        let rows = range(low[1], high[1], self.across_m, self.rows);
+        let rows = range([low[1], high[1]], self.across_m, self.rows);
         let of_rows = rows.clone().map(|row| {
             let from_m = row as f64 * self.across_m;
             (row, share(1, from_m, from_m + self.across_m))
         });
         let of_rows: Vec<(usize, f64)> = of_rows.collect();
-        for column in range(low[0], high[0], self.along_m, self.columns) {
+        for column in range([low[0], high[0]], self.along_m, self.columns) {
             let from_m = column as f64 * self.along_m;
             let amount = amount * share(0, from_m, from_m + self.along_m);
             for (row, share) in &of_rows {
@@ -74,18 +74,6 @@ impl PassageGrid {
             }
         }
     }
-}
-
-/// The numbers of cells between two coordinates.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped"
-)]
-fn range(from_m: f64, to_m: f64, side_m: f64, count: usize) -> core::ops::Range<usize> {
-    let first = libm::floor(from_m / side_m).max(0.0) as usize;
-    let end = libm::ceil(to_m / side_m).max(0.0) as usize;
-    first.min(count)..end.min(count)
 }
 
 /// Probability that one coordinate of what has been marked is between two others.

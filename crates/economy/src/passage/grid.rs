@@ -1,6 +1,7 @@
 //! The places of a lane where the centre of a vehicle can be.
 
 use base::geometry::{Point, Rectangle};
+use core::ops::Range;
 
 /// Maximum number of places, about: the search of a path visits each once.
 const MAX_CELLS: f64 = 65_536.0;
@@ -68,6 +69,15 @@ impl PassageGrid {
         self.place(self.along_of(cell), self.across_of(cell))
     }
 
+    /// The cells in a rectangle of the world, and some around it.
+    pub fn within(&self, area: &Rectangle) -> impl Iterator<Item = usize> + use<> {
+        let [low, high] = [area.min(), area.max()].map(|corner| self.coordinates(corner));
+        let columns = range([low[0], high[0]], self.along_m, self.columns);
+        let rows = range([low[1], high[1]], self.across_m, self.rows);
+        let height = self.rows;
+        columns.flat_map(move |column| rows.clone().map(move |row| column * height + row))
+    }
+
     /// Whether a path of its width at a cell is within the sides of the lane.
     #[must_use]
     pub fn is_inside(&self, cell: usize) -> bool {
@@ -122,4 +132,16 @@ impl PassageGrid {
         };
         self.area.min().plus(Point { x, y })
     }
+}
+
+/// The numbers of the cells between two coordinates.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped"
+)]
+pub(super) fn range([from_m, to_m]: [f64; 2], side_m: f64, count: usize) -> Range<usize> {
+    let first = libm::floor(from_m / side_m).max(0.0) as usize;
+    let end = libm::ceil(to_m / side_m).max(0.0) as usize;
+    first.min(count)..end.min(count)
 }

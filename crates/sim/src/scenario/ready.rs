@@ -10,6 +10,7 @@ use crate::bodies::kind::{Kind, KindContext};
 use crate::controllers::kind::ControllerKind;
 use crate::end::EndCondition;
 use crate::goals::kind::{GoalContext, GoalKind};
+use crate::passage::PassageSpec;
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::item_number::ItemNumber;
@@ -55,6 +56,8 @@ pub struct Scenario {
     /// Kinds of controllers; ids number them after the kinds of robots.
     pub(crate) controllers: Vec<ControllerKind>,
     pub(crate) goals: Vec<GoalKind>,
+    /// Vehicles that are to pass the lane.
+    pub(crate) passage: Option<PassageSpec>,
     pub(crate) clocks: AgentClocks,
     /// Whether robots or controllers fail at random times.
     pub(crate) has_failures: bool,
@@ -117,7 +120,7 @@ impl Scenario {
             }
         };
         let layers = [Layer::Ground, Layer::Air];
-        Self {
+        let scenario = Self {
             step_s,
             time_limit_s: spec.clock.time_limit_s,
             steps: steps_of(spec.clock.time_limit_s, step_s),
@@ -142,8 +145,10 @@ impl Scenario {
             },
             has_failures: spec.has_failures(),
             has_acts: false,
+            passage: None,
             kinds,
-        }
+        };
+        scenario.with_passage(spec)
     }
 
     /// The obstacles on the ground.
@@ -373,6 +378,7 @@ fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
         goals: !spec.goals.is_empty(),
         acts: true,
         clearance: spec.has_clearance(),
+        passage: spec.passage.is_some(),
     };
     EndCondition::parse(&end.when, items, has).ok()
 }

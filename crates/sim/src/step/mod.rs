@@ -19,6 +19,7 @@ mod hazards;
 pub(crate) mod measurement;
 pub(crate) mod neighbours;
 mod parallel;
+mod passage;
 pub(crate) mod pending_decisions;
 mod plan;
 mod sense;

@@ -18,6 +18,7 @@ use super::plan::{Plan, planned};
 use crate::judge::detections::Detections;
 use crate::judge::events::EventLog;
 use crate::judge::goal_moment::GoalMoment;
+use crate::passage::convoy;
 use crate::run::agent::Agent;
 use crate::run::state::State;
 use crate::scenario::Scenario;
@@ -104,6 +105,7 @@ impl StepScratch {
             let is_counted = self.judge_goals(scenario, state);
             let collisions = self.act(scenario, state) + self.touch_external(scenario, state);
             let is_counted = hazards::detonate(scenario, state, &self.events) | is_counted;
+            let is_counted = convoy::drive(scenario, state, &self.events) | is_counted;
             let is_counted = acts::carry_out(scenario, state, &self.events) | is_counted;
             self.judge((scenario, state), external, collisions) | is_counted | is_stated
         };

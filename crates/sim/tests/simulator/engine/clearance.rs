@@ -10,7 +10,7 @@ use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// A lane of 40 m x 12 m with an air vehicle, two ground vehicles and a controller.
-const LANE: &str = r#"
+pub(super) const LANE: &str = r#"
 clock = { step_s = 0.2, time_limit_s = 300 }
 world.size_m = [52, 20]
 [items.clutter]
