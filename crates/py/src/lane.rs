@@ -50,7 +50,7 @@ pub(crate) fn vehicles(
 
 /// What each controller believes of the lane, each as a dict with the name of the `controller`, `corners_m`, `cell_m`,
 /// `unmarked` and `expected` of shape (rows, columns), `marks`, `risk`, `declare_below`, `cleared_below_per_m2`,
-/// `statement`, `cleared` and `passage`.
+/// `statement`, `clearance` and `passage`.
 #[pyfunction]
 pub(crate) fn lanes<'py>(
     py: Python<'py>,
@@ -85,7 +85,7 @@ fn dict_of<'py>(
     dict.set_item("unmarked", cells(lane.unmarked)?)?;
     let cleared = lane.cleared.iter();
     let cleared = cleared.map(|share| cleared_of(py, scenario, share));
-    dict.set_item("cleared", cleared.collect::<PyResult<Vec<_>>>()?)?;
+    dict.set_item("clearance", cleared.collect::<PyResult<Vec<_>>>()?)?;
     let passage = lane.passage.as_ref();
     let passage = passage.map(|passage| passage_of(py, passage));
     dict.set_item("passage", passage.transpose()?)?;

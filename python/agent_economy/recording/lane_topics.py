@@ -79,8 +79,8 @@ def risks(lanes: list[BelievedLane]) -> dict[str, list[Any]]:
             ]
             for key in OF_STATEMENT
         },
-        "cleared": [
-            [{key: getattr(share, key) for key in OF_SHARE} for share in lane.cleared]
+        "clearance": [
+            [{key: getattr(share, key) for key in OF_SHARE} for share in lane.clearance]
             for lane in lanes
         ],
     }

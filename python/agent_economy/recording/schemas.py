@@ -176,7 +176,7 @@ LANE_RISKS: dict[str, Schema] = {
     ),
     "statement_risk": each("The probability at that time.", NUMBER_OR_NULL),
     "statement_at_s": each("That time, on its clock.", NUMBER_OR_NULL),
-    "cleared": each(
+    "clearance": each(
         "For each kind of mines: the share that is cleared, as believed, and its interval.",
         {"type": "array", "items": CLEARED},
     ),

@@ -81,7 +81,7 @@ class BelievedLane(NamedTuple):
         cleared_below_per_m2: Expected number of mines per square metre below which a place is
             cleared: with that density everywhere, the lane would just be declared clear.
         statement: What the controller has stated about the lane; None until then.
-        cleared: The share of the mines that are cleared, for each kind that makes the lane unsafe.
+        clearance: The share of the mines that are cleared, for each kind that makes the lane unsafe.
         passage: The path on which vehicles are to pass; None until the controller has stated one.
     """
 
@@ -95,7 +95,7 @@ class BelievedLane(NamedTuple):
     declare_below: float
     cleared_below_per_m2: float
     statement: LaneStatement | None
-    cleared: list[ClearedShare]
+    clearance: list[ClearedShare]
     passage: Passage | None
 
     @property
@@ -125,7 +125,7 @@ def believed_lane(lane: dict[str, Any]) -> BelievedLane:
             "marks": [lane_mark(mark) for mark in lane["marks"]],
             "risk": LaneRisk(**lane["risk"]),
             "statement": None if statement is None else LaneStatement(**statement),
-            "cleared": [ClearedShare(**share) for share in lane["cleared"]],
+            "clearance": [ClearedShare(**share) for share in lane["clearance"]],
             "passage": stated_passage(lane["passage"]),
         }
     )

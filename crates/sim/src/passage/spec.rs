@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Vehicles that are to pass the lane that controllers clear, one after the other. With their statement, the controllers
+/// They pass one after the other. With their statement about the lane, the controllers
 /// plan a path along the lane, from one of its short sides to the other, that keeps clear of obstacles and isolated
 /// marks, and has the lowest expected number of mines within its width; and they state the risk of each vehicle. If the
 /// lane is declared clear, the vehicles drive, and the run goes on until each has passed or is destroyed, or until the

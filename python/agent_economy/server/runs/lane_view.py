@@ -57,7 +57,7 @@ def lane_view(lane: BelievedLane) -> LaneView:
             "risk": lane.statement.risk,
             "at_s": lane.statement.at_s,
         },
-        "cleared": [cleared_view(share) for share in lane.cleared],
+        "cleared": [cleared_view(share) for share in lane.clearance],
         "passage": None if lane.passage is None else passage_view(lane.passage),
     }
 
