@@ -18,8 +18,11 @@ def lane_rows(row: Mapping[str, Any]) -> Iterator[Row]:
         return
     left = f"; {count(row['left'], 'mine')} left" if "left" in row else ""
     yield "lane", f"{statement(row)}{left}"
+    yield from clearance_rows(row)
     if "left" in row:
         yield from act_rows(row)
+    if "vehicles_passed" in row:
+        yield from passage_rows(row)
 
 
 def statement(row: Mapping[str, Any]) -> str:
@@ -32,6 +35,37 @@ def statement(row: Mapping[str, Any]) -> str:
     if row["given_up"]:
         return f"not declared clear: given up with a stated risk of {percent(risk)}"
     return "neither declared clear nor given up"
+
+
+def clearance_rows(row: Mapping[str, Any]) -> Iterator[Row]:
+    """Yield the share of each kind of mines that is cleared, as stated and in truth."""
+    if not (row["declared"] or row["given_up"]):
+        return
+    for name in row:
+        kind = name.removeprefix("true_clearance_")
+        if kind != name:
+            stated, low, high = (row[f"stated_clearance_{kind}{end}"] for end in ("", "_low", "_high"))
+            yield (
+                f"clearance of {kind}",
+                f"stated {percent(stated)} (95% interval {percent(low)} to {percent(high)}); "
+                f"in truth {percent(row[name])}",
+            )
+
+
+def passage_rows(row: Mapping[str, Any]) -> Iterator[Row]:
+    """Yield what was stated of the passage of vehicles, and what became of them."""
+    if not row["path_m"]:
+        yield "passage", "no path was stated"
+        return
+    first, last = percent(row["stated_first_risk"]), percent(row["stated_last_risk"])
+    yield (
+        "passage",
+        f"path of {row['path_m']:.1f} m; stated risk {first} for the first vehicle, {last} for the "
+        f"last; {count(row['mines_on_path'], 'mine')} on it",
+    )
+    first = " with the first" if row["first_lost"] else ""
+    lost = f"{count(row['vehicles_passed'], 'vehicle')} passed, {row['vehicles_lost']} lost{first}"
+    yield "vehicles", lost
 
 
 def act_rows(row: Mapping[str, Any]) -> Iterator[Row]:
