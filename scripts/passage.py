@@ -1,12 +1,13 @@
 """Compare the stated risk of vehicles that pass a lane with the share of them that are lost.
 
 `scripts/clearance.py` calls it. The lanes are declared clear at different risks, with different
-widths of the path, and are pooled by the stated risk of the first vehicle.
+blind shares and widths of the path, and are pooled by the stated risk of the first vehicle.
 """
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,13 +22,17 @@ DESTROYS = 0.5
 """A mine destroys half of the vehicles over it: the last one is at risk, too."""
 
 BELOW = "controllers.station.clearance.declare_below"
-WORLDS = ((0.5, 4.0), (0.9, 4.0), (0.5, 10.0), (0.9, 10.0))
-"""The risk below which lanes are declared, and the width of the path."""
+SENSORS = ("robots.oav.sensors.camera", "robots.ugv.sensors.detector")
+WORLDS = ((0.3, 0.5, 4.0), (0.3, 0.5, 10.0), (0.15, 0.5, 10.0), (0.03, 0.9, 10.0))
+"""The blind share of both sensors, the risk below which lanes are declared, and the path's width.
 
-RUNS = 1_000
+With these blind shares, mines are left, so that vehicles are lost.
+"""
+
+RUNS = 700
 """Lanes of each world."""
 
-EDGES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2)
+EDGES = (0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.2)
 """Bounds of the stated risk of the first vehicle."""
 
 MIN_TOLERANCE, TOLERANCE, STANDARD_ERRORS = 0.005, 0.2, 3.0
@@ -55,41 +60,46 @@ def passages(
 ) -> Iterator[PassageBin]:
     """Yield the bins, the one with the lowest risk first; one of all lanes is the last."""
     runs = []
-    for below, width_m in WORLDS:
+    for blind, below, width_m in WORLDS:
         passage = {
             "width_m": width_m,
             "vehicles": VEHICLES,
             "speed_m_s": 10.0,
             "destroy_probability": DESTROYS,
         }
-        case = scenario({BELOW: below, "passage": passage})
+        shares = {f"{name}.blind_share": {"mine": blind, "clutter": blind} for name in SENSORS}
+        case = scenario({BELOW: below, "passage": passage, **shares})
         runs.append(ae.replicate(case, round(scale * RUNS), seed))
     driven = pa.concat_tables(runs)
     ended = np.array(driven["vehicles_passed"]) + np.array(driven["vehicles_lost"])
     driven = driven.filter(pa.array(ended == VEHICLES))
     first = np.array(driven["stated_first_risk"])
-    for low, high in zip(EDGES, EDGES[1:], strict=False):
+    for low, high in pairwise(EDGES):
         yield pooled(driven, (first >= low) & (first < high), (low, high))
     yield pooled(driven, np.ones(len(first), bool), (0.0, 1.0))
 
 
 def pooled(driven: pa.Table, chosen: NDArray[np.bool_], bounds: tuple[float, float]) -> PassageBin:
     """Return what was stated and what was true of the chosen lanes."""
-    if not chosen.any():
-        return PassageBin(*bounds, 0, 0, 0, 0, 0, 0, 0, "no lanes")
-    names = (
-        "stated_first_risk",
-        "first_lost",
-        "stated_last_risk",
-        "last_lost",
-        "stated_clearance_mine",
-        "true_clearance_mine",
-    )
-    means = [float(np.mean(np.array(driven[name], float)[chosen])) for name in names]
+
+    def mean(name: str) -> float:
+        return float(np.mean(np.array(driven[name], float)[chosen])) if chosen.any() else 0.0
+
     lanes = int(chosen.sum())
-    pairs = ((means[0], means[1]), (means[2], means[3]))
+    one = PassageBin(
+        *bounds,
+        lanes=lanes,
+        first_stated=mean("stated_first_risk"),
+        first_lost=mean("first_lost"),
+        last_stated=mean("stated_last_risk"),
+        last_lost=mean("last_lost"),
+        clearance_stated=mean("stated_clearance_mine"),
+        clearance=mean("true_clearance_mine"),
+        verdict="",
+    )
+    pairs = ((one.first_stated, one.first_lost), (one.last_stated, one.last_lost))
     passes = all(is_right(stated, lost, lanes) for stated, lost in pairs)
-    return PassageBin(*bounds, lanes, *means, "passes" if passes else "fails")
+    return replace(one, verdict="passes" if passes else "fails")
 
 
 def is_right(stated: float, lost: float, lanes: int) -> bool:

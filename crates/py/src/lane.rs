@@ -8,12 +8,9 @@ use economy::{BelievedMark, ClearedShare, PlannedPassage};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use sim::passage::VehicleStatus;
+use sim::passage::{Vehicle, VehicleStatus};
 use sim::run::BelievedLane;
 use sim::scenario::Scenario;
-
-/// The name of a vehicle, its position, whether it has entered the lane, and its status.
-type VehicleTuple = (String, f64, f64, bool, &'static str);
 
 /// Number of mines in the lane that are not destroyed; 0 without a lane.
 #[pyfunction]
@@ -22,30 +19,32 @@ pub(crate) fn mines_left(py: Python<'_>, simulation: &Bound<'_, Simulation>) -> 
     Ok(run.state().mines_left(run.scenario()))
 }
 
-/// The vehicles that pass the lane, in their order, each as (name, x, y, whether it has entered the lane, status).
+/// The vehicles that pass the lane, in their order, each as a dict with its `name`, `x_m`, `y_m`, `has_entered` and
+/// `status`.
 #[pyfunction]
-pub(crate) fn vehicles(
-    py: Python<'_>,
-    simulation: &Bound<'_, Simulation>,
-) -> PyResult<Vec<VehicleTuple>> {
+pub(crate) fn vehicles<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+) -> PyResult<Bound<'py, PyList>> {
     let run = simulation.get().locked(py)?;
     let vehicles = run.state().each_vehicle();
-    let vehicles = vehicles.map(|vehicle| {
-        let status = match vehicle.status {
-            VehicleStatus::Driving => "driving",
-            VehicleStatus::Passed => "passed",
-            VehicleStatus::Lost => "lost",
-        };
-        let name = vehicle_name(vehicle.index);
-        (
-            name,
-            vehicle.at.x,
-            vehicle.at.y,
-            vehicle.has_entered,
-            status,
-        )
-    });
-    Ok(vehicles.collect())
+    let dicts = vehicles.map(|vehicle| vehicle_of(py, vehicle));
+    PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)
+}
+
+fn vehicle_of(py: Python<'_>, vehicle: Vehicle) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("name", vehicle_name(vehicle.index))?;
+    dict.set_item("x_m", vehicle.at.x)?;
+    dict.set_item("y_m", vehicle.at.y)?;
+    dict.set_item("has_entered", vehicle.has_entered)?;
+    let status = match vehicle.status {
+        VehicleStatus::Driving => "driving",
+        VehicleStatus::Passed => "passed",
+        VehicleStatus::Lost => "lost",
+    };
+    dict.set_item("status", status)?;
+    Ok(dict)
 }
 
 /// What each controller believes of the lane, each as a dict with the name of the `controller`, `corners_m`, `cell_m`,

@@ -44,12 +44,12 @@ def clearance_rows(row: Mapping[str, Any]) -> Iterator[Row]:
     for name in row:
         kind = name.removeprefix("true_clearance_")
         if kind != name:
-            stated, low, high = (row[f"stated_clearance_{kind}{end}"] for end in ("", "_low", "_high"))
-            yield (
-                f"clearance of {kind}",
-                f"stated {percent(stated)} (95% interval {percent(low)} to {percent(high)}); "
-                f"in truth {percent(row[name])}",
+            stated, low, high = (
+                row[f"stated_clearance_{kind}{end}"] for end in ("", "_low", "_high")
             )
+            interval = f"95% interval {percent(low)} to {percent(high)}"
+            truth = f"in truth {percent(row[name])}"
+            yield f"clearance of {kind}", f"stated {percent(stated)} ({interval}); {truth}"
 
 
 def passage_rows(row: Mapping[str, Any]) -> Iterator[Row]:
@@ -58,14 +58,11 @@ def passage_rows(row: Mapping[str, Any]) -> Iterator[Row]:
         yield "passage", "no path was stated"
         return
     first, last = percent(row["stated_first_risk"]), percent(row["stated_last_risk"])
-    yield (
-        "passage",
-        f"path of {row['path_m']:.1f} m; stated risk {first} for the first vehicle, {last} for the "
-        f"last; {count(row['mines_on_path'], 'mine')} on it",
-    )
-    first = " with the first" if row["first_lost"] else ""
-    lost = f"{count(row['vehicles_passed'], 'vehicle')} passed, {row['vehicles_lost']} lost{first}"
-    yield "vehicles", lost
+    mines = f"path of {row['path_m']:.1f} m with {count(row['mines_on_path'], 'mine')}"
+    yield "passage", f"{mines}; stated risk {first} for the first vehicle, {last} for the last"
+    which = " with the first" if row["first_lost"] else ""
+    passed = f"{count(row['vehicles_passed'], 'vehicle')} passed"
+    yield "vehicles", f"{passed}, {row['vehicles_lost']} lost{which}"
 
 
 def act_rows(row: Mapping[str, Any]) -> Iterator[Row]:

@@ -68,9 +68,7 @@ def vehicle_scene(vehicles: list[Vehicle], width_m: float, time_ns: int) -> Scen
             frame_id=WORLD,
             id=vehicle.name,
             cylinders=[
-                cylinder(
-                    vehicle.at_m, width_m / 2, (0.0, VEHICLE_M), color(PAINTS[vehicle.status])
-                )
+                cylinder(vehicle.at_m, width_m / 2, (0.0, VEHICLE_M), color(PAINTS[vehicle.status]))
             ],
         )
         for vehicle in vehicles

@@ -215,9 +215,7 @@ LANE_PASSAGE = of_object(
     "The path on which vehicles are to pass a mined lane, and the risk of each, as stated.",
     {
         "controller": STRING | {"description": "The controller that states it, KIND/INDEX."},
-        "path_m": each(
-            "Corners of its middle line, x and y.", {"type": "array", "items": NUMBER}
-        ),
+        "path_m": each("Corners of its middle line, x and y.", {"type": "array", "items": NUMBER}),
         "width_m": NUMBER | {"description": "Its width."},
         "length_m": NUMBER | {"description": "Its length."},
         "mines": NUMBER | {"description": "Expected number of mines within its width."},

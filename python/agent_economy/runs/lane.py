@@ -81,7 +81,8 @@ class BelievedLane(NamedTuple):
         cleared_below_per_m2: Expected number of mines per square metre below which a place is
             cleared: with that density everywhere, the lane would just be declared clear.
         statement: What the controller has stated about the lane; None until then.
-        clearance: The share of the mines that are cleared, for each kind that makes the lane unsafe.
+        clearance: The share of the mines that are cleared, for each kind that makes the lane
+            unsafe.
         passage: The path on which vehicles are to pass; None until the controller has stated one.
     """
 

@@ -65,7 +65,7 @@ def stated_passage(passage: dict[str, Any] | None) -> Passage | None:
     return None if passage is None else Passage(**passage)
 
 
-def vehicle(value: tuple[str, float, float, bool, str]) -> Vehicle:
+def vehicle(values: dict[str, Any]) -> Vehicle:
     """Return a vehicle as the compiled part returns it, with types."""
-    name, x_m, y_m, has_entered, status = value
-    return Vehicle(name, (x_m, y_m), has_entered, status)  # type: ignore[arg-type]
+    values = dict(values)
+    return Vehicle(at_m=(values.pop("x_m"), values.pop("y_m")), **values)

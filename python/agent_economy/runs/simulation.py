@@ -19,8 +19,8 @@ from agent_economy.runs.brain import (
     Percept,
 )
 from agent_economy.runs.lane import BelievedLane, believed_lane
-from agent_economy.runs.passage import Vehicle, vehicle
 from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.passage import Vehicle, vehicle
 from agent_economy.runs.python_brains import Brains, python_brains, resized
 from agent_economy.runs.stepped import Change, Snapshot, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation

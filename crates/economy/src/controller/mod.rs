@@ -9,13 +9,15 @@
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
 //!   [`colleagues`]: the other controllers, by their [`presence`];
-//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state; [`conclusion`]: what it states beside the risk.
+//! * [`clearing`]: the goals of a mined lane, and [`lane_work`], their state; [`conclusion`]: what it states
+//!   beside the risk, by [`concluding`].
 
 mod arbitration;
 mod auction;
 mod bids;
 mod clearing;
 mod colleagues;
+mod concluding;
 mod conclusion;
 mod displacement;
 mod estates;

@@ -24,7 +24,7 @@ pub struct Passage {
 /// What a mine within the width of the path does to a vehicle.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct MineEffect {
-    /// Probability that it destroys a vehicle, for each vehicle anew.
+    /// Probability that it destroys a vehicle, independently of others.
     pub destroy_probability: f64,
     /// Whether it is destroyed with the vehicle.
     pub detonates: bool,

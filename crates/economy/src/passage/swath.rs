@@ -24,7 +24,7 @@ const MIN_PROBABILITY: f64 = 1e-12;
 /// A path with its width.
 pub(super) struct Swath {
     pieces: Vec<Segment>,
-    half_m: f64,
+    half_width_m: f64,
 }
 
 impl Swath {
@@ -35,7 +35,7 @@ impl Swath {
         });
         Self {
             pieces: pieces.collect(),
-            half_m: width_m / 2.0,
+            half_width_m: width_m / 2.0,
         }
     }
 
@@ -78,7 +78,7 @@ impl Swath {
             return 0.0;
         }
         let samples = |side_m: f64| {
-            let samples = libm::ceil(side_m / self.half_m * PER_WIDTH / 2.0);
+            let samples = libm::ceil(side_m / self.half_width_m * PER_WIDTH / 2.0);
             samples.clamp(MIN_SAMPLES, MAX_SAMPLES) as u32
         };
         let (right, up) = (samples(size.x), samples(size.y));
@@ -131,7 +131,7 @@ impl Swath {
     /// The pieces of the path that are near to a place.
     fn near(&self, at: Point, within_m: f64) -> Vec<Segment> {
         let near = self.pieces.iter();
-        let near = near.filter(|piece| piece.distance_m(at) <= self.half_m + within_m);
+        let near = near.filter(|piece| piece.distance_m(at) <= self.half_width_m + within_m);
         near.copied().collect()
     }
 
@@ -139,6 +139,6 @@ impl Swath {
     fn cover(&self, near: &[Segment], at: Point, side_m: f64) -> f64 {
         let away_m = near.iter().map(|piece| piece.distance_m(at));
         let away_m = away_m.fold(f64::INFINITY, f64::min);
-        ((self.half_m - away_m) / side_m + 0.5).clamp(0.0, 1.0)
+        ((self.half_width_m - away_m) / side_m + 0.5).clamp(0.0, 1.0)
     }
 }

@@ -1,18 +1,11 @@
 //! Vehicles on a path, one after the other.
 
 use super::PassageSpec;
-use crate::judge::events::{EventKind, EventLog};
-use crate::run::state::State;
 use crate::scenario::Scenario;
-use crate::sensors::sensor_frame::NoisePurpose;
+use crate::world::items::Items;
 use base::geometry::{Point, Segment};
 use base::hashed::Hashed;
-use base::noise::{Noise, share};
-use base::random::{Entity, kind_key};
 use economy::PlannedPassage;
-
-/// The name of vehicles in random streams: no kind of robots can have it.
-const STREAM: &str = "[passage]";
 
 /// Vehicles on a path.
 #[derive(Debug, Clone, PartialEq, Hashed)]
@@ -34,7 +27,7 @@ pub(crate) struct Convoy {
 #[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Moving {
     /// How far along the path it is; below 0 before the path.
-    along_m: f64,
+    pub(crate) along_m: f64,
     pub(crate) status: VehicleStatus,
 }
 
@@ -106,13 +99,14 @@ impl Convoy {
         })
     }
 
-    /// The items of a kind that destroys vehicles within the width of the path, and how far along it they are.
-    pub(crate) fn mines(&self, scenario: &Scenario, state: &State) -> Vec<u32> {
-        let near = self.ahead(scenario, state, [0.0, self.length_m()]);
+    /// The mines within the width of the path, in the order in which vehicles meet them.
+    pub(crate) fn mines(&self, scenario: &Scenario, items: &Items) -> Vec<u32> {
+        let near = self.ahead(scenario, items, [0.0, self.length_m()]);
         near.into_iter().map(|(_, item)| item).collect()
     }
 
-    fn length_m(&self) -> f64 {
+    /// Length of the path.
+    pub(crate) fn length_m(&self) -> f64 {
         self.corners_m.last().copied().unwrap_or_default()
     }
 
@@ -142,20 +136,25 @@ impl Convoy {
     }
 
     /// The mines in the lane within the width of a part of the path, in the order in which a vehicle meets them.
-    fn ahead(&self, scenario: &Scenario, state: &State, part_m: [f64; 2]) -> Vec<(f64, u32)> {
+    pub(crate) fn ahead(
+        &self,
+        scenario: &Scenario,
+        items: &Items,
+        part_m: [f64; 2],
+    ) -> Vec<(f64, u32)> {
         let (Some(clearance), Some(passage)) = (scenario.clearance(), scenario.passage) else {
             return Vec::new();
         };
-        let (lane, half_m) = (clearance.lane.area(), self.width_m / 2.0);
+        let (lane, half_width_m) = (clearance.lane.area(), self.width_m / 2.0);
         let mut met: Vec<(f64, u32)> = Vec::new();
         for (begin_m, piece) in self.pieces(part_m) {
             let middle = piece.from.plus(piece.way().times(0.5));
-            let reach_m = half_m + piece.length_m() / 2.0;
-            for item in state.items.within(middle, reach_m) {
-                let at = state.items.place(item);
+            let reach_m = half_width_m + piece.length_m() / 2.0;
+            for item in items.within(middle, reach_m) {
+                let at = items.place(item);
                 let nearest = piece.nearest(at);
-                let is_within = nearest.to(at).length() <= half_m && lane.contains(at);
-                let effect = passage.effect_of(scenario, state.items.kind(item));
+                let is_within = nearest.to(at).length() <= half_width_m && lane.contains(at);
+                let effect = passage.effect_of(scenario, items.kind(item));
                 if is_within && effect.is_some() {
                     met.push((begin_m + piece.from.to(nearest).length(), item));
                 }
@@ -166,77 +165,4 @@ impl Convoy {
         met.retain(|(_, item)| known.insert(*item));
         met
     }
-}
-
-/// Moves the vehicles by a step, in their order; returns whether one of them has passed or was destroyed.
-pub(crate) fn drive(scenario: &Scenario, state: &mut State, events: &EventLog) -> bool {
-    let (Some(passage), Some(mut convoy)) = (scenario.passage, state.convoy.take()) else {
-        return false;
-    };
-    let step_m = passage.speed_m_s * scenario.step_s;
-    let mut is_counted = false;
-    for number in 0..convoy.vehicles.len() {
-        let vehicle = convoy.vehicles[number];
-        if vehicle.status == VehicleStatus::Driving {
-            let next = moved(scenario, state, (&convoy, number), step_m, events);
-            is_counted |= next.status != VehicleStatus::Driving;
-            convoy.vehicles[number] = next;
-        }
-    }
-    if !convoy.is_driving() {
-        convoy.ended_at.get_or_insert(state.tick);
-    }
-    state.convoy = Some(convoy);
-    is_counted
-}
-
-/// A vehicle after a step: mines on its way may destroy it.
-fn moved(
-    scenario: &Scenario,
-    state: &mut State,
-    (convoy, number): (&Convoy, usize),
-    step_m: f64,
-    events: &EventLog,
-) -> Moving {
-    let mut vehicle = convoy.vehicles[number];
-    let from_m = vehicle.along_m;
-    vehicle.along_m = (from_m + step_m).min(convoy.length_m());
-    let index = u32::try_from(number).unwrap_or(u32::MAX);
-    // A vehicle enters with its front, which is as round as the path is wide.
-    for (along_m, item) in convoy.ahead(scenario, state, [from_m, vehicle.along_m]) {
-        let effect = scenario
-            .passage
-            .and_then(|passage| passage.effect_of(scenario, state.items.kind(item)));
-        let Some(effect) =
-            effect.filter(|effect| draw(state, scenario, index, item) < effect.destroy_probability)
-        else {
-            continue;
-        };
-        (vehicle.along_m, vehicle.status) = (along_m, VehicleStatus::Lost);
-        let named = (state.items.kind(item), state.items.thing(item).index);
-        let kind = EventKind::VehicleLost {
-            vehicle: index,
-            item: named,
-        };
-        events.note(state.tick, kind);
-        if effect.detonates {
-            state.items.remove(item);
-        }
-        return vehicle;
-    }
-    if vehicle.along_m >= convoy.length_m() {
-        vehicle.status = VehicleStatus::Passed;
-        events.note(state.tick, EventKind::VehiclePassed { vehicle: index });
-    }
-    vehicle
-}
-
-/// Whether a mine destroys a vehicle: the same draw in each step, one for each vehicle and item.
-fn draw(state: &State, scenario: &Scenario, index: u32, item: u32) -> f64 {
-    let kind = kind_key(STREAM);
-    let noise = Noise::of(state.seed, state.run, Entity { kind, index });
-    let key = scenario.items[usize::from(state.items.kind(item))].key;
-    let thing = state.items.thing(item).index;
-    let words = noise.words(NoisePurpose::Hazard as u32, key.into(), thing);
-    share(words[0])
 }

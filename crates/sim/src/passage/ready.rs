@@ -75,9 +75,9 @@ fn block(passage: &mut Passage, solids: &[Solid]) {
         width_m,
         ..
     } = passage;
-    let half_m = *width_m / 2.0;
+    let half_width_m = *width_m / 2.0;
     let mut block = |bounds: Rectangle, is_taken: &dyn Fn(Point) -> bool| {
-        for cell in grid.within(&grown(&bounds, half_m)) {
+        for cell in grid.within(&grown(&bounds, half_width_m)) {
             blocked[cell] = blocked[cell] || is_taken(grid.centre(cell));
         }
     };
@@ -89,14 +89,14 @@ fn block(passage: &mut Passage, solids: &[Solid]) {
             Solid::Map(map) => map.outline().to_vec(),
             Solid::Disc(disc) => {
                 block(Rectangle::spanned(min, max), &|at| {
-                    disc.distance_m(at) < half_m
+                    disc.distance_m(at) < half_width_m
                 });
                 Vec::new()
             }
         };
         for edge in edges {
             block(Rectangle::spanned(edge.from, edge.to), &|at| {
-                edge.distance_m(at) < half_m
+                edge.distance_m(at) < half_width_m
             });
         }
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// They pass one after the other. With their statement about the lane, the controllers
 /// plan a path along the lane, from one of its short sides to the other, that keeps clear of obstacles and isolated
 /// marks, and has the lowest expected number of mines within its width; and they state the risk of each vehicle. If the
-/// lane is declared clear, the vehicles drive, and the run goes on until each has passed or is destroyed, or until the
+/// lane is declared clear, the vehicles drive, and the run continues until each has passed or is destroyed, or until the
 /// time limit. Mines that lie outside the lane do nothing to them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PassageSpec {

@@ -4,6 +4,7 @@ mod act;
 mod acts;
 mod clearance;
 pub(crate) mod communicate;
+mod convoy;
 mod decide;
 mod decision_hash;
 pub(crate) mod delegated;

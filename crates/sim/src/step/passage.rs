@@ -25,7 +25,7 @@ pub(super) fn conclude(scenario: &Scenario, state: &mut State) {
     };
     if let Some((passage, planned)) = scenario.passage.zip(tally.passage.as_ref()) {
         let convoy = Convoy::new(&passage, planned);
-        let mines = convoy.mines(scenario, state);
+        let mines = convoy.mines(scenario, &state.items);
         tally.mines_on_path = u32::try_from(mines.len()).unwrap_or(u32::MAX);
         state.convoy = is_clear.then(|| Box::new(convoy));
     }

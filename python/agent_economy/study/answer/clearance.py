@@ -105,10 +105,12 @@ def cleared_in_words(of: ClearedKind) -> str:
 
 
 def vehicles_in_words(of: VehicleRisk) -> str:
-    """Return how often the first vehicle was lost: "first vehicle lost in 1.2% (0.7 to 1.9%) ..."."""
+    """Return how often the first vehicle was lost: "first vehicle lost in 1.2% ..., stated 1%"."""
     lost = of.first_lost
     bounds = f"{percent(lost.low)[:-1]} to {percent(lost.high)}"
-    return f"first vehicle lost in {percent(lost.value)} ({bounds}), stated {percent(of.first_stated)}"
+    return (
+        f"first vehicle lost in {percent(lost.value)} ({bounds}), stated {percent(of.first_stated)}"
+    )
 
 
 def percent(share: float) -> str:
