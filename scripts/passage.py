@@ -68,7 +68,8 @@ def passages(
             "destroy_probability": DESTROYS,
         }
         shares = {f"{name}.blind_share": {"mine": blind, "clutter": blind} for name in SENSORS}
-        case = scenario({BELOW: below, "passage": passage, **shares})
+        changes = {BELOW: below, "passage": passage, "require.probability": 0.5, **shares}
+        case = scenario(changes)
         runs.append(ae.replicate(case, round(scale * RUNS), seed))
     driven = pa.concat_tables(runs)
     ended = np.array(driven["vehicles_passed"]) + np.array(driven["vehicles_lost"])
