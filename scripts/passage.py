@@ -23,13 +23,17 @@ DESTROYS = 0.5
 
 BELOW = "controllers.station.clearance.declare_below"
 SENSORS = ("robots.oav.sensors.camera", "robots.ugv.sensors.detector")
-WORLDS = ((0.3, 0.5, 4.0), (0.3, 0.5, 10.0), (0.15, 0.5, 10.0), (0.03, 0.9, 10.0))
+WORLDS = ((0.3, 0.5, 4.0), (0.3, 0.5, 10.0), (0.15, 0.5, 10.0), (0.2, 0.5, 6.0))
 """The blind share of both sensors, the risk below which lanes are declared, and the path's width.
 
-With these blind shares, mines are left, so that vehicles are lost.
+With these blind shares, mines are left, so that vehicles are lost. Mines are harmless for robots:
+those that a robot sets off are gone, which controllers do not know.
 """
 
-RUNS = 700
+HARMLESS = "items.mine.hazard.destroy_probability"
+
+
+RUNS = 600
 """Lanes of each world."""
 
 EDGES = (0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.2)
@@ -68,8 +72,15 @@ def passages(
             "destroy_probability": DESTROYS,
         }
         shares = {f"{name}.blind_share": {"mine": blind, "clutter": blind} for name in SENSORS}
-        changes = {BELOW: below, "passage": passage, "require.probability": 0.5, **shares}
-        case = scenario(changes)
+        case = scenario(
+            {
+                BELOW: below,
+                "passage": passage,
+                "require.probability": 0.5,
+                HARMLESS: 0.0,
+                **shares,
+            }
+        )
         runs.append(ae.replicate(case, round(scale * RUNS), seed))
     driven = pa.concat_tables(runs)
     ended = np.array(driven["vehicles_passed"]) + np.array(driven["vehicles_lost"])

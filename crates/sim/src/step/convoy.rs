@@ -34,7 +34,7 @@ pub(super) fn drive(scenario: &Scenario, state: &mut State, events: &EventLog) -
     is_counted
 }
 
-/// A vehicle after a step: mines on its way may destroy it.
+/// A vehicle after a step: mines ahead may destroy it.
 fn moved(
     scenario: &Scenario,
     state: &mut State,

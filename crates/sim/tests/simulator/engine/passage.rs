@@ -111,7 +111,6 @@ fn only_mines_within_the_width_and_in_the_lane_destroy_vehicles() {
 
 #[test]
 fn each_mine_is_drawn_once_for_each_vehicle() {
-    // With 200 mines of which each destroys one vehicle in ten, no vehicle passes; with one, few are lost.
     let mut lost = 0;
     for run in 0..100 {
         let text = format!(
@@ -148,6 +147,21 @@ fn a_run_with_vehicles_that_continues_with_another_scenario_keeps_them() {
     let after: Vec<_> = simulation.state().each_vehicle().collect();
     assert_eq!(before, after);
     assert_eq!(counts(&simulation.finish().passage.unwrap()), (2, 1, 1));
+}
+
+#[test]
+fn what_has_been_stated_of_a_passage_stays() {
+    let mines = "items.mine.hazard.radius_m = 0\n";
+    let was = scenario(&with(LANE, &format!("{PASSAGE}{mines}")));
+    let wider = PASSAGE.replace("width_m = 3, vehicles = 3", "width_m = 4, vehicles = 2");
+    let now = scenario(&with(LANE, &format!("{wider}{mines}")));
+    let mut simulation = Simulation::new(was.clone(), 1, 3).unwrap();
+    let errors = |simulation: &Simulation| simulation.state().without_effect(&was, &now);
+    assert_eq!(errors(&simulation).len(), 0);
+    state(&mut simulation, ActKind::DeclareClear);
+    let errors = errors(&simulation);
+    let paths: Vec<&str> = errors.iter().map(|error| error.path.as_str()).collect();
+    assert_eq!(paths, ["passage.width_m", "passage.vehicles"]);
 }
 
 #[test]
