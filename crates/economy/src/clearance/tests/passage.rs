@@ -241,3 +241,28 @@ fn the_stated_clearance_is_the_mean_of_the_true_one_and_its_interval_holds() {
     assert!(mean.abs() < 0.005 + 4.0 * error, "{mean} ± {error}");
     assert!(inside / lanes > 0.95, "{}", inside / lanes);
 }
+
+/// By chance, one of the three numbers differs by four standard deviations of a Poisson number with a probability below
+/// 0.02%.
+#[test]
+fn the_expected_mines_on_a_path_are_the_mean_of_the_true_number() {
+    for blind in WORLDS {
+        let truth = clearance([2.0, 4.0], blind);
+        let passage = passage(&truth.lane);
+        let (mut expected, mut found) = (0.0, 0.0);
+        for lane in 0..3_000 {
+            let mut random = Random(lane);
+            let mut picture = picture(&truth);
+            let mut items = search(&truth, &mut picture, 0.0, &mut random);
+            neutralise(&mut picture, &mut items);
+            let planned = PlannedPassage::new(&passage, &picture).unwrap();
+            let is_on = |item: &Item| item.kind == 0 && away_m(&planned, item.at) <= WIDTH_M / 2.0;
+            expected += planned.mines;
+            found += items.iter().filter(|item| is_on(item)).count() as f64;
+        }
+        assert!(
+            (found - expected).abs() < 4.0 * expected.sqrt(),
+            "{blind:?}: {expected} {found}"
+        );
+    }
+}
