@@ -1,13 +1,16 @@
 """Compare what controllers state of a mined lane with the truth, and check directions of change.
 
 Calibration: of the lanes that are declared clear with a stated risk r, the share r is not clear.
-Directions: changes of the team, the sensors and the radio move results the right way. The
-measurements are docs/mines/calibration.csv and directions.csv; the tables of docs/mines.md are
-between `<!-- calibration -->` or `<!-- directions -->` and `<!-- end -->`. Examples:
+Directions: changes of the team, the sensors and the radio move results the right way.
+Passages: of vehicles with a stated risk r, the share r is lost (scripts/passage.py). The
+measurements are docs/mines/calibration.csv, directions.csv and passage.csv; the tables of
+docs/mines.md are between `<!-- calibration -->`, `<!-- directions -->` or `<!-- passage -->` and
+`<!-- end -->`. Examples:
 
     python scripts/clearance.py               run everything (half an hour on two cores)
     python scripts/clearance.py --scale 0.2   fewer runs: most cells are undecided
     python scripts/clearance.py --draw        only the chart and the page, from the CSV files
+    python scripts/clearance.py --passages    only the passages, the chart and the page
 
 The status is 1 if a cell or a direction fails.
 """
@@ -22,6 +25,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 from measured import ROOT, Page, table
+from passage import PassageBin, of_passages, passages
 from plots import Row, Spec, page_of, panel, path, points
 from scipy import stats
 
@@ -154,27 +158,37 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Check statements about mined lanes.")
     parser.add_argument("--scale", type=float, default=1.0, help="factor of the numbers of runs")
     parser.add_argument("--draw", action="store_true", help="only the chart and the page")
+    parser.add_argument("--passages", action="store_true", help="run only the passages")
     options = parser.parse_args()
     if not options.draw:
-        measure(options.scale)
+        measure(options.scale, only_passages=options.passages)
     cells, moved = PAGE.read("calibration", Cell), PAGE.read("directions", Direction)
-    tables = {"calibration": of_cells(cells), "directions": of_directions(moved)}
+    driven = PAGE.read("passage", PassageBin)
+    tables = {
+        "calibration": of_cells(cells),
+        "directions": of_directions(moved),
+        "passage": of_passages(driven),
+    }
     PAGE.draw(lambda name: tables[name], {"calibration": chart(cells)})
     failed = [f"{each.series}, {each.declare_below:g}" for each in cells if is_failed(each)]
     failed += [each.claim for each in moved if is_failed(each)]
+    failed += [f"passages, {each.low:g}" for each in driven if is_failed(each)]
     sys.exit(f"failed: {'; '.join(failed)}" if failed else 0)
 
 
-def is_failed(each: Cell | Direction) -> bool:
-    """Return whether a cell or a direction fails."""
+def is_failed(each: Cell | Direction | PassageBin) -> bool:
+    """Return whether a cell, a direction or a bin fails."""
     return each.verdict.startswith("fails")
 
 
 # Measured.
 
 
-def measure(scale: float) -> None:
+def measure(scale: float, *, only_passages: bool) -> None:
     """Run everything, and write the measurements as they come."""
+    PAGE.write("passage", PassageBin, passages(scenario, SEED, scale))
+    if only_passages:
+        return
     cells = (cell(series, risk, scale) for series in SERIES for risk in series.risks)
     PAGE.write("calibration", Cell, cells)
     PAGE.write("directions", Direction, directions(scale))

@@ -193,7 +193,7 @@ def tables_of(folder: Path) -> tuple[Table, ...]:
 
 def test_the_report_has_the_teams_in_its_order_with_the_risk_or_not_known(tmp_path: Path) -> None:
     answered(required(), NEVER, tmp_path)
-    table, _ = tables_of(tmp_path)
+    table, *_ = tables_of(tmp_path)
     names = [each.cells[0].text for each in table.rows]
     assert names == ["0 oavs, 1 ugv", "1 oav, 1 ugv", "0 oavs, 2 ugvs", "1 oav, 2 ugvs"]
     assert table.rows[0].cells[3].text == "not known"

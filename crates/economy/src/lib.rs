@@ -6,7 +6,8 @@
 //! * [`Settings`]: the controller's part of a scenario;
 //! * [`Controller`]: one controller;
 //! * [`Allocation`]: the rules by which a [`Market`] is cleared;
-//! * [`Clearance`]: a mined lane that controllers are to clear, and [`LanePicture`], what they believe of it.
+//! * [`Clearance`]: a mined lane that controllers are to clear, and [`LanePicture`], what they believe of it;
+//! * [`Passage`]: vehicles that are to pass that lane, and [`PlannedPassage`], a path with its risk.
 
 #![cfg_attr(not(test), no_std)]
 
@@ -16,12 +17,15 @@ mod allocation;
 mod bounds;
 mod clearance;
 mod controller;
+mod passage;
 mod settings;
 
 pub use allocation::optimal::assignment;
 pub use allocation::{Allocation, Market, Offer, Pair};
 pub use clearance::{
-    BelievedMark, Charge, Clearance, LanePicture, LaneStatement, Risk, RobotModel, Skill,
+    BelievedMark, Charge, Clearance, ClearedShare, LanePicture, LaneStatement, Risk, RobotModel,
+    Skill,
 };
-pub use controller::{Controller, OwnedGoal, RENEWAL_RETRY_S};
+pub use controller::{Controller, LaneConclusion, OwnedGoal, RENEWAL_RETRY_S};
+pub use passage::{MineEffect, Passage, PassageGrid, PlannedPassage};
 pub use settings::Settings;

@@ -2,6 +2,7 @@
 
 use crate::allocation::Allocation;
 use crate::clearance::Clearance;
+use crate::passage::Passage;
 use alloc::sync::Arc;
 use brain::RobotId;
 use schemars::JsonSchema;
@@ -38,6 +39,9 @@ pub struct Settings {
     /// The lane that all controllers of the kind are to clear; without it, they plan no goals.
     #[serde(skip)]
     pub clearance: Option<Arc<Clearance>>,
+    /// Vehicles that are to pass that lane once it is declared clear.
+    #[serde(skip)]
+    pub passage: Option<Arc<Passage>>,
     /// Whether a person ends its mission on the lane.
     #[serde(skip)]
     pub is_called_off: bool,
@@ -85,6 +89,7 @@ impl Default for Settings {
             robot_kinds: 0,
             controller_kinds: 0,
             clearance: None,
+            passage: None,
             is_called_off: false,
         }
     }

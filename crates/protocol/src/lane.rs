@@ -12,6 +12,8 @@ pub struct Lanes {
     pub tick: u64,
     /// The truth: number of mines in the lane that are not destroyed.
     pub mines_left: u32,
+    /// The truth: the vehicles that pass the lane; none before it is declared clear.
+    pub vehicles: Vec<VehicleView>,
     /// What each controller believes of the lane, in the order of their kinds and indices.
     pub lanes: Vec<LaneView>,
 }
@@ -42,6 +44,10 @@ pub struct LaneView {
     pub declare_below: f64,
     /// What the controller has stated about the lane; null until then.
     pub statement: Option<LaneStatementView>,
+    /// The share of the mines that are cleared, for each kind that makes the lane unsafe.
+    pub cleared: Vec<ClearedView>,
+    /// The path on which vehicles are to pass; null until the controller has stated one.
+    pub passage: Option<PassageView>,
 }
 
 /// A logarithmic scale of bytes: byte `b` stands for up to `min x (max / min)^(b / 255)`, and more than a byte less. 0 also
@@ -93,4 +99,61 @@ pub struct LaneStatementView {
     pub risk: f64,
     /// That time, on its clock.
     pub at_s: f64,
+}
+
+/// The share of the mines of a kind that are cleared, as a controller believes it to be.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ClearedView {
+    /// The kind of items.
+    pub kind: String,
+    /// Expected number of mines that have been neutralised.
+    pub cleared: f64,
+    /// Expected number of mines that are left.
+    pub left: f64,
+    /// Mean of the share that is cleared, 0 to 1.
+    pub share: f64,
+    /// Lower end of the interval that contains the share with a probability of at least 95%.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+}
+
+/// A path through a lane, and the risk of the vehicles that drive on it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PassageView {
+    /// The corners of its middle line, from one short side of the lane to the other.
+    pub path: Vec<Point>,
+    /// Its width.
+    pub width_m: f64,
+    /// Its length.
+    pub length_m: f64,
+    /// Expected number of mines within its width.
+    pub mines: f64,
+    /// The probability that each vehicle is destroyed, in their order.
+    pub risks: Vec<f64>,
+}
+
+/// A vehicle that passes a lane.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct VehicleView {
+    /// Its name, vehicle/INDEX.
+    pub name: String,
+    /// Its position; the beginning of the path before it has entered the lane.
+    pub at: Point,
+    /// Whether it has entered the lane.
+    pub has_entered: bool,
+    /// What has become of it.
+    pub status: VehicleStatus,
+}
+
+/// What has become of a vehicle that passes a lane.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum VehicleStatus {
+    /// It is before the path, or on it.
+    Driving,
+    /// It has reached the other end of the lane.
+    Passed,
+    /// A mine has destroyed it.
+    Lost,
 }

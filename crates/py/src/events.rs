@@ -24,7 +24,7 @@ impl EventReader {
     /// Removes and returns the events since the last call, in their order. Each has the number of steps before its own,
     /// its kind, the name of an item, goal or robot as it was then, and a value: of "detected" the time, of "served" the name
     /// of the robot, of "acted" what it did, the item there or None, the place and whether it succeeded, of
-    /// "destroyed" the item that destroyed the robot, of "collided" the robot's collisions so far, and of "status" the number of its status.
+    /// "destroyed" the item that destroyed the robot or vehicle, of "passed" None, of "collided" the robot's collisions so far, and of "status" the number of its status.
     fn drain<'py>(&self, py: Python<'py>) -> PyResult<Vec<EventTuple<'py>>> {
         let episodes = self.0.drain();
         let events = episodes
@@ -70,6 +70,21 @@ fn tuple<'py>(py: Python<'py>, scenario: &Scenario, event: &Event) -> PyResult<E
             let name = name_of(scenario, robot);
             (tick, "destroyed", name, item.into_bound_py_any(py)?)
         }
+        EventKind::VehicleLost { vehicle, item } => {
+            let item = named(scenario.item_kinds(), item.0.into(), item.1);
+            (
+                tick,
+                "destroyed",
+                vehicle_name(vehicle),
+                item.into_bound_py_any(py)?,
+            )
+        }
+        EventKind::VehiclePassed { vehicle } => (
+            tick,
+            "passed",
+            vehicle_name(vehicle),
+            py.None().into_bound(py),
+        ),
         EventKind::Collided { robot, total } => {
             let name = name_of(scenario, robot);
             (tick, "collided", name, total.into_bound_py_any(py)?)
@@ -79,6 +94,11 @@ fn tuple<'py>(py: Python<'py>, scenario: &Scenario, event: &Event) -> PyResult<E
             (tick, "status", name, (status as u8).into_bound_py_any(py)?)
         }
     })
+}
+
+/// The name of a vehicle that passes a lane.
+pub(crate) fn vehicle_name(index: u32) -> String {
+    format!("vehicle/{index}")
 }
 
 /// The name of an item or goal: KIND/INDEX.

@@ -1,12 +1,14 @@
 //! The mined lane of a run.
 
 use crate::economy::word;
+use crate::events::vehicle_name;
 use crate::metric_scenario::name_of;
 use crate::simulation::Simulation;
-use economy::BelievedMark;
+use economy::{BelievedMark, ClearedShare, PlannedPassage};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use sim::passage::{Vehicle, VehicleStatus};
 use sim::run::BelievedLane;
 use sim::scenario::Scenario;
 
@@ -17,9 +19,37 @@ pub(crate) fn mines_left(py: Python<'_>, simulation: &Bound<'_, Simulation>) -> 
     Ok(run.state().mines_left(run.scenario()))
 }
 
+/// The vehicles that pass the lane, in their order, each as a dict with its `name`, `x_m`, `y_m`, `has_entered` and
+/// `status`.
+#[pyfunction]
+pub(crate) fn vehicles<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+) -> PyResult<Bound<'py, PyList>> {
+    let run = simulation.get().locked(py)?;
+    let vehicles = run.state().each_vehicle();
+    let dicts = vehicles.map(|vehicle| vehicle_of(py, vehicle));
+    PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)
+}
+
+fn vehicle_of(py: Python<'_>, vehicle: Vehicle) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("name", vehicle_name(vehicle.index))?;
+    dict.set_item("x_m", vehicle.at.x)?;
+    dict.set_item("y_m", vehicle.at.y)?;
+    dict.set_item("has_entered", vehicle.has_entered)?;
+    let status = match vehicle.status {
+        VehicleStatus::Driving => "driving",
+        VehicleStatus::Passed => "passed",
+        VehicleStatus::Lost => "lost",
+    };
+    dict.set_item("status", status)?;
+    Ok(dict)
+}
+
 /// What each controller believes of the lane, each as a dict with the name of the `controller`, `corners_m`, `cell_m`,
-/// `unmarked` and `expected` of shape (rows, columns), `marks`, `risk`, `declare_below`, `cleared_below_per_m2` and
-/// `statement`.
+/// `unmarked` and `expected` of shape (rows, columns), `marks`, `risk`, `declare_below`, `cleared_below_per_m2`,
+/// `statement`, `clearance` and `passage`.
 #[pyfunction]
 pub(crate) fn lanes<'py>(
     py: Python<'py>,
@@ -52,6 +82,38 @@ fn dict_of<'py>(
     dict.set_item("marks", marks.collect::<PyResult<Vec<_>>>()?)?;
     dict.set_item("statement", statement_of(py, &lane)?)?;
     dict.set_item("unmarked", cells(lane.unmarked)?)?;
+    let cleared = lane.cleared.iter();
+    let cleared = cleared.map(|share| cleared_of(py, scenario, share));
+    dict.set_item("clearance", cleared.collect::<PyResult<Vec<_>>>()?)?;
+    let passage = lane.passage.as_ref();
+    let passage = passage.map(|passage| passage_of(py, passage));
+    dict.set_item("passage", passage.transpose()?)?;
+    Ok(dict)
+}
+
+fn cleared_of<'py>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    of: &ClearedShare,
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("kind", scenario.item_kinds().nth(of.kind))?;
+    dict.set_item("cleared", of.cleared)?;
+    dict.set_item("left", of.left)?;
+    dict.set_item("share", of.share)?;
+    dict.set_item("low", of.low)?;
+    dict.set_item("high", of.high)?;
+    Ok(dict)
+}
+
+fn passage_of<'py>(py: Python<'py>, passage: &PlannedPassage) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    let path: Vec<(f64, f64)> = passage.path.iter().map(|at| (at.x, at.y)).collect();
+    dict.set_item("path_m", path)?;
+    dict.set_item("width_m", passage.width_m)?;
+    dict.set_item("length_m", passage.length_m)?;
+    dict.set_item("mines", passage.mines)?;
+    dict.set_item("risks", passage.risks.clone())?;
     Ok(dict)
 }
 

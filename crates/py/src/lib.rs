@@ -67,7 +67,7 @@ mod _core {
     #[pymodule_export]
     use crate::inspect::{believed_map, inspect, inspection};
     #[pymodule_export]
-    use crate::lane::{lanes, mines_left};
+    use crate::lane::{lanes, mines_left, vehicles};
     #[pymodule_export]
     use crate::metric_scenario::{MetricScenario, body, read_metric};
     #[pymodule_export]

@@ -188,6 +188,7 @@ mod tests {
             goals: true,
             acts: true,
             clearance: true,
+            passage: true,
         };
         EndCondition::parse(text, ["cow", "mine"].into_iter(), has).unwrap()
     }

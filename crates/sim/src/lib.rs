@@ -18,6 +18,7 @@ pub mod end;
 pub(crate) mod failures;
 pub mod goals;
 pub mod judge;
+pub mod passage;
 pub(crate) mod poisson;
 pub mod radio;
 pub mod run;

@@ -67,7 +67,7 @@ impl Engine for Metric {
     }
 
     fn merit_terms(&self, document: &Document) -> Vec<MeritTerm> {
-        columns::columns(&[], &[], ScenarioSpec::features(document)).merit_terms()
+        columns::columns(&[], [&[], &[]], ScenarioSpec::features(document)).merit_terms()
     }
 
     fn condition_columns(&self, document: &Document) -> ConditionColumns {
@@ -112,7 +112,8 @@ impl Runs {
     fn outcome_columns(&self) -> OutcomeColumns<Scenario, Outcome> {
         let robots = self.0.kinds.iter().map(|kind| kind.name.as_str());
         let robots: Vec<&str> = robots.collect();
-        columns::columns(&self.0.max_item_counts(), &robots, self.0.features())
+        let names = [robots.as_slice(), &self.0.mines()];
+        columns::columns(&self.0.max_item_counts(), names, self.0.features())
     }
 
     fn finish(

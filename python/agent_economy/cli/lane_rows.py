@@ -18,8 +18,11 @@ def lane_rows(row: Mapping[str, Any]) -> Iterator[Row]:
         return
     left = f"; {count(row['left'], 'mine')} left" if "left" in row else ""
     yield "lane", f"{statement(row)}{left}"
+    yield from clearance_rows(row)
     if "left" in row:
         yield from act_rows(row)
+    if "vehicles_passed" in row:
+        yield from passage_rows(row)
 
 
 def statement(row: Mapping[str, Any]) -> str:
@@ -38,6 +41,34 @@ def statement(row: Mapping[str, Any]) -> str:
     lost = [name for name in ("controllers", "robots") if row[f"ended_{name}_lost"]]
     why = f": all {lost[0]} were lost" if lost else ""
     return f"neither declared clear nor given up{why}"
+
+
+def clearance_rows(row: Mapping[str, Any]) -> Iterator[Row]:
+    """Yield the share of each kind of mines that is cleared, as stated and in truth."""
+    if not (row["declared"] or row["given_up"]):
+        return
+    for name in row:
+        kind = name.removeprefix("true_clearance_")
+        if kind != name:
+            stated, low, high = (
+                row[f"stated_clearance_{kind}{end}"] for end in ("", "_low", "_high")
+            )
+            interval = f"95% interval {percent(low)} to {percent(high)}"
+            truth = f"in truth {percent(row[name])}"
+            yield f"clearance of {kind}", f"stated {percent(stated)} ({interval}); {truth}"
+
+
+def passage_rows(row: Mapping[str, Any]) -> Iterator[Row]:
+    """Yield what was stated of the passage of vehicles, and what became of them."""
+    if not row["path_m"]:
+        yield "passage", "no path was stated"
+        return
+    first, last = percent(row["stated_first_risk"]), percent(row["stated_last_risk"])
+    mines = f"path of {row['path_m']:.1f} m with {count(row['mines_on_path'], 'mine')}"
+    yield "passage", f"{mines}; stated risk {first} for the first vehicle, {last} for the last"
+    which = " with the first" if row["first_lost"] else ""
+    passed = f"{count(row['vehicles_passed'], 'vehicle')} passed"
+    yield "vehicles", f"{passed}, {row['vehicles_lost']} lost{which}"
 
 
 def act_rows(row: Mapping[str, Any]) -> Iterator[Row]:

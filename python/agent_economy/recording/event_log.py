@@ -57,6 +57,8 @@ def in_words(kind: str, value: Any) -> tuple["Log.Level.ValueType", str]:
         return act_in_words(value)
     if kind == "destroyed":
         return Log.ERROR, f"destroyed by {value}"
+    if kind == "passed":
+        return Log.INFO, "passed the lane"
     if kind == "collided":
         return Log.WARNING, f"collision, {value} in total"
     status = str(STATUSES[value])

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD, pose, stamp
+from agent_economy.recording.passage_topics import PassageTopics
 from agent_economy.runs.lane import BelievedLane
 from agent_economy.runs.simulation import Simulation
 
@@ -32,6 +33,7 @@ CELL = np.dtype([("rgba", np.uint8, 4), ("expected_mines", "<f4")])
 
 OF_RISK = ("unmarked", "marked", "probability")
 OF_STATEMENT = ("is_clear", "risk", "at_s")
+OF_SHARE = ("kind", "share", "low", "high")
 OF_MARKS = ("number", "deviation_m", "mine", "verdict", "failed_charges")
 
 
@@ -47,6 +49,7 @@ class LaneTopics:
         if self._is_on:
             file.declare(RISK, schemas.LANE)
             file.declare(MARKS, schemas.LANE_MARKS)
+            self._passage = PassageTopics(file, simulation)
 
     def write(self, time_ns: int) -> None:
         """Write the current step; the marks and maps only when they are due."""
@@ -55,6 +58,7 @@ class LaneTopics:
         lanes = self._simulation.lanes
         risk = {"mines_left": self._simulation.mines_left, "controllers": risks(lanes)}
         self._file.write_json(RISK, risk, time_ns)
+        self._passage.write(lanes, time_ns)
         statements = sum(lane.statement is not None for lane in lanes)
         if self._simulation.time_s < self._due_s and statements == self._statements:
             return
@@ -75,6 +79,10 @@ def risks(lanes: list[BelievedLane]) -> dict[str, list[Any]]:
             ]
             for key in OF_STATEMENT
         },
+        "clearance": [
+            [{key: getattr(share, key) for key in OF_SHARE} for share in lane.clearance]
+            for lane in lanes
+        ],
     }
 
 

@@ -159,6 +159,13 @@ ECONOMY = of_object(
 
 BOOLEAN_OR_NULL = {"type": ["boolean", "null"]}
 
+CLEARED: Schema = {
+    "type": "object",
+    "properties": {"kind": STRING, "share": NUMBER, "low": NUMBER, "high": NUMBER},
+    "required": ["kind", "share", "low", "high"],
+    "additionalProperties": False,
+}
+
 LANE_RISKS: dict[str, Schema] = {
     "name": each("Name of the controller, KIND/INDEX.", STRING),
     "unmarked": each("Expected number of mines without a mark, as the controller believes."),
@@ -169,6 +176,10 @@ LANE_RISKS: dict[str, Schema] = {
     ),
     "statement_risk": each("The probability at that time.", NUMBER_OR_NULL),
     "statement_at_s": each("That time, on its clock.", NUMBER_OR_NULL),
+    "clearance": each(
+        "For each kind of mines: the share that is cleared, as believed, and its interval.",
+        {"type": "array", "items": CLEARED},
+    ),
 }
 
 LANE = of_object(
@@ -197,6 +208,19 @@ LANE_MARKS = of_object(
     "agent_economy.LaneMarks",
     "The places that robots have marked, as each controller believes them to be.",
     {"marks": of_lists(OF_LANE_MARKS)},
+)
+
+LANE_PASSAGE = of_object(
+    "agent_economy.LanePassage",
+    "The path on which vehicles are to pass a mined lane, and the risk of each, as stated.",
+    {
+        "controller": STRING | {"description": "The controller that states it, KIND/INDEX."},
+        "path_m": each("Corners of its middle line, x and y.", {"type": "array", "items": NUMBER}),
+        "width_m": NUMBER | {"description": "Its width."},
+        "length_m": NUMBER | {"description": "Its length."},
+        "mines": NUMBER | {"description": "Expected number of mines within its width."},
+        "risks": each("Probability that each vehicle is destroyed, in their order."),
+    },
 )
 
 INPUT = of_object(

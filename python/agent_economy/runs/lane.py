@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from agent_economy.runs.passage import ClearedShare, Passage, stated_passage
 from agent_economy.types.brain import MarkVerdict, Point
 
 Floats = NDArray[np.float64]
@@ -80,6 +81,9 @@ class BelievedLane(NamedTuple):
         cleared_below_per_m2: Expected number of mines per square metre below which a place is
             cleared: with that density everywhere, the lane would just be declared clear.
         statement: What the controller has stated about the lane; None until then.
+        clearance: The share of the mines that are cleared, for each kind that makes the lane
+            unsafe.
+        passage: The path on which vehicles are to pass; None until the controller has stated one.
     """
 
     controller: str
@@ -92,6 +96,8 @@ class BelievedLane(NamedTuple):
     declare_below: float
     cleared_below_per_m2: float
     statement: LaneStatement | None
+    clearance: list[ClearedShare]
+    passage: Passage | None
 
     @property
     def area_m2(self) -> Floats:
@@ -120,6 +126,8 @@ def believed_lane(lane: dict[str, Any]) -> BelievedLane:
             "marks": [lane_mark(mark) for mark in lane["marks"]],
             "risk": LaneRisk(**lane["risk"]),
             "statement": None if statement is None else LaneStatement(**statement),
+            "clearance": [ClearedShare(**share) for share in lane["clearance"]],
+            "passage": stated_passage(lane["passage"]),
         }
     )
 

@@ -20,6 +20,7 @@ from agent_economy.runs.brain import (
 )
 from agent_economy.runs.lane import BelievedLane, believed_lane
 from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.passage import Vehicle, vehicle
 from agent_economy.runs.python_brains import Brains, python_brains, resized
 from agent_economy.runs.stepped import Change, Snapshot, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
@@ -540,6 +541,11 @@ class Simulation(Stepped):
         It is the truth, which no robot and no controller knows.
         """
         return _core.mines_left(self._run)
+
+    @property
+    def vehicles(self) -> list[Vehicle]:
+        """The vehicles that pass the lane, in their order; none before it is declared clear."""
+        return [vehicle(each) for each in _core.vehicles(self._run)]
 
 
 def sorted_names(external: Iterable[str]) -> tuple[str, ...]:

@@ -23,6 +23,7 @@ from agent_economy.study.answer.clearance import CLEARANCE_COLUMNS
 from agent_economy.study.answer.effort import MIN_ROUNDS, remaining_range
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.goal_time import GOAL_COLUMNS
+from agent_economy.study.answer.lane_truth import is_lane_truth
 from agent_economy.study.arguments import Floats
 from agent_economy.study.chunks import in_chunks
 from agent_economy.study.errors import NoConfigurationError, NoMoreRunsError
@@ -299,3 +300,4 @@ def reported(plan: Plan, limits: Mapping[str, object]) -> Iterator[str]:
         yield "quarantined"
     names = dict.fromkeys((*question.columns, *GOAL_COLUMNS, *CLEARANCE_COLUMNS))
     yield from (name for name in names if name in limits)
+    yield from (name for name in limits if is_lane_truth(name) and name not in names)

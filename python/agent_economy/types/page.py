@@ -37,6 +37,27 @@ class CircleView(TypedDict):
     radius: float
 
 
+class ClearedView(TypedDict):
+    """The share of the mines of a kind that are cleared, as a controller believes it to be.
+
+    Attributes:
+        kind: The kind of items.
+        cleared: Expected number of mines that have been neutralised.
+        left: Expected number of mines that are left.
+        share: Mean of the share that is cleared, 0 to 1.
+        low: Lower end of the interval that contains the share with a probability of at least
+            95%.
+        high: Its upper end.
+    """
+
+    kind: str
+    cleared: float
+    left: float
+    share: float
+    low: float
+    high: float
+
+
 class ControllerView(TypedDict):
     """A controller of a run.
 
@@ -432,6 +453,24 @@ class RiskView(TypedDict):
     probability: float
 
 
+class PassageView(TypedDict):
+    """A path through a lane, and the risk of the vehicles that drive on it.
+
+    Attributes:
+        path: The corners of its middle line, from one short side of the lane to the other.
+        width_m: Its width.
+        length_m: Its length.
+        mines: Expected number of mines within its width.
+        risks: The probability that each vehicle is destroyed, in their order.
+    """
+
+    path: Sequence[Point]
+    width_m: float
+    length_m: float
+    mines: float
+    risks: Sequence[float]
+
+
 class LaneView(TypedDict):
     """What a controller believes of a lane.
 
@@ -449,6 +488,10 @@ class LaneView(TypedDict):
         declare_below: The lane is declared clear when the probability that at least one mine is
             left is below this.
         statement: What the controller has stated about the lane; null until then.
+        cleared: The share of the mines that are cleared, for each kind that makes the lane
+            unsafe.
+        passage: The path on which vehicles are to pass; null until the controller has stated
+            one.
     """
 
     controller: str
@@ -462,6 +505,28 @@ class LaneView(TypedDict):
     risk: RiskView
     declare_below: float
     statement: LaneStatementView | None
+    cleared: Sequence[ClearedView]
+    passage: PassageView | None
+
+
+VehicleStatus: TypeAlias = Literal["driving", "passed", "lost"]
+"""What has become of a vehicle that passes a lane."""
+
+
+class VehicleView(TypedDict):
+    """A vehicle that passes a lane.
+
+    Attributes:
+        name: Its name, vehicle/INDEX.
+        at: Its position; the beginning of the path before it has entered the lane.
+        has_entered: Whether it has entered the lane.
+        status: What has become of it.
+    """
+
+    name: str
+    at: Point
+    has_entered: bool
+    status: VehicleStatus
 
 
 class Lanes(TypedDict):
@@ -470,6 +535,7 @@ class Lanes(TypedDict):
     Attributes:
         tick: The current tick.
         mines_left: The truth: number of mines in the lane that are not destroyed.
+        vehicles: The truth: the vehicles that pass the lane; none before it is declared clear.
         lanes: What each controller believes of the lane, in the order of their kinds and
             indices.
     """
@@ -477,6 +543,7 @@ class Lanes(TypedDict):
     type: Literal["lanes"]
     tick: int
     mines_left: int
+    vehicles: Sequence[VehicleView]
     lanes: Sequence[LaneView]
 
 

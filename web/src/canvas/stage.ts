@@ -191,6 +191,7 @@ export class Stage {
       map,
       economy,
       lane: laneOf(lanes, this.host.laneController),
+      vehicles: lanes?.vehicles ?? [],
       controller: this.host.controller,
       robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),

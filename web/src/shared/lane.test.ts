@@ -32,6 +32,8 @@ const lane = (rest: Partial<LaneView> = {}): LaneView => ({
   risk: { unmarked: 0.021, marked: 0.0101, probability: 0.0306 },
   declare_below: 0.05,
   statement: null,
+  cleared: [],
+  passage: null,
   ...rest,
 });
 const mark = (rest: Partial<MarkView> = {}): MarkView => ({
@@ -58,7 +60,7 @@ test("a person ends the mission of the kind of controllers that has a lane", () 
 
 test("the first controller is shown until another one is chosen", () => {
   const all = [lane(), lane({ controller: "station/1" })];
-  const lanes = { tick: 0, mines_left: 2, lanes: all, type: "lanes" as const };
+  const lanes = { tick: 0, mines_left: 2, vehicles: [], lanes: all, type: "lanes" as const };
   expect(laneOf(lanes, null)).toBe(all[0]);
   expect(laneOf(lanes, "station/1")).toBe(all[1]);
   // It was removed from the scenario.

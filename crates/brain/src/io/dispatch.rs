@@ -365,6 +365,7 @@ mod tests {
             at_m: [0.0; 2],
             deviation_m: 0.5,
             log_ratios: [0.0; 4],
+            missed_since: 0.0,
         };
         let hash = |dispatch: Dispatch| {
             let mut hash = Hash::default();

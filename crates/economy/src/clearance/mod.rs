@@ -3,6 +3,7 @@
 //! * [`settings`]: what it knows before: the lane, the prior, and the sensors of robots;
 //! * [`coverage`]: what robots have searched; [`marks`]: what they have detected, fused by [`place`];
 //! * [`picture`]: both together; [`remaining`]: what follows for each cell; [`risk`]: the probability that at least one mine is left;
+//! * [`cleared`]: the share of the mines of each kind that are cleared;
 //! * [`plan`]: the goals that follow; [`declare`]: whether the lane is declared clear or given up.
 //!
 //! ```text
@@ -16,6 +17,7 @@
 //! The number of unmarked items does not depend on how many have been marked: marked and unmarked
 //! items of a Poisson prior are independent. Models are blind to items independently of each other.
 
+mod cleared;
 mod coverage;
 mod declare;
 mod marks;
@@ -28,6 +30,7 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use cleared::ClearedShare;
 pub(crate) use declare::Decision;
 pub use declare::LaneStatement;
 pub use picture::{BelievedMark, LanePicture};

@@ -1,5 +1,7 @@
 //! The lane as a controller believes it to be.
 
+mod kinds;
+
 use super::coverage::Searched;
 use super::marks::Marks;
 use super::place::{GONE, Place};

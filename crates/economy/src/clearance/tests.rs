@@ -12,5 +12,6 @@
 mod calibration;
 mod closed_forms;
 mod marks;
+mod passage;
 mod plan;
 mod simulated;

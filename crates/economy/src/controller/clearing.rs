@@ -45,6 +45,7 @@ impl Controller {
             if let Some(statement) = work.decision.statement {
                 act = Some(statement.act());
                 work.gain = Some(0.0);
+                work.conclusion = Some(self.concluded(&work.picture));
                 self.cancel(&mut work, |_| false);
             } else {
                 self.issue(&mut work, plan, percept);

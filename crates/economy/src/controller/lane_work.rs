@@ -1,5 +1,6 @@
 //! What a controller knows of a mined lane, and the goals that it has planned.
 
+use super::conclusion::LaneConclusion;
 use super::owned::Owned;
 use super::tried::Tried;
 use crate::clearance::plan::{Proposal, Subject};
@@ -41,6 +42,9 @@ impl Hashed for Clearing {
 pub(super) struct LaneWork {
     pub(super) picture: LanePicture,
     pub(super) decision: Decision,
+    /// What it stated beside the risk; it follows from the picture of that time.
+    #[hashed(skip)]
+    pub(super) conclusion: Option<LaneConclusion>,
     pub(super) planned: Vec<Planned>,
     /// How often places have been interrogated.
     pub(super) interrogated: Vec<(u32, u32)>,
@@ -85,6 +89,7 @@ impl Clearing {
             Box::new(LaneWork {
                 picture: LanePicture::new(clearance.clone()),
                 decision: Decision::default(),
+                conclusion: None,
                 planned: Vec::new(),
                 interrogated: Vec::new(),
                 tried: Tried::default(),

@@ -9,13 +9,16 @@
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
 //!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
 //!   [`colleagues`]: the other controllers, by their [`presence`];
-//! * [`clearing`]: the goals of a mined lane, [`lane_work`], their state, and [`tried`], searches in vain.
+//! * [`clearing`]: the goals of a mined lane, [`lane_work`], their state, and [`tried`], searches in vain;
+//!   [`conclusion`]: what it states beside the risk, by [`concluding`].
 
 mod arbitration;
 mod auction;
 mod bids;
 mod clearing;
 mod colleagues;
+mod concluding;
+mod conclusion;
 mod displacement;
 mod estates;
 mod heirs;
@@ -33,6 +36,7 @@ mod unserved;
 mod wards;
 
 pub(crate) use auction::{CALLS_PER_STEP, REPEAT_S};
+pub use conclusion::LaneConclusion;
 pub use tenures::RENEWAL_RETRY_S;
 
 use crate::clearance::{LanePicture, LaneStatement};

@@ -81,6 +81,7 @@ impl ControllerSpec {
             robot_kinds,
             controller_kinds,
             clearance: None,
+            passage: None,
             is_called_off: self.clearance.as_ref().is_some_and(|lane| lane.called_off),
         }
     }

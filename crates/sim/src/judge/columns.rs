@@ -5,6 +5,7 @@ use super::clearance_columns;
 use super::find_times::{find_time, find_times};
 use super::goal_columns::{self, Column};
 use super::outcome::Outcome;
+use super::passage_columns;
 use super::unseen::unseen;
 use crate::scenario::features::Features;
 use crate::scenario::{Scenario, ScenarioSpec};
@@ -16,10 +17,10 @@ use base::scenario::condition::{ConditionColumns, TimesUntil};
 /// The outcome columns of scenarios with these kinds of robots and of items, each of these with the largest number of items in any
 /// configuration of the study: all configurations have the same columns. With kinds of goals, there are those of goals;
 /// where anything can happen to items besides detections, those of acts, and where controllers clear a lane, those of its
-/// clearance.
+/// clearance, with its kinds of mines, and of vehicles that pass it.
 pub(crate) fn columns(
     items: &[(&str, u32)],
-    robots: &[&str],
+    [robots, mines]: [&[&str]; 2],
     has: Features,
 ) -> OutcomeColumns<Scenario, Outcome> {
     let items = items.iter().copied().enumerate();
@@ -31,7 +32,12 @@ pub(crate) fn columns(
     let clearance = has
         .clearance
         .then(|| clearance_columns::columns(robots, has));
-    let more = [goals, acts, clearance].into_iter().flatten().flatten();
+    let cleared = has.clearance.then(|| passage_columns::of_mines(mines));
+    let passage = has.passage.then(passage_columns::columns);
+    let more = [goals, acts, clearance, cleared, passage]
+        .into_iter()
+        .flatten()
+        .flatten();
     let columns = columns.chain(more);
     OutcomeColumns(columns.chain(counts).chain(times).collect())
 }
@@ -46,7 +52,10 @@ pub(crate) fn condition_columns(document: &Document) -> ConditionColumns {
     let items = items.as_slice();
     let robots = ScenarioSpec::names(document, &["robots"]).unwrap_or_default();
     let robots: Vec<&str> = robots.iter().map(String::as_str).collect();
-    let names = columns(items, &robots, ScenarioSpec::features(document)).names();
+    let mines = ScenarioSpec::mines(document);
+    let mines: Vec<&str> = mines.iter().map(String::as_str).collect();
+    let names = [robots.as_slice(), &mines];
+    let names = columns(items, names, ScenarioSpec::features(document)).names();
     let lengths = items.iter().map(|(_, count)| find_times(*count) as usize);
     let mut start = names.len() - lengths.clone().sum::<usize>();
     let mut times = Vec::new();
@@ -193,7 +202,7 @@ mod tests {
 
     #[test]
     fn merit_terms_are_summed_in_the_order_of_stored_studies() {
-        let terms = columns(&[], &[], Features::default()).merit_terms();
+        let terms = columns(&[], [&[], &[]], Features::default()).merit_terms();
         let names: Vec<&str> = terms.iter().map(|term| &*term.name).collect();
         let expected = "time robots failed price found missed collisions energy distance stopped \
                         false_alarms";

@@ -5,6 +5,7 @@ use super::clearance_tally::ClearanceTally;
 use super::moment::Moment;
 use crate::bodies::body_state::Status;
 use crate::end::Count;
+use crate::passage::convoy::Convoy;
 use crate::scenario::Scenario;
 
 /// A reason for which a run is over.
@@ -64,9 +65,11 @@ impl EndRule {
 }
 
 impl Moment<'_> {
-    /// Whether the run is over: one of the rules holds.
+    /// Whether the run is over: one of the rules holds. While vehicles pass a lane, only the time limit ends it.
     pub(crate) fn is_over(&self) -> bool {
-        EndRule::ALL.iter().any(|rule| rule.holds(self))
+        let is_passing = self.convoy.is_some_and(Convoy::is_driving);
+        let mut rules = EndRule::ALL.iter();
+        rules.any(|rule| rule.holds(self) && (!is_passing || *rule == EndRule::TimeLimit))
     }
 
     fn has_lost_controllers(&self) -> bool {

@@ -66,6 +66,18 @@ pub enum EventKind {
         /// The number of the kind of the item, and its index.
         item: (u16, u32),
     },
+    /// A mine has destroyed a vehicle that passes a lane.
+    VehicleLost {
+        /// The index of the vehicle.
+        vehicle: u32,
+        /// The number of the kind of the item, and its index.
+        item: (u16, u32),
+    },
+    /// A vehicle has passed a lane.
+    VehiclePassed {
+        /// The index of the vehicle.
+        vehicle: u32,
+    },
     /// A robot ran into something, or something into it.
     Collided {
         /// The robot.

@@ -4,6 +4,7 @@ use super::tally::Tally;
 use crate::bodies::body_state::BodyState;
 use crate::bodies::path::Orientation;
 use crate::goals::placed::Goals;
+use crate::passage::convoy::Convoy;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::geometry::Disc;
@@ -16,6 +17,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) tick: u64,
     pub(crate) items: &'a Items,
     pub(crate) tally: &'a Tally,
+    /// Vehicles that pass a lane.
+    pub(crate) convoy: Option<&'a Convoy>,
     pub(crate) goals: &'a Goals,
     /// Goals that controllers have refused.
     pub(crate) goals_refused: u32,

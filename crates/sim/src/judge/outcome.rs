@@ -2,8 +2,10 @@
 
 use super::act_outcome::ActOutcome;
 use super::clearance_outcome::ClearanceOutcome;
+use super::conclusion_tally::StatedClearance;
 use super::goal_outcome::GoalOutcome;
 use super::moment::Moment;
+use super::passage_outcome::PassageOutcome;
 use crate::clock::seconds;
 
 /// The outcome of a run, named like the columns of results.
@@ -36,6 +38,11 @@ pub struct Outcome {
     pub acts: Option<ActOutcome>,
     /// What controllers stated of a lane that they were to clear, and whether that was true.
     pub clearance: Option<ClearanceOutcome>,
+    /// The share of the mines of each kind that were cleared when controllers made a statement about a lane, as stated and in
+    /// truth; none before.
+    pub cleared: Vec<StatedClearance>,
+    /// What was stated of vehicles that are to pass the lane, and what became of them; `None` if none are.
+    pub passage: Option<PassageOutcome>,
     /// Whether every robot has a finite pose.
     is_placed: bool,
 }
@@ -72,6 +79,11 @@ impl Outcome {
                 .clearance
                 .as_ref()
                 .map(|clearance| ClearanceOutcome::of(moment, clearance)),
+            cleared: tally
+                .conclusion
+                .as_ref()
+                .map_or_else(Vec::new, |conclusion| conclusion.cleared.clone()),
+            passage: scenario.passage.map(|_| PassageOutcome::of(moment)),
             is_placed: is_placed(moment),
         }
     }

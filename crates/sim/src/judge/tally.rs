@@ -2,6 +2,7 @@
 
 use super::act_tally::{ActTally, Done};
 use super::clearance_tally::ClearanceTally;
+use super::conclusion_tally::ConclusionTally;
 use super::cost::Cost;
 use super::detections::{Detections, Sighting};
 use super::events::{EventKind, EventLog};
@@ -42,6 +43,8 @@ pub(crate) struct Tally {
     pub(crate) acts: Option<Box<ActTally>>,
     /// What was noted of a lane, in a scenario where controllers are to clear one.
     pub(crate) clearance: Option<Box<ClearanceTally>>,
+    /// What controllers stated of that lane beside the risk.
+    pub(crate) conclusion: Option<Box<ConclusionTally>>,
 }
 
 impl Tally {
@@ -205,6 +208,7 @@ impl Tally {
         if let Some((next, before)) = next.clearance.as_mut().zip(self.clearance.as_ref()) {
             **next = before.continued(scenario);
         }
+        next.conclusion.clone_from(&self.conclusion);
         for (kind, record) in items.kinds().zip(&next.records) {
             next.found[usize::from(kind)] += u32::from(record.detected.is_some());
         }
@@ -226,6 +230,9 @@ impl Tally {
         }
         if let Some(clearance) = &self.clearance {
             clearance.add_to(hash);
+        }
+        if let Some(conclusion) = &self.conclusion {
+            conclusion.as_ref().add_to(hash);
         }
         if self.removed != Cost::default() {
             hash.add(self.removed.energy_j.to_bits());

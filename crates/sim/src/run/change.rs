@@ -42,6 +42,7 @@ impl State {
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
         (next.tick, next.decisions) = (self.tick, self.decisions);
+        next.convoy.clone_from(&self.convoy);
         let old = previous_numbers(self, from, &next, to);
         let old_controllers = previous_controllers(self, from, &next, to);
         let mut ids = new_ids(self, &next, &old);

@@ -36,6 +36,7 @@ impl State {
         }
         let kinds = from.goals.iter().enumerate();
         errors.extend(kinds.filter_map(|kind| self.of_count(kind, to)));
+        errors.extend(self.of_passage(from, to));
         errors
     }
 

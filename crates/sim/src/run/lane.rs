@@ -2,11 +2,12 @@
 
 use super::state::State;
 use crate::judge::clearance_tally::Remains;
+use crate::passage::Vehicle;
 use crate::scenario::Scenario;
 use base::geometry::{Point, Rectangle};
 use brain::{Lane, RobotId};
 use core::f64::consts::FRAC_1_SQRT_2;
-use economy::{BelievedMark, LanePicture, LaneStatement, Risk};
+use economy::{BelievedMark, ClearedShare, LanePicture, LaneStatement, PlannedPassage, Risk};
 
 /// What a controller believes of the lane that it is to clear.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +28,10 @@ pub struct BelievedLane {
     pub declare_below: f64,
     /// What it has stated about the lane.
     pub statement: Option<LaneStatement>,
+    /// The share of the mines of each kind that are cleared.
+    pub cleared: Vec<ClearedShare>,
+    /// The path on which vehicles are to pass, once it has stated one.
+    pub passage: Option<PlannedPassage>,
 }
 
 impl BelievedLane {
@@ -89,7 +94,27 @@ impl State {
                 free_m2: picture.clearance().free_area_m2(),
                 declare_below: picture.clearance().declare_below,
                 statement: agent.controller.lane_statement(),
+                cleared: picture.cleared(),
+                passage: agent.controller.stated_passage().cloned(),
             })
+        })
+    }
+
+    /// The vehicles that pass a lane, in their order; none before it is declared clear.
+    pub fn each_vehicle(&self) -> impl Iterator<Item = Vehicle> {
+        self.convoy.iter().flat_map(|convoy| convoy.each_vehicle())
+    }
+
+    /// Number of items of a kind in the lane at the start, and of those that are not destroyed.
+    pub(crate) fn mines_of(&self, scenario: &Scenario, kind: usize) -> [u32; 2] {
+        let lane = scenario.clearance().map(|clearance| clearance.lane.area());
+        let kinds = (0..).zip(self.items.kinds());
+        let own = kinds.filter(|(item, of)| {
+            let is_inside = lane.is_some_and(|lane| lane.contains(self.items.place(*item)));
+            usize::from(*of) == kind && is_inside
+        });
+        own.fold([0, 0], |[all, left], (item, _)| {
+            [all + 1, left + u32::from(!self.items.is_gone(item))]
         })
     }
 
@@ -157,6 +182,8 @@ mod tests {
             free_m2: lane.area().area_m2(),
             declare_below: 0.05,
             statement: None,
+            cleared: Vec::new(),
+            passage: None,
         }
     }
 

@@ -9,6 +9,7 @@ mod economy;
 mod external;
 mod failing;
 mod fixed;
+mod fixed_passage;
 mod goals;
 mod lane;
 pub(crate) mod participant;

@@ -11,6 +11,7 @@ use crate::goals::placed::Goals;
 use crate::judge::Outcome;
 use crate::judge::moment::Moment;
 use crate::judge::tally::Tally;
+use crate::passage::convoy::Convoy;
 use crate::radio::channel::RadioChannel;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
@@ -41,6 +42,8 @@ pub struct State {
     pub(crate) goals: Goals,
     pub(crate) items: Items,
     pub(crate) channel: RadioChannel,
+    /// Vehicles that pass a lane that was declared clear.
+    pub(crate) convoy: Option<Box<Convoy>>,
     pub(crate) tally: Tally,
     /// A hash of all decisions since it was switched on; `None` while it is off.
     pub(crate) decisions: Option<u64>,
@@ -69,6 +72,7 @@ impl State {
             goals,
             items,
             channel: RadioChannel::default(),
+            convoy: None,
             decisions: None,
         };
         state.place_robots(scenario)?;
@@ -159,6 +163,7 @@ impl State {
             goals_refused: counted(Controller::refused),
             leases_lapsed: counted(Controller::lapses),
             tally: &self.tally,
+            convoy: self.convoy.as_deref(),
             discs: &self.discs,
             orientations: &self.orientations,
             body_states: &self.body_states,

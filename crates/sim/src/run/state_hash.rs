@@ -24,6 +24,9 @@ impl State {
         self.channel.hash_messages(&mut hash);
         self.hash_inboxes(&mut hash);
         self.hash_controllers(&mut hash);
+        if let Some(convoy) = &self.convoy {
+            convoy.as_ref().add_to(&mut hash);
+        }
         hash.value()
     }
 

@@ -35,6 +35,7 @@ impl Scenario {
             goals: !self.goals.is_empty(),
             acts: self.has_acts,
             clearance: self.clearance().is_some(),
+            passage: self.passage.is_some(),
         }
     }
 }
@@ -46,6 +47,7 @@ impl ScenarioSpec {
             goals: Self::has_goals(document),
             acts: Self::has_acts(document),
             clearance: Self::may_clear(document),
+            passage: Self::may_pass(document),
         }
     }
 
@@ -54,6 +56,26 @@ impl ScenarioSpec {
         let names = Self::names(document, &["controllers"]).unwrap_or_default();
         let mut names = names.iter();
         names.any(|name| document.get(&["controllers", name, "clearance"]).is_some())
+    }
+
+    /// Whether vehicles are to pass the lane. Works on documents with errors, too.
+    fn may_pass(document: &Document) -> bool {
+        document.get(&["passage"]).is_some()
+    }
+
+    /// The kinds of items that are targets in any configuration of a document. Works on documents with errors, too.
+    pub(crate) fn mines(document: &Document) -> Vec<String> {
+        let mut names = Self::names(document, &["items"]).unwrap_or_default();
+        names.retain(|name| Self::may_be_target(document, name));
+        names
+    }
+
+    /// Whether items of a kind are targets in any configuration of a document.
+    fn may_be_target(document: &Document, name: &str) -> bool {
+        let factor = format!("items.{name}.target");
+        let target = document.get(&["items", name, "target"]);
+        let is_target = target.is_none_or(|node| node.value != Value::Bool(false));
+        is_target || document.get(&["study", "vary", &factor]).is_some()
     }
 
     /// Whether anything can happen to items besides detections in any configuration of a document.
@@ -98,6 +120,7 @@ impl Scenario {
         self.has_acts = ScenarioSpec::has_acts(document);
         for kind in &mut self.items {
             kind.max_count = max_number(document, &kind.name);
+            kind.may_be_target = ScenarioSpec::may_be_target(document, &kind.name);
         }
         self
     }

@@ -36,6 +36,12 @@ impl Scenario {
         counts.collect()
     }
 
+    /// The kinds of items that are targets in any configuration of the study.
+    pub(crate) fn mines(&self) -> Vec<&str> {
+        let kinds = self.items.iter().filter(|kind| kind.may_be_target);
+        kinds.map(|kind| kind.name.as_str()).collect()
+    }
+
     /// The brain with which robots of a kind start.
     #[must_use]
     pub fn brain(&self, kind: u8) -> Option<&Brain> {

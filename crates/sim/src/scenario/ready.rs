@@ -10,6 +10,7 @@ use crate::bodies::kind::{Kind, KindContext};
 use crate::controllers::kind::ControllerKind;
 use crate::end::EndCondition;
 use crate::goals::kind::{GoalContext, GoalKind};
+use crate::passage::PassageSpec;
 use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::item_number::ItemNumber;
@@ -56,6 +57,8 @@ pub struct Scenario {
     /// Kinds of controllers; ids number them after the kinds of robots.
     pub(crate) controllers: Vec<ControllerKind>,
     pub(crate) goals: Vec<GoalKind>,
+    /// Vehicles that are to pass the lane.
+    pub(crate) passage: Option<PassageSpec>,
     pub(crate) clocks: AgentClocks,
     /// Whether robots or controllers fail at random times.
     pub(crate) has_failures: bool,
@@ -122,7 +125,7 @@ impl Scenario {
         let is_covered = |place| is_covered(&solids, &near_solids, place);
         let is_covered: &dyn Fn(Point) -> bool = &is_covered;
         let controllers = controllers(spec, (!solids.is_empty()).then_some(is_covered));
-        Self {
+        let scenario = Self {
             step_s,
             time_limit_s: spec.clock.time_limit_s,
             steps: steps_of(spec.clock.time_limit_s, step_s),
@@ -147,8 +150,10 @@ impl Scenario {
             },
             has_failures: spec.has_failures(),
             has_acts: false,
+            passage: None,
             kinds,
-        }
+        };
+        scenario.with_passage(spec)
     }
 
     /// The obstacles on the ground.
@@ -401,6 +406,7 @@ fn end_of(spec: &ScenarioSpec, items: &[ItemKind]) -> Option<EndCondition> {
         goals: !spec.goals.is_empty(),
         acts: true,
         clearance: spec.has_clearance(),
+        passage: spec.passage.is_some(),
     };
     EndCondition::parse(&end.when, items, has).ok()
 }

@@ -6,6 +6,7 @@ use crate::clock::ClockSpec;
 use crate::controllers::ControllerSpec;
 use crate::end::EndSpec;
 use crate::goals::GoalSpec;
+use crate::passage::PassageSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
@@ -40,6 +41,8 @@ pub struct ScenarioSpec {
     /// Kinds of goals, each under a name of your choice.
     #[serde(default)]
     pub goals: BTreeMap<String, GoalSpec>,
+    /// Vehicles that are to pass the lane that controllers clear.
+    pub passage: Option<PassageSpec>,
     /// When a run is complete and over; without this table, when all targets are found and all goals are served.
     pub end: Option<EndSpec>,
 }
@@ -49,7 +52,7 @@ pub(super) static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<Scena
 
 impl ScenarioSpec {
     /// The keys at the root of a document that this type reads.
-    pub const KEYS: [&str; 9] = [
+    pub const KEYS: [&str; 10] = [
         "clock",
         "world",
         "terrain",
@@ -58,6 +61,7 @@ impl ScenarioSpec {
         "robots",
         "controllers",
         "goals",
+        "passage",
         "end",
     ];
 

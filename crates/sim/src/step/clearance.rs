@@ -1,6 +1,7 @@
 //! What the judge notes of a lane that controllers are to clear: what they state, and what was sent.
 
 use super::decide::WorkerScratch;
+use super::passage;
 use crate::bodies::body_state::Status;
 use crate::judge::clearance_tally::Progress;
 use crate::run::state::State;
@@ -30,5 +31,8 @@ pub(super) fn observe(scenario: &Scenario, state: &mut State, workers: &[WorkerS
     let remains = |controller: usize| state.remains(scenario, controller);
     let is_counted = tally.observe(state.tick, controllers, remains);
     state.tally.clearance = Some(tally);
+    if is_counted {
+        passage::conclude(scenario, state);
+    }
     is_counted
 }

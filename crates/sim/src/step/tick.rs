@@ -4,6 +4,7 @@ use super::act::Moves;
 use super::acts;
 use super::clearance;
 use super::communicate;
+use super::convoy;
 use super::decide::{StepInputs, WorkerScratch};
 use super::decision_hash::{add_decisions, add_setpoints};
 use super::direct::ControllerScratch;
@@ -104,6 +105,7 @@ impl StepScratch {
             let is_counted = self.judge_goals(scenario, state);
             let collisions = self.act(scenario, state) + self.touch_external(scenario, state);
             let is_counted = hazards::detonate(scenario, state, &self.events) | is_counted;
+            let is_counted = convoy::drive(scenario, state, &self.events) | is_counted;
             let is_counted = acts::carry_out(scenario, state, &self.events) | is_counted;
             self.judge((scenario, state), external, collisions) | is_counted | is_stated
         };

@@ -102,6 +102,8 @@ pub(crate) struct ItemKind {
     /// The largest number of items of this kind in a run of any configuration of the study.
     pub(crate) max_count: u32,
     pub(crate) is_target: bool,
+    /// Whether it is a target in any configuration of the study.
+    pub(crate) may_be_target: bool,
     pub(crate) completed_by: CompletedBy,
     pub(crate) hazard: Option<HazardSpec>,
     pub(crate) placement: Placement,
@@ -116,6 +118,7 @@ impl ItemKind {
             number: spec.number,
             max_count: spec.max_number(),
             is_target: spec.target,
+            may_be_target: spec.target,
             completed_by: spec.completed_by,
             hazard: spec.hazard,
             placement: spec.placement.clone(),

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from agent_economy.runs.lane import BelievedLane, Floats, LaneMark
 from agent_economy.runs.simulation import Simulation
 from agent_economy.server.runs.belief_view import packed
+from agent_economy.server.runs.passage_view import cleared_view, passage_view, vehicle_view
 from agent_economy.types.page import Lanes, LaneScale, LaneView, MarkView
 
 DECADES_BELOW, DECADES_ABOVE = 1, 4
@@ -24,6 +25,7 @@ def lanes(simulation: Simulation) -> Lanes | None:
         "type": "lanes",
         "tick": simulation.tick,
         "mines_left": simulation.mines_left,
+        "vehicles": [vehicle_view(vehicle) for vehicle in simulation.vehicles],
         "lanes": [lane_view(lane) for lane in lanes],
     }
 
@@ -55,6 +57,8 @@ def lane_view(lane: BelievedLane) -> LaneView:
             "risk": lane.statement.risk,
             "at_s": lane.statement.at_s,
         },
+        "cleared": [cleared_view(share) for share in lane.clearance],
+        "passage": None if lane.passage is None else passage_view(lane.passage),
     }
 
 

@@ -6,6 +6,12 @@ import numpy as np
 
 from agent_economy.study.answer import estimate
 from agent_economy.study.answer.evidence import Interval, Sample
+from agent_economy.study.answer.lane_truth import (
+    ClearedKind,
+    VehicleRisk,
+    cleared_kinds,
+    vehicle_risk,
+)
 from agent_economy.study.arguments import Floats
 
 CLEARANCE_COLUMNS = ("declared", "declared_not_clear", "stated_risk", "declared_s")
@@ -32,6 +38,8 @@ class Clearance:
         declared_s: Mean time until the declaration of the declared lanes; None if none was.
         cleared_s: Mean time until the declaration of all lanes; those that were not declared count
             with the time limit. None if all runs are quarantined.
+        cleared: The share of the mines of each kind that are cleared, in the declared lanes.
+        vehicles: How often vehicles that passed declared lanes were lost; None without any.
     """
 
     lanes: int
@@ -42,6 +50,8 @@ class Clearance:
     stated_risk: float | None
     declared_s: float | None
     cleared_s: float | None
+    cleared: tuple[ClearedKind, ...] = ()
+    vehicles: VehicleRisk | None = None
 
 
 def clearance(sample: Sample, confidence: float) -> Clearance | None:
@@ -63,6 +73,8 @@ def clearance(sample: Sample, confidence: float) -> Clearance | None:
         stated_risk=mean(columns["stated_risk"][is_declared]),
         declared_s=mean(columns["declared_s"][is_declared]),
         cleared_s=mean(columns["declared_s"][is_outcome]),
+        cleared=cleared_kinds(columns, is_declared),
+        vehicles=vehicle_risk(columns, is_declared, confidence),
     )
 
 
@@ -78,10 +90,26 @@ def in_words(of: Clearance) -> str:
     """
     if of.risk is None or of.stated_risk is None:
         return f"declared none of {of.lanes:,} lanes clear, so that the risk is not known"
+    cleared = "".join(f"; {cleared_in_words(each)}" for each in of.cleared)
+    vehicles = f"; {vehicles_in_words(of.vehicles)}" if of.vehicles else ""
     return (
         f"declared {percent(of.declared_share.value)} of lanes clear; of these, "
         f"{percent(of.risk.value)} ({percent(of.risk.low)[:-1]} to {percent(of.risk.high)}) were "
-        f"not clear; stated {percent(of.stated_risk)}"
+        f"not clear; stated {percent(of.stated_risk)}{cleared}{vehicles}"
+    )
+
+
+def cleared_in_words(of: ClearedKind) -> str:
+    """Return the share of a kind that is cleared: "clearance of mine 98.8%, stated 98.9%"."""
+    return f"clearance of {of.kind} {percent(of.share)}, stated {percent(of.stated)}"
+
+
+def vehicles_in_words(of: VehicleRisk) -> str:
+    """Return how often the first vehicle was lost: "first vehicle lost in 1.2% ..., stated 1%"."""
+    lost = of.first_lost
+    bounds = f"{percent(lost.low)[:-1]} to {percent(lost.high)}"
+    return (
+        f"first vehicle lost in {percent(lost.value)} ({bounds}), stated {percent(of.first_stated)}"
     )
 
 

@@ -1,5 +1,7 @@
 """The section on lanes that teams declared clear: the risk beside the share declared; a front."""
 
+from collections.abc import Iterator
+
 from agent_economy.study.answer.clearance import Clearance, in_words, percent
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.verdict import upper
@@ -11,6 +13,8 @@ from agent_economy.study.report.view import MAX_SHOWN
 from agent_economy.study.selection import percentage
 
 HEADS = ("lanes", "declared clear", "risk", "stated risk", "mean time until declared, s")
+CLEARED_HEADS = ("cleared", "stated", "stated interval", "in the interval")
+VEHICLE_HEADS = ("first lost", "stated", "last lost", "stated")
 FRONT_HEADS = ("price", "declared clear", "risk", "mean time of all lanes, s")
 
 
@@ -38,7 +42,12 @@ def clearance(view: AnyView) -> Section:
     return Section(
         "Lanes declared clear",
         (*own, meaning, *([on_front] if front(view) else []), *([some] if shown < total else [])),
-        tables=(table(view), *([front_table(view)] if front(view) else [])),
+        tables=(
+            table(view),
+            *cleared_tables(view),
+            *vehicle_tables(view),
+            *([front_table(view)] if front(view) else []),
+        ),
         is_folded=False,
     )
 
@@ -57,6 +66,45 @@ def table(view: AnyView) -> Table:
     }
     caption = "Lanes declared clear, and the share of these that were not clear"
     return styled(view, caption, ("configuration", *HEADS), rows, marking(view))
+
+
+def cleared_tables(view: AnyView) -> Iterator[Table]:
+    """Yield a table for each kind of mines: the share that is cleared, in the mean."""
+    shown = view.with_clearance.items()
+    for kind in dict.fromkeys(each.kind for _, of in shown for each in of.cleared):
+        rows = {
+            index: (
+                Cell(percent(each.share)),
+                Cell(percent(each.stated)),
+                Cell(f"{percent(each.low)} to {percent(each.high)}"),
+                Cell(percent(each.inside)),
+            )
+            for index, of in shown
+            for each in of.cleared
+            if each.kind == kind
+        }
+        caption = (
+            f"Share of {kind} that was cleared in declared lanes, in the mean; a lane without any "
+            "counts as cleared"
+        )
+        yield styled(view, caption, ("configuration", *CLEARED_HEADS), rows, marking(view))
+
+
+def vehicle_tables(view: AnyView) -> Iterator[Table]:
+    """Yield the table of vehicles that passed declared lanes, if there were any."""
+    rows = {
+        index: (
+            share(of.vehicles.first_lost),
+            Cell(percent(of.vehicles.first_stated)),
+            share(of.vehicles.last_lost),
+            Cell(percent(of.vehicles.last_stated)),
+        )
+        for index, of in view.with_clearance.items()
+        if of.vehicles is not None
+    }
+    if rows:
+        caption = "Lanes in which the first and the last vehicle were lost"
+        yield styled(view, caption, ("configuration", *VEHICLE_HEADS), rows, marking(view))
 
 
 def front_table(view: AnyView) -> Table:

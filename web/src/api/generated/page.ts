@@ -19,6 +19,22 @@ export interface CircleView {
   radius: number;
 }
 
+/** The share of the mines of a kind that are cleared, as a controller believes it to be. */
+export interface ClearedView {
+  /** The kind of items. */
+  kind: string;
+  /** Expected number of mines that have been neutralised. */
+  cleared: number;
+  /** Expected number of mines that are left. */
+  left: number;
+  /** Mean of the share that is cleared, 0 to 1. */
+  share: number;
+  /** Lower end of the interval that contains the share with a probability of at least 95%. */
+  low: number;
+  /** Its upper end. */
+  high: number;
+}
+
 /** A controller of a run. */
 export interface ControllerView {
   /** Its name, KIND/INDEX. */
@@ -231,6 +247,10 @@ export interface LaneView {
   declare_below: number;
   /** What the controller has stated about the lane; null until then. */
   statement: LaneStatementView | null;
+  /** The share of the mines that are cleared, for each kind that makes the lane unsafe. */
+  cleared: ClearedView[];
+  /** The path on which vehicles are to pass; null until the controller has stated one. */
+  passage: PassageView | null;
 }
 
 /** A change of the scenario: the tick, the path and the new value. */
@@ -445,6 +465,20 @@ export type ParameterKind = "whole" | "real" | "choice";
 /** A value of a parameter. */
 export type ParameterValue = number | string | boolean;
 
+/** A path through a lane, and the risk of the vehicles that drive on it. */
+export interface PassageView {
+  /** The corners of its middle line, from one short side of the lane to the other. */
+  path: Point[];
+  /** Its width. */
+  width_m: number;
+  /** Its length. */
+  length_m: number;
+  /** Expected number of mines within its width. */
+  mines: number;
+  /** The probability that each vehicle is destroyed, in their order. */
+  risks: number[];
+}
+
 /** A key of a table, or a place in a list. */
 export type PathStep = string | number;
 
@@ -633,6 +667,8 @@ export interface Lanes {
   tick: number;
   /** The truth: number of mines in the lane that are not destroyed. */
   mines_left: number;
+  /** The truth: the vehicles that pass the lane; none before it is declared clear. */
+  vehicles: VehicleView[];
   /** What each controller believes of the lane, in the order of their kinds and indices. */
   lanes: LaneView[];
 }
@@ -1050,6 +1086,21 @@ export type StudyVerdict = "best" | "tied" | "not better" | "undecided" | "worse
 
 /** The unit of a world. */
 export type Unit = "m" | "px";
+
+/** What has become of a vehicle that passes a lane. */
+export type VehicleStatus = "driving" | "passed" | "lost";
+
+/** A vehicle that passes a lane. */
+export interface VehicleView {
+  /** Its name, vehicle/INDEX. */
+  name: string;
+  /** Its position; the beginning of the path before it has entered the lane. */
+  at: Point;
+  /** Whether it has entered the lane. */
+  has_entered: boolean;
+  /** What has become of it. */
+  status: VehicleStatus;
+}
 
 /** The world of a run. */
 export interface WorldView {

@@ -14,6 +14,7 @@ import { links } from "./links";
 import { maps } from "./maps";
 import { observedCells } from "./observed_cells";
 import { obstacles } from "./obstacles";
+import { passagePath, passageVehicles } from "./passage";
 import { preview } from "./preview";
 import { selection } from "./selection";
 import { terrain } from "./terrain";
@@ -27,6 +28,7 @@ export const layers: Layer[] = [
   grid,
   maps,
   lanePath,
+  passagePath,
   obstacles,
   border,
   contact,
@@ -38,6 +40,7 @@ export const layers: Layer[] = [
   links,
   trails,
   laneMarks,
+  passageVehicles,
   economy,
   headings,
   beliefs,

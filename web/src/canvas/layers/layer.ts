@@ -8,6 +8,7 @@ import type {
   Point,
   RobotView,
   Setting,
+  VehicleView,
 } from "../../api/protocol";
 import type { BelievedMap } from "../../shared/believed_map";
 import type { World } from "../../shared/world";
@@ -27,6 +28,8 @@ export interface Scene {
   economy: Economy | null;
   /** The mined lane as the chosen controller believes it to be; null if it is not requested, or there is none. */
   lane: LaneView | null;
+  /** The vehicles that pass that lane. */
+  vehicles: VehicleView[];
   /** The controller that is chosen in the panel; null for none. */
   controller: string | null;
   /** The engine's report about the selected robot. */

@@ -199,7 +199,7 @@ test("goals and controllers are kept only while they are requested", () => {
 
 test("the lane is kept only while it is requested", () => {
   connect();
-  const lanes = { type: "lanes", tick: 9, mines_left: 2, lanes: [] };
+  const lanes = { type: "lanes", tick: 9, mines_left: 2, vehicles: [], lanes: [] };
   session.requestOverlays({ links: false, footprints: false, economy: false, lanes: true });
   receive(lanes);
   expect(session.lanes?.mines_left).toBe(2);

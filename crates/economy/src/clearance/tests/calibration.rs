@@ -8,7 +8,7 @@ use brain::{GoalId, MarkVerdict, RobotId, Statement};
 const NEUTRALISE_ABOVE: f64 = 0.95;
 
 /// Blind shares of both models: the floor of the risk is 0.8% with two mines.
-const BLIND: [f64; 2] = [0.08, 0.05];
+pub(super) const BLIND: [f64; 2] = [0.08, 0.05];
 
 const LANES: u64 = 30_000;
 
@@ -45,7 +45,7 @@ struct Bin {
 }
 
 /// Two robots of each model look at random cells, up to some passes.
-fn search(
+pub(super) fn search(
     clearance: &Clearance,
     picture: &mut LanePicture,
     loss: f64,
@@ -71,7 +71,7 @@ fn search(
 }
 
 /// Destroys what is at places that probably hold a mine.
-fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) {
+pub(super) fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) {
     let probable = picture.marks().filter(|mark| mark.mine > NEUTRALISE_ABOVE);
     let probable: Vec<_> = probable.collect();
     for mark in probable {

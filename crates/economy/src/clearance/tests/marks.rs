@@ -16,6 +16,7 @@ fn mark(robot: RobotId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
         at_m: [x_m, 1.0],
         deviation_m,
         log_ratios: [log_ratio, log_ratio - 1.0, 0.0, 0.0],
+        missed_since: 0.0,
     }
 }
 

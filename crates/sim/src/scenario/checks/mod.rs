@@ -14,6 +14,7 @@ mod items;
 mod lane_outcomes;
 mod memory;
 mod names;
+mod passage;
 mod periodic;
 mod places;
 mod rates;
@@ -49,11 +50,12 @@ const CHECKS_OF_FORM: [Check; 9] = [
 /// A check of positions, in a world with the valid obstacles.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<InputError>;
 
-const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
+const CHECKS_OF_PLACES: [CheckOfPlaces; 5] = [
     periodic::errors,
     places::errors,
     room::errors,
     reach::errors,
+    passage::of_places,
 ];
 
 /// The scenario of `spec`, which a document contains, if it has no errors.
@@ -96,6 +98,7 @@ pub(super) fn of_meaning(spec: &ScenarioSpec, document: &Document) -> Vec<InputE
         brains::errors(spec, at),
         controllers::errors(spec, at),
         clearance::errors(spec, document),
+        passage::errors(spec, at),
         goals::errors(spec, document),
         end::errors(spec, document),
     ]

@@ -10,6 +10,7 @@ mod end;
 mod goals;
 mod identification;
 mod obstacles;
+mod passage;
 mod periodic;
 mod renamed;
 

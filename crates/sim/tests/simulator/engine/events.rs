@@ -72,7 +72,11 @@ fn events_are_the_finds_collisions_and_stops_of_a_run() {
             EventKind::Status { robot, status } => {
                 assert!(stopped.insert(robot, status).is_none());
             }
-            EventKind::Served { .. } | EventKind::Acted { .. } | EventKind::Destroyed { .. } => {
+            EventKind::Served { .. }
+            | EventKind::Acted { .. }
+            | EventKind::Destroyed { .. }
+            | EventKind::VehicleLost { .. }
+            | EventKind::VehiclePassed { .. } => {
                 unreachable!("there are no goals, tools and hazards")
             }
         }

@@ -39,6 +39,7 @@ mod layers;
 mod links;
 mod meetings;
 mod obstacles;
+mod passage;
 mod periodic;
 mod radio;
 mod random;

@@ -2,7 +2,7 @@
 
 use super::*;
 
-const LANE: &str = r#"
+pub(super) const LANE: &str = r#"
 [clock]
 step_s = 0.2
 time_limit_s = 100
