@@ -284,8 +284,11 @@ class Mark(TypedDict):
     Attributes:
         id: Its id: the robot, and the number that the robot gave it.
         at_m: Its position in the world, in metres.
-        deviation_m: Standard deviation of the position along each axis, the error of the
-            robot's pose included.
+        deviation_mm: Standard deviation of the position along each axis, the error of the
+            robot's pose included, in millimetres.
+        missed_since: How often all looks of the robot since it has stopped tracking the item
+            miss a visible item there, in steps of 1/16 nat, at most 255: since something there
+            has been destroyed. 0 while it tracks the item.
         log_ratios: For each of the first four kinds of items, the log likelihood ratio of all
             looks of the robot at the place, contacts and misses: an item of that kind that its
             sensors can detect, against nothing there but false alarms.
@@ -293,7 +296,8 @@ class Mark(TypedDict):
 
     id: GoalId
     at_m: Sequence[float]
-    deviation_m: float
+    deviation_mm: int
+    missed_since: int
     log_ratios: Sequence[float]
 
 

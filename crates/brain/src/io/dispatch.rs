@@ -363,9 +363,9 @@ mod tests {
         let mark = Mark {
             id: GoalId::default(),
             at_m: [0.0; 2],
-            deviation_m: 0.5,
+            deviation_mm: 500,
             log_ratios: [0.0; 4],
-            missed_since: 0.0,
+            missed_since: 0,
         };
         let hash = |dispatch: Dispatch| {
             let mut hash = Hash::default();

@@ -180,15 +180,15 @@ pub struct Mark {
     pub id: GoalId,
     /// Its position in the world, in metres.
     pub at_m: [f32; 2],
-    /// Standard deviation of the position along each axis, the error of the robot's pose included.
-    pub deviation_m: f32,
+    /// Standard deviation of the position along each axis, the error of the robot's pose included, in millimetres.
+    pub deviation_mm: u16,
+    /// How often all looks of the robot since it has stopped tracking the item miss a visible item there, in steps of 1/16
+    /// nat, at most 255: since something there has been destroyed. 0 while it tracks the item.
+    pub missed_since: u8,
     /// For each of the first four kinds of items, the log likelihood ratio of all looks of the robot
     /// at the place, contacts and misses: an item of that kind that its sensors can detect, against
     /// nothing there but false alarms.
     pub log_ratios: [f32; MARK_KINDS],
-    /// How often all looks of the robot since it has stopped tracking the item miss a visible item there, in nats: since
-    /// something there has been destroyed. 0 while it tracks the item.
-    pub missed_since: f32,
 }
 
 impl Mark {
@@ -198,14 +198,29 @@ impl Mark {
         Point::from(self.at_m.map(f64::from))
     }
 
+    /// Standard deviation of its position along each axis, in metres.
+    #[must_use]
+    pub fn deviation_m(&self) -> f64 {
+        f64::from(self.deviation_mm) / 1e3
+    }
+
+    /// A standard deviation in metres as a mark states it.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    pub fn millimetres(deviation_m: f64) -> u16 {
+        libm::round(deviation_m * 1e3).clamp(1.0, f64::from(u16::MAX)) as u16
+    }
+
     /// Whether all of its numbers are finite and plausible.
     #[must_use]
     pub fn is_valid(&self) -> bool {
         let is_near = |along_m: f32| along_m.abs() <= MAX_COORDINATE_M;
-        let is_certain = self.deviation_m > 0.0 && self.deviation_m <= 1e3;
         let mut ratios = self.log_ratios.into_iter();
-        is_certain
-            && (0.0..=MAX_LOG_RATIO).contains(&self.missed_since)
+        self.deviation_mm > 0
             && self.at_m.into_iter().all(is_near)
             && ratios.all(|ratio| ratio.abs() <= MAX_LOG_RATIO)
     }
@@ -315,14 +330,14 @@ mod tests {
         let mark = Mark {
             id: GoalId::default(),
             at_m: [1.0, 2.0],
-            deviation_m: 0.3,
+            deviation_mm: 300,
             log_ratios: [4.0, -2.0, 0.0, 0.0],
-            missed_since: 0.0,
+            missed_since: 0,
         };
         assert!(mark.is_valid());
         for absurd in [
             Mark {
-                deviation_m: 0.0,
+                deviation_mm: 0,
                 ..mark
             },
             Mark {
@@ -331,10 +346,6 @@ mod tests {
             },
             Mark {
                 log_ratios: [f32::INFINITY; MARK_KINDS],
-                ..mark
-            },
-            Mark {
-                missed_since: -1.0,
                 ..mark
             },
         ] {

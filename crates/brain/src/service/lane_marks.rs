@@ -5,7 +5,7 @@
 
 use crate::io::body::RobotId;
 use crate::io::goal_id::GoalId;
-use crate::io::lane::{MARK_KINDS, Mark};
+use crate::io::lane::{Coverage, MARK_KINDS, Mark};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::Track;
@@ -135,7 +135,7 @@ impl Reported {
     fn note_looks(&mut self, missed_nats: impl Fn(Point) -> f64) {
         let nats = missed_nats(self.mark.at()) as f32;
         let ended_nats = *self.ended_nats.get_or_insert(nats);
-        self.mark.missed_since = (nats - ended_nats).max(0.0);
+        self.mark.missed_since = Coverage::steps((nats - ended_nats).into());
     }
 
     fn has_changed(&self) -> bool {
@@ -144,11 +144,11 @@ impl Reported {
         };
         let ratios = self.mark.log_ratios.into_iter().zip(sent.log_ratios);
         let moved = self.mark.at_m.into_iter().zip(sent.at_m);
-        let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m;
+        let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m() as f32;
         let mut ratios = ratios.map(|(now, then)| (now - then).abs());
         let mut moved = moved.map(|(now, then)| (now - then).abs());
-        let missed = self.mark.missed_since - sent.missed_since;
-        missed > CHANGE_NATS
+        let missed = self.mark.missed_since.saturating_sub(sent.missed_since);
+        Coverage::nats(missed.into()) > CHANGE_NATS.into()
             || ratios.any(|change| change > CHANGE_NATS)
             || moved.any(|change_m| change_m > max_m)
     }
@@ -183,8 +183,8 @@ fn mark_of(
             number: source.provenance.track_id,
         },
         at_m: [track.at.x as f32, track.at.y as f32],
-        deviation_m: libm::sqrt(variance_m2) as f32,
+        deviation_mm: Mark::millimetres(libm::sqrt(variance_m2)),
         log_ratios,
-        missed_since: 0.0,
+        missed_since: 0,
     })
 }

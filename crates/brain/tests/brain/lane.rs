@@ -141,7 +141,11 @@ impl Robot {
 
 /// The last value that is reported of the cell at a position.
 fn nats(sent: &[Dispatch], x: f64, y: f64) -> f64 {
-    let cell = LANE.cell_at(Point { x, y }).unwrap();
+    nats_of(LANE, sent, x, y)
+}
+
+fn nats_of(lane: Lane, sent: &[Dispatch], x: f64, y: f64) -> f64 {
+    let cell = lane.cell_at(Point { x, y }).unwrap();
     let mut steps = sent.iter().filter_map(|sent| match sent {
         Dispatch::Coverage(Coverage { first, missed, .. }) => {
             let index = cell.checked_sub(*first as usize)?;
@@ -243,7 +247,7 @@ fn mark_after(looks: u32) -> Mark {
 fn a_mark_has_the_evidence_of_all_own_looks_before_and_after_the_contact() {
     let (early, late) = (mark_after(0), mark_after(6));
     assert_eq!(late.id.issuer, RobotId::default());
-    assert!((late.at_m[0] - 6.0).abs() < 0.1 && late.deviation_m < 0.5);
+    assert!((late.at_m[0] - 6.0).abs() < 0.1 && late.deviation_m() < 0.5);
     assert!(late.log_ratios[1] < -10.0, "it is no clutter");
     let contact = (0.5 / (core::f32::consts::TAU * 0.01 * 1e-3)).ln();
     for mark in [early, late] {
@@ -286,4 +290,63 @@ fn a_robot_faces_the_mark_that_it_interrogates() {
 fn a_robot_refuses_to_neutralise_without_a_tool() {
     let refused = Robot::new().interrogate(Work::Neutralise);
     assert_eq!(refused, Err(Reason::Capability));
+}
+
+/// Where a mine is tracked, a contact of a second one would be taken for one of the first.
+#[test]
+fn looks_at_a_mine_are_no_search_for_a_second_one_beside_it() {
+    let lane = Lane {
+        min_m: [4.0; 2],
+        max_m: [8.0, 6.0],
+        cell_m: 0.5,
+        hazards: 1,
+    };
+    let looks = 20.0 * 2.0_f64.ln();
+    let beside = |kind: u16| {
+        let mut robot = Robot::new();
+        let mut sent = robot.step(&[Dispatch::Lane(lane)], &[(kind, 1.0)]);
+        (0..30).for_each(|_| sent.extend(robot.step(&[], &[(kind, 1.0)])));
+        assert!(nats_of(lane, &sent, 7.4, 5.2) > looks.min(15.9) - 1.0);
+        nats_of(lane, &sent, 6.2, 5.2)
+    };
+    let (mine, clutter) = (beside(0), beside(1));
+    assert!(mine < 0.2 * looks, "{mine}");
+    // Clutter stays: two contacts in one look show a second item.
+    assert!(mine < clutter && clutter < 0.9 * looks, "{mine} {clutter}");
+}
+
+#[test]
+fn the_mark_of_an_item_that_another_robot_has_destroyed_counts_the_looks_since_then() {
+    let mut robot = Robot::new();
+    let before = *marks(&robot.steps(20, &[(0, 1.0)])).last().unwrap();
+    assert_eq!(before.missed_since, 0);
+    let destroyed = Statement {
+        mark: before.id,
+        at_m: before.at_m,
+        verdict: MarkVerdict::Neutralised,
+    };
+    robot.step(&[Dispatch::Statement(destroyed)], &[]);
+    let sent = robot.steps(30, &[]);
+    let after = marks(&sent);
+    let after = after.iter().rfind(|mark| mark.id == before.id).unwrap();
+    assert_eq!(after.log_ratios, before.log_ratios);
+    let missed = Coverage::nats(after.missed_since.into());
+    assert!(missed > 10.0 * 2.0_f64.ln(), "{missed}");
+}
+
+#[test]
+fn what_is_detected_where_a_mine_has_been_destroyed_has_a_mark_of_its_own() {
+    let mut robot = Robot::new();
+    let before = *marks(&robot.steps(20, &[(0, 1.0)])).last().unwrap();
+    let destroyed = Statement {
+        mark: before.id,
+        at_m: before.at_m,
+        verdict: MarkVerdict::Neutralised,
+    };
+    robot.step(&[Dispatch::Statement(destroyed)], &[]);
+    let sent = robot.steps(30, &[(0, 1.1)]);
+    let new = marks(&sent);
+    let new = new.iter().rfind(|mark| mark.id != before.id).unwrap();
+    // The looks at the first mine are no evidence against the second.
+    assert!(new.log_ratios[0] > 10.0, "{new:?}");
 }

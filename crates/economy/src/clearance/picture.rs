@@ -135,7 +135,11 @@ impl LanePicture {
         if statement.at_m.into_iter().all(f32::is_finite) {
             let items: f64 = self.clearance.expected.iter().sum();
             let items_per_m2 = items / self.clearance.lane.area().area_m2();
-            self.marks.state(statement, items_per_m2);
+            if let Some(at) = self.marks.state(statement, items_per_m2) {
+                let cell = self.clearance.lane.nearest_cell(at);
+                self.remaining.note_destroyed(cell, &self.clearance);
+                self.refresh(cell..cell + 1);
+            }
         }
     }
 

@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{GoalId, Mark, MarkVerdict, RobotId};
+use brain::{Coverage, GoalId, Mark, MarkVerdict, RobotId};
+use core::cmp::Reverse;
 use core::f64::consts::TAU;
 
 /// Marks belong to one place within this many joint standard deviations. With 3, one pair of marks of
@@ -116,7 +117,7 @@ impl Place {
     pub(super) fn is_left(&self) -> f64 {
         let nats: f64 = self
             .surest(None)
-            .map(|mark| f64::from(mark.missed_since))
+            .map(|mark| Coverage::nats(mark.missed_since.into()))
             .sum();
         let least = if nats > 0.0 { GONE } else { 0.0 };
         let gone = (1.0 - self.is_other).max(least);
@@ -157,7 +158,7 @@ impl Place {
             let any = |mark: &Mark| mark.log_ratios.into_iter().fold(f32::MIN, f32::max);
             let strength =
                 |mark: &Mark| kind.map_or_else(|| any(mark), |kind| mark.log_ratios[kind]);
-            let rank = |mark: &Mark| (-mark.missed_since, strength(mark), mark.id.number);
+            let rank = |mark: &Mark| (Reverse(mark.missed_since), strength(mark), mark.id.number);
             rank(one) > rank(other)
         };
         self.marks.iter().filter(move |mark| {
@@ -200,5 +201,5 @@ fn fused<'m>(marks: impl Iterator<Item = &'m Mark>) -> (Point, f64) {
 }
 
 fn variance_m2(mark: &Mark) -> f64 {
-    f64::from(mark.deviation_m) * f64::from(mark.deviation_m)
+    mark.deviation_m() * mark.deviation_m()
 }

@@ -7,12 +7,16 @@ use alloc::vec::Vec;
 use brain::{Lane, MARK_KINDS};
 use core::ops::Range;
 
+/// Expected number of mines beside one that has been destroyed: mines may lie in groups, whatever their number in the lane.
+/// It is small, but more than a search by one sensor model leaves open.
+const BESIDE_DESTROYED: f64 = 0.05;
+
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
 #[derive(Debug, Clone)]
 pub(super) struct Remaining {
     /// The free ground of the lane, in square metres.
     pub(super) free_m2: f64,
-    /// The part of it that each cell is, and the tile in which it lies.
+    /// The part of all mines that are expected in each cell before a search, and the tile in which it lies.
     shares: Vec<f64>,
     pub(super) tiles: Vec<u32>,
     /// For each way to search, the looks of one search by each sensor model, in nats.
@@ -38,6 +42,14 @@ impl Remaining {
             ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
             now: vec![0.0; lane.cells()],
             after: vec![vec![0.0; lane.cells()]; clearance.searches.len()],
+        }
+    }
+
+    /// Takes that a mine in a cell has been destroyed: another one may lie beside it.
+    pub(super) fn note_destroyed(&mut self, cell: usize, clearance: &Clearance) {
+        let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
+        if let Some(share) = self.shares.get_mut(cell).filter(|_| expected > 0.0) {
+            *share += BESIDE_DESTROYED / expected;
         }
     }
 

@@ -236,8 +236,10 @@ export interface Mark {
   id: GoalId;
   /** Its position in the world, in metres. */
   at_m: [number, number];
-  /** Standard deviation of the position along each axis, the error of the robot's pose included. */
-  deviation_m: number;
+  /** Standard deviation of the position along each axis, the error of the robot's pose included, in millimetres. */
+  deviation_mm: number;
+  /** How often all looks of the robot since it has stopped tracking the item miss a visible item there, in steps of 1/16 nat, at most 255: since something there has been destroyed. 0 while it tracks the item. */
+  missed_since: number;
   /** For each of the first four kinds of items, the log likelihood ratio of all looks of the robot at the place, contacts and misses: an item of that kind that its sensors can detect, against nothing there but false alarms. */
   log_ratios: [number, number, number, number];
 }

@@ -14,9 +14,9 @@ fn mark(robot: RobotId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
             number: 0,
         },
         at_m: [x_m, 1.0],
-        deviation_m,
+        deviation_mm: Mark::millimetres(deviation_m.into()),
         log_ratios: [log_ratio, log_ratio - 1.0, 0.0, 0.0],
-        missed_since: 0.0,
+        missed_since: 0,
     }
 }
 
@@ -151,6 +151,89 @@ fn only_a_place_that_has_been_neutralised_holds_no_mine() {
     state(&mut picture, MarkVerdict::Neutralised);
     state(&mut picture, MarkVerdict::Confirmed);
     assert_eq!(mine(&picture), 0.0);
+}
+
+fn numbered(number: u32, mark: Mark) -> Mark {
+    let id = GoalId { number, ..mark.id };
+    Mark { id, ..mark }
+}
+
+fn destroy(picture: &mut LanePicture, mark: &Mark) {
+    picture.take_statement(&Statement {
+        mark: mark.id,
+        at_m: mark.at_m,
+        verdict: MarkVerdict::Neutralised,
+    });
+}
+
+/// A charge destroys one item, of which the marks can be several places: the other marks are mostly of the same item.
+#[test]
+fn what_is_marked_beside_a_destroyed_mine_is_improbable_and_looks_since_then_end_it() {
+    let mut picture = lane();
+    let first = mark(OAV, 10.0, 0.1, 9.0);
+    let beside = numbered(1, mark(OAV, 10.2, 0.1, 9.0));
+    let away = numbered(2, mark(OAV, 14.0, 0.1, 9.0));
+    for mark in [first, beside, away] {
+        picture.take_mark(OAV, &mark);
+    }
+    let mines = |picture: &LanePicture| picture.marks().map(|mark| mark.mine).collect::<Vec<_>>();
+    let before = mines(&picture);
+    destroy(&mut picture, &first);
+    let after = mines(&picture);
+    assert_eq!(after[0], 0.0);
+    // Another mine is rare, but a robot has two marks of one item only in one of ten cases.
+    assert!(after[1] < 0.3 * before[1] && after[1] > 0.01, "{after:?}");
+    assert_eq!(after[2], before[2]);
+    picture.take_mark(
+        OAV,
+        &Mark {
+            missed_since: 96,
+            ..beside
+        },
+    );
+    assert!(mines(&picture)[1] < 0.01 * after[1]);
+}
+
+#[test]
+fn a_mark_after_a_charge_is_of_another_item_than_the_marks_before_it() {
+    let mut picture = lane();
+    let first = mark(UGV, 10.0, 0.1, 9.0);
+    picture.take_mark(UGV, &first);
+    picture.take_mark(OAV, &mark(OAV, 10.5, 0.4, 6.0));
+    destroy(&mut picture, &first);
+    picture.take_mark(UGV, &numbered(1, mark(UGV, 10.3, 0.1, 9.0)));
+    let mines: Vec<f64> = picture.marks().map(|mark| mark.mine).collect();
+    assert!(
+        mines.len() == 2 && mines[0] == 0.0 && mines[1] > 0.5,
+        "{mines:?}"
+    );
+}
+
+#[test]
+fn many_marks_of_one_robot_at_one_spot_are_three_places() {
+    let mut picture = lane();
+    for (number, x_m) in (0..12).zip([10.0, 10.05, 10.1].into_iter().cycle()) {
+        picture.take_mark(UGV, &numbered(number, mark(UGV, x_m, 0.1, 9.0)));
+    }
+    assert_eq!((picture.marks().count(), picture.missing_marks()), (3, 0));
+}
+
+/// The believed density of mines is the sum of both parts.
+#[test]
+fn mines_near_a_mark_belong_to_it_and_mines_far_from_all_marks_to_none() {
+    let mut picture = lane();
+    assert_eq!(
+        picture.share_of_marks(picture.clearance().lane.centre(7)),
+        0.0
+    );
+    picture.take_mark(OAV, &mark(OAV, 10.0, 0.2, 9.0));
+    let share = |x: f64| picture.share_of_marks(base::geometry::Point { x, y: 1.0 });
+    assert!(
+        share(10.0) > 0.99 && share(12.0) < 1e-6,
+        "{} {}",
+        share(10.0),
+        share(12.0)
+    );
 }
 
 /// Controllers receive statements about goals of other controllers.

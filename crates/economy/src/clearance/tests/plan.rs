@@ -70,9 +70,9 @@ fn marked(picture: &mut LanePicture, log_ratio: f32) {
             number: 0,
         },
         at_m: [12.0, 1.0],
-        deviation_m: 0.5,
+        deviation_mm: 500,
         log_ratios: [log_ratio, log_ratio - 2.0, 0.0, 0.0],
-        missed_since: 0.0,
+        missed_since: 0,
     };
     picture.take_mark(OAV, &mark);
 }

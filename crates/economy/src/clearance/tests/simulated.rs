@@ -234,9 +234,9 @@ impl Searcher<'_> {
                 number: number as u32,
             },
             at_m: [mean.x as f32, mean.y as f32],
-            deviation_m: (noise_m / count.sqrt()) as f32,
+            deviation_mm: Mark::millimetres(noise_m / count.sqrt()),
             log_ratios: [log_ratio(0), log_ratio(1), 0.0, 0.0],
-            missed_since: 0.0,
+            missed_since: 0,
         }
     }
 }

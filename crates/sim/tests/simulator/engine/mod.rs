@@ -33,6 +33,7 @@ mod inspect;
 mod item_numbers;
 mod judge;
 mod lane_ends;
+mod lane_neighbours;
 mod lane_obstacles;
 mod lane_tools;
 mod layers;

@@ -50,6 +50,10 @@ fn all_errors_of_a_passage_are_reported_at_once() {
             "controllers.station.clearance.cell_m = 700",
             "at most 650: 50 times",
         ),
+        (
+            "controllers.station.clearance.cell_m = 700",
+            "at most 2: robots.ugv.sensors.detector sees no farther",
+        ),
         ("items.clutter.target = false", "true: "),
         ("passage.destroy_probability", "items.mine has no hazard"),
     ] {
@@ -57,7 +61,7 @@ fn all_errors_of_a_passage_are_reported_at_once() {
         let found = reported.any(|error| error.contains(path) && error.contains(part));
         assert!(found, "{path}: {reported:#?}");
     }
-    assert_eq!(reported.len(), 4, "{reported:#?}");
+    assert_eq!(reported.len(), 5, "{reported:#?}");
 }
 
 #[test]
