@@ -22,7 +22,7 @@ const EXCLUDED: f32 = -50.0;
 /// A mark is sent again when a log ratio has changed by this, in nats, or its position by this part of
 /// its deviation.
 const CHANGE_NATS: f32 = 0.25;
-const CHANGE_DEVIATIONS: f32 = 0.5;
+const CHANGE_DEVIATIONS: f64 = 0.5;
 
 /// The pose has an error of at least this part of the noise of a position reading: it changes slowly, so that all looks
 /// at an item have the same one.
@@ -144,13 +144,13 @@ impl Reported {
         };
         let ratios = self.mark.log_ratios.into_iter().zip(sent.log_ratios);
         let moved = self.mark.at_m.into_iter().zip(sent.at_m);
-        let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m() as f32;
+        let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m();
         let mut ratios = ratios.map(|(now, then)| (now - then).abs());
         let mut moved = moved.map(|(now, then)| (now - then).abs());
         let missed = self.mark.missed_since.saturating_sub(sent.missed_since);
         Coverage::nats(missed.into()) > CHANGE_NATS.into()
             || ratios.any(|change| change > CHANGE_NATS)
-            || moved.any(|change_m| change_m > max_m)
+            || moved.any(|change_m| f64::from(change_m) > max_m)
     }
 }
 

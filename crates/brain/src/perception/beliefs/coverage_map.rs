@@ -96,40 +96,64 @@ pub(crate) struct Mask {
     pub(crate) reveals: f64,
 }
 
+/// A cell within a mask, with its value before a look.
+struct Masked {
+    cell: usize,
+    missed: f32,
+    reveals: f32,
+}
+
 impl CoverageMap {
     /// Updates all cells of a field that are in view; those within masks as far as the look reveals an item there.
-    #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
     pub(crate) fn update_with(
         &mut self,
         field: &Field,
         map: (&Field, &Occupancy),
         (scan, masks): (&DetectorScan, &[Mask]),
     ) {
-        let mut before: Vec<(usize, f32, f32)> = Vec::new();
-        for mask in masks {
-            let reach = Point {
-                x: mask.radius_m,
-                y: mask.radius_m,
-            };
-            let [columns, rows] = field.columns_and_rows(reach.to(mask.at), mask.at.plus(reach));
-            for row in rows {
-                let cells = row * field.columns + columns.start..row * field.columns + columns.end;
-                let within =
-                    cells.filter(|cell| field.centre(*cell).to(mask.at).length() <= mask.radius_m);
-                before.extend(within.map(|cell| (cell, self.missed[cell], mask.reveals as f32)));
-            }
-        }
+        let each = masks.iter().flat_map(|mask| self.within(field, mask));
+        let mut masked: Vec<Masked> = each.collect();
         self.update(field, map, scan);
         // A cell within several masks is looked at with the lowest probability.
-        before.sort_by(|one, other| {
-            (one.0, one.2)
-                .partial_cmp(&(other.0, other.2))
-                .unwrap_or(core::cmp::Ordering::Equal)
+        masked.sort_by(|one, other| {
+            let order = one.cell.cmp(&other.cell);
+            order.then(one.reveals.total_cmp(&other.reveals))
         });
-        before.dedup_by_key(|(cell, ..)| *cell);
-        for (cell, missed, reveals) in before {
+        masked.dedup_by_key(|masked| masked.cell);
+        for Masked {
+            cell,
+            missed,
+            reveals,
+        } in masked
+        {
             self.missed[cell] = missed - (missed - self.missed[cell]) * reveals;
         }
+    }
+
+    /// The cells within a mask.
+    #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
+    fn within(&self, field: &Field, mask: &Mask) -> Vec<Masked> {
+        let Mask {
+            at,
+            radius_m,
+            reveals,
+        } = *mask;
+        let reach = Point {
+            x: radius_m,
+            y: radius_m,
+        };
+        let [columns, rows] = field.columns_and_rows(reach.to(at), at.plus(reach));
+        let cells = rows.flat_map(|row| {
+            let first = row * field.columns;
+            columns.clone().map(move |column| first + column)
+        });
+        let within = cells.filter(|cell| field.centre(*cell).to(at).length() <= radius_m);
+        let masked = within.map(|cell| Masked {
+            cell,
+            missed: self.missed[cell],
+            reveals: reveals as f32,
+        });
+        masked.collect()
     }
 
     /// Updates all cells of a field that are in view, on a map with its own field.
