@@ -1,16 +1,16 @@
 //! What looks show of an item beside one that has been detected.
 //!
 //! A contact that is near a track is taken for one of its item. A second item there shows only when both are detected in
-//! one look, by a contact more than the track explains:
+//! one observation, by a contact more than the track explains:
 //!
 //! ```text
-//! probability that a look reveals a second item = p (1 - e + e q)
-//! p   probability that a look detects it        e   probability that the track is of an item
-//! q   probability that a look detects that item
+//! probability that a second item is revealed = p (1 - e + e q)
+//! p   probability that it is detected           e   probability that the track is of an item
+//! q   probability that the item of the track is detected
 //! ```
 //!
 //! Otherwise all looks at a detected item would count as a search for a second one, which they are not. Beside an item that
-//! is to be cleared, q counts as 0: when it is destroyed, the tracks there end, and the place is searched anew.
+//! is to be cleared, q counts as 0: when it is destroyed, the tracks there end, and the place is searched again.
 
 use crate::io::body::Detector;
 use crate::io::lane::Lane;

@@ -87,7 +87,7 @@ pub(crate) struct DetectorScan<'g> {
     pub(crate) blur_m: f64,
 }
 
-/// A part of a look in which an item may be taken for another one.
+/// A part of an observation in which an item may be taken for another one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mask {
     pub(crate) at: Point,
@@ -96,7 +96,7 @@ pub(crate) struct Mask {
     pub(crate) reveals: f64,
 }
 
-/// A cell within a mask, with its value before a look.
+/// A cell within a mask, with its value before an observation.
 struct Masked {
     cell: usize,
     missed: f32,
