@@ -55,7 +55,7 @@ test("the panel states the risks of the vehicles, what is cleared, and what beca
     panel.getByText(/^Risk of the first vehicle 0\.\d+%, last of 3 (0\.\d+%|under 0\.01%)\.$/),
   ).toBeVisible();
   await expect(
-    panel.getByText(/^Path of 40\.\d m, 3 m wide: 0\.00\d+ mines expected in it\.$/),
+    panel.getByText(/^Path of 4\d(\.\d)? m, 3 m wide: 0\.00\d+ mines expected in it\.$/),
   ).toBeVisible();
   await expect(panel.getByText("3 vehicles passed, 0 lost.")).toBeVisible();
   await expect(panel.getByRole("cell", { name: /^99\.\d% \(95% interval 99\.\d% to 100%\)$/ })).toBeVisible();
