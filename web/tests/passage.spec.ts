@@ -48,7 +48,7 @@ test("the panel states the risks of the vehicles, what is cleared, and what beca
   page,
   server,
 }) => {
-  await openPassage(page, server, 637);
+  await openPassage(page, server, 638);
   await openTab(page, "Lane");
   const panel = page.getByRole("tabpanel");
   await expect(
