@@ -73,14 +73,17 @@ impl Marks {
     /// item, of which the marks can be several places. Returns where something has been destroyed.
     pub(super) fn state(&mut self, statement: &Statement, items_per_m2: f64) -> Option<Point> {
         let index = self.stated(statement)?;
-        let was_neutralised = self.places[index].is_neutralised();
-        self.places[index].state(statement.verdict, statement.mark);
-        let destroyed = self.places[index].clone();
-        let is_new = destroyed.is_neutralised() && !was_neutralised;
-        let others = self.places.iter_mut().filter(|_| is_new);
+        let place = &mut self.places[index];
+        let was_neutralised = place.is_neutralised();
+        place.state(statement.verdict, statement.mark);
+        if was_neutralised || !place.is_neutralised() {
+            return None;
+        }
+        let destroyed = place.clone();
+        let others = self.places.iter_mut();
         let others = others.filter(|place| !place.is_neutralised());
         others.for_each(|place| place.note_destroyed(&destroyed, items_per_m2));
-        is_new.then_some(destroyed.at)
+        Some(destroyed.at)
     }
 
     /// The place that a statement is about.

@@ -101,7 +101,7 @@ impl Place {
     /// odds of another item = density of items / (N(distance; variance of both places) x share of items with two marks)
     /// ```
     pub(super) fn note_destroyed(&mut self, other: &Self, items_per_m2: f64) {
-        let is_of_both = |mark: &Mark| other.robots().contains(&mark.id.issuer);
+        let is_of_both = |mark: &Mark| other.is_of(mark.id.issuer);
         let joint_m2 = self.variance_m2 + other.variance_m2;
         let square = self.at.to(other.at).length_squared() / joint_m2;
         if square <= GATE * GATE {
