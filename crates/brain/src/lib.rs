@@ -60,7 +60,9 @@ pub use io::dispatch::{
     Work,
 };
 pub use io::goal_id::{GoalId, issuer_of};
-pub use io::lane::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, Statement};
+pub use io::lane::{
+    CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, Statement,
+};
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;

@@ -366,6 +366,7 @@ mod tests {
             deviation_mm: 500,
             log_ratios: [0.0; 4],
             missed_since: 0,
+            further: 0,
         };
         let hash = |dispatch: Dispatch| {
             let mut hash = Hash::default();

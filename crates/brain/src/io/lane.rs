@@ -18,6 +18,10 @@ pub const CELLS_PER_MESSAGE: usize = 16;
 /// Number of kinds of items that marks distinguish.
 pub const MARK_KINDS: usize = 4;
 
+/// Probability that an item in a lane has another one beside it, as they may lie in groups whatever their number. It is small,
+/// but more than a search by one sensor model leaves open.
+pub const HAS_ANOTHER: f64 = 0.05;
+
 /// Steps of coverage per nat.
 const STEPS_PER_NAT: f64 = 16.0;
 
@@ -185,6 +189,8 @@ pub struct Mark {
     /// How often all looks of the robot since it has stopped tracking the item miss a visible item there, in steps of 1/16
     /// nat, at most 255: since something there has been destroyed. 0 while it tracks the item.
     pub missed_since: u8,
+    /// Expected number of items to be cleared that are left there when one item has been destroyed, in steps of 1/100.
+    pub further: u8,
     /// For each of the first four kinds of items, the log likelihood ratio of all looks of the robot
     /// at the place, contacts and misses: an item of that kind that its sensors can detect, against
     /// nothing there but false alarms.
@@ -213,6 +219,23 @@ impl Mark {
     )]
     pub fn millimetres(deviation_m: f64) -> u16 {
         libm::round(deviation_m * 1e3).clamp(1.0, f64::from(u16::MAX)) as u16
+    }
+
+    /// An expected number of further items as a mark states it.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    pub fn hundredths(further: f64) -> u8 {
+        libm::round(further * 100.0).clamp(0.0, f64::from(u8::MAX)) as u8
+    }
+
+    /// Expected number of items to be cleared that are left when one item there has been destroyed now.
+    #[must_use]
+    pub fn further(&self) -> f64 {
+        f64::from(self.further) / 100.0 * libm::exp(-Coverage::nats(self.missed_since.into()))
     }
 
     /// Whether all of its numbers are finite and plausible.
@@ -333,6 +356,7 @@ mod tests {
             deviation_mm: 300,
             log_ratios: [4.0, -2.0, 0.0, 0.0],
             missed_since: 0,
+            further: 0,
         };
         assert!(mark.is_valid());
         for absurd in [

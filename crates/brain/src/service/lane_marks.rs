@@ -19,10 +19,11 @@ const MAX_MARKS: usize = 1024;
 /// Log likelihood ratio of kinds that a track excludes, in nats.
 const EXCLUDED: f32 = -50.0;
 
-/// A mark is sent again when a log ratio has changed by this, in nats, or its position by this part of
-/// its deviation.
+/// A mark is sent again when a log ratio has changed by this, in nats, its position by this part of its deviation, or
+/// the expected number of further items by this, in hundredths.
 const CHANGE_NATS: f32 = 0.25;
 const CHANGE_DEVIATIONS: f64 = 0.5;
+const CHANGE_HUNDREDTHS: u8 = 10;
 
 /// The pose has an error of at least this part of the noise of a position reading: it changes slowly, so that all looks
 /// at an item have the same one.
@@ -148,7 +149,9 @@ impl Reported {
         let mut ratios = ratios.map(|(now, then)| (now - then).abs());
         let mut moved = moved.map(|(now, then)| (now - then).abs());
         let missed = self.mark.missed_since.saturating_sub(sent.missed_since);
+        let further = self.mark.further.abs_diff(sent.further);
         Coverage::nats(missed.into()) > CHANGE_NATS.into()
+            || further > CHANGE_HUNDREDTHS
             || ratios.any(|change| change > CHANGE_NATS)
             || moved.any(|change_m| f64::from(change_m) > max_m)
     }
@@ -170,7 +173,9 @@ fn mark_of(
     let source = track.own_contact(own)?;
     let mut log_ratios = [EXCLUDED; MARK_KINDS];
     if let Some(kinds) = kinds {
-        let of_kinds = log_ratios.iter_mut().zip(track.visible_log_ratios(kinds));
+        let mut of_track = track.visible_log_ratios(kinds);
+        track.group.with_several(kinds, &mut of_track);
+        let of_kinds = log_ratios.iter_mut().zip(of_track);
         of_kinds.for_each(|(mark, own)| *mark = (own as f32).max(EXCLUDED));
     } else {
         // Kinds are reported as they are.
@@ -186,5 +191,6 @@ fn mark_of(
         deviation_mm: Mark::millimetres(libm::sqrt(variance_m2)),
         log_ratios,
         missed_since: 0,
+        further: Mark::hundredths(track.group.further()),
     })
 }

@@ -70,8 +70,9 @@ impl Marks {
     }
 
     /// Takes a statement about the place of a mark; if the mark is not known, about the nearest place. A charge destroys one
-    /// item, of which the marks can be several places. Returns where something has been destroyed.
-    pub(super) fn state(&mut self, statement: &Statement, items_per_m2: f64) -> Option<Point> {
+    /// item, of which the marks can be several places. Returns the place where something has been
+    /// destroyed.
+    pub(super) fn state(&mut self, statement: &Statement, items_per_m2: f64) -> Option<Place> {
         let index = self.stated(statement)?;
         let place = &mut self.places[index];
         let was_neutralised = place.is_neutralised();
@@ -83,7 +84,7 @@ impl Marks {
         let others = self.places.iter_mut();
         let others = others.filter(|place| !place.is_neutralised());
         others.for_each(|place| place.note_destroyed(&destroyed, items_per_m2));
-        Some(destroyed.at)
+        Some(destroyed)
     }
 
     /// The place that a statement is about.

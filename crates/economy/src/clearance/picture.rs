@@ -13,7 +13,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{CELLS_PER_MESSAGE, Coverage, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use brain::{
+    CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId,
+    Statement,
+};
 use core::f64::consts::TAU;
 use core::ops::Range;
 
@@ -135,9 +138,11 @@ impl LanePicture {
         if statement.at_m.into_iter().all(f32::is_finite) {
             let items: f64 = self.clearance.expected.iter().sum();
             let items_per_m2 = items / self.clearance.lane.area().area_m2();
-            if let Some(at) = self.marks.state(statement, items_per_m2) {
-                let cell = self.clearance.lane.nearest_cell(at);
-                self.remaining.note_destroyed(cell, &self.clearance);
+            if let Some(place) = self.marks.state(statement, items_per_m2) {
+                let cell = self.clearance.lane.nearest_cell(place.at);
+                let further = place.further();
+                self.remaining
+                    .note_destroyed(cell, further, &self.clearance);
                 self.refresh(cell..cell + 1);
             }
         }
@@ -263,7 +268,7 @@ impl LanePicture {
     }
 
     /// From what the marks of a place may come: for each, whether those of each sensor model are of the item. All of
-    /// them are, or those of one model are false alarms beside an item that the model has not detected.
+    /// them are, or those of one model are false alarms, or of another item, beside one that the model has not detected.
     fn origins(&self, place: &Place) -> Vec<Vec<bool>> {
         let all = self.marked_models(place);
         let marked = (0..all.len()).filter(|model| all[*model]);
@@ -310,10 +315,27 @@ impl LanePicture {
                 libm::log(1.0 - blind) - self.searched.nats_without(model, cell, &robots)
             } else {
                 let nats = self.searched.nats_without(model, cell, &[]);
-                libm::log(missed_share(blind, nats))
+                libm::log(missed_share(blind, nats)) + self.log_ratio_of_another(place, model)
             }
         });
         libm::log(expected / area_m2) + place.log_ratio_m2(kind, is_of_item) + models.sum::<f64>()
+    }
+
+    /// Log likelihood ratio of the marks of a sensor model at a place, if that has not detected the item: they are false
+    /// alarms, or of another item beside it.
+    fn log_ratio_of_another(&self, place: &Place, model: usize) -> f64 {
+        let is_of_model = |mark: &Mark| self.model_of(mark.id.issuer) == Some(model);
+        if !place.marks.iter().any(is_of_model) {
+            return 0.0;
+        }
+        let expected = &self.clearance.expected;
+        let all: f64 = expected.iter().sum();
+        let beside_m2 = TAU * place.variance_m2;
+        let of_kinds = expected.iter().enumerate().map(|(kind, expected)| {
+            let ratio_m2 = libm::exp(place.log_ratio_m2(kind, is_of_model));
+            expected / all * ratio_m2 / beside_m2
+        });
+        libm::log1p(HAS_ANOTHER * of_kinds.sum::<f64>())
     }
 
     /// Whether a robot of each model has marked a place.

@@ -84,6 +84,11 @@ impl Place {
         }
     }
 
+    /// Expected number of mines that are left there when one item has been destroyed.
+    pub(super) fn further(&self) -> f64 {
+        self.surest(None).map(Mark::further).fold(0.0, f64::max)
+    }
+
     /// Whether what was there has been destroyed.
     pub(super) fn is_neutralised(&self) -> bool {
         self.verdict == Some(MarkVerdict::Neutralised)

@@ -4,12 +4,8 @@ use super::coverage::Searched;
 use super::settings::{Clearance, Skill};
 use alloc::vec;
 use alloc::vec::Vec;
-use brain::{Lane, MARK_KINDS};
+use brain::{HAS_ANOTHER, Lane, MARK_KINDS};
 use core::ops::Range;
-
-/// Expected number of mines beside one that has been destroyed: mines may lie in groups, whatever their number in the lane.
-/// It is small, but more than a search by one sensor model leaves open.
-const BESIDE_DESTROYED: f64 = 0.05;
 
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
 #[derive(Debug, Clone)]
@@ -45,11 +41,12 @@ impl Remaining {
         }
     }
 
-    /// Takes that a mine in a cell has been destroyed: another one may lie beside it.
-    pub(super) fn note_destroyed(&mut self, cell: usize, clearance: &Clearance) {
+    /// Takes that an item in a cell has been destroyed, with an expected number of further mines beside it: another one may
+    /// lie there that no mark shows.
+    pub(super) fn note_destroyed(&mut self, cell: usize, further: f64, clearance: &Clearance) {
         let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
         if let Some(share) = self.shares.get_mut(cell).filter(|_| expected > 0.0) {
-            *share += BESIDE_DESTROYED / expected;
+            *share += further.max(HAS_ANOTHER) / expected;
         }
     }
 

@@ -20,6 +20,7 @@
 mod association;
 mod contact;
 mod duplicates;
+mod group;
 pub(crate) mod kinds;
 mod observations;
 mod own_observation;

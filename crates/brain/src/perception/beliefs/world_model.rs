@@ -148,7 +148,7 @@ impl Beliefs {
     fn note_lane(&mut self, percept: &Percept, body: &Body) {
         for received in &percept.inbox {
             match received.message.about {
-                About::Dispatch(Dispatch::Lane(_)) => self.items.is_in_lane = true,
+                About::Dispatch(Dispatch::Lane(lane)) => self.items.hazards = Some(lane.hazards),
                 About::Dispatch(Dispatch::Statement(statement))
                     if statement.verdict == MarkVerdict::Neutralised =>
                 {

@@ -17,6 +17,7 @@ fn mark(robot: RobotId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
         deviation_mm: Mark::millimetres(deviation_m.into()),
         log_ratios: [log_ratio, log_ratio - 1.0, 0.0, 0.0],
         missed_since: 0,
+        further: 0,
     }
 }
 
@@ -188,6 +189,7 @@ fn what_is_marked_beside_a_destroyed_mine_is_improbable_and_looks_since_then_end
         OAV,
         &Mark {
             missed_since: 96,
+            further: 0,
             ..beside
         },
     );

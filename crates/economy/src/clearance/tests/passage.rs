@@ -127,6 +127,7 @@ fn mark(picture: &mut LanePicture, number: u32, at: Point, verdict: Option<MarkV
         deviation_mm: 200,
         log_ratios: [20.0, 0.0, 0.0, 0.0],
         missed_since: 0,
+        further: 0,
     };
     picture.take_mark(robot, &mark);
     if let Some(verdict) = verdict {

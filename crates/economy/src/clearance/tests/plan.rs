@@ -73,6 +73,7 @@ fn marked(picture: &mut LanePicture, log_ratio: f32) {
         deviation_mm: 500,
         log_ratios: [log_ratio, log_ratio - 2.0, 0.0, 0.0],
         missed_since: 0,
+        further: 0,
     };
     picture.take_mark(OAV, &mark);
 }

@@ -237,6 +237,7 @@ impl Searcher<'_> {
             deviation_mm: Mark::millimetres(noise_m / count.sqrt()),
             log_ratios: [log_ratio(0), log_ratio(1), 0.0, 0.0],
             missed_since: 0,
+            further: 0,
         }
     }
 }

@@ -31,6 +31,9 @@ const MIN_IN_VIEW: f64 = 1e-3;
 /// An item at a larger distance from the field of view, in standard deviations, counts as out of view.
 const MAX_OUT_OF_VIEW: f64 = 3.5;
 
+/// A contact is of a group at a track if its density is more than this part of that at the nearest track.
+const AS_NEAR: f64 = 0.1;
+
 /// What a track expects at one contact.
 #[derive(Debug, Clone, Copy, Default)]
 struct Match {
@@ -68,6 +71,7 @@ impl Contacts {
         for (seen, each) in self.seen.iter_mut().zip(&self.matches) {
             seen.tracked_per_m2 += each.claim_per_m2;
             let untracked_per_m2 = seen.false_per_m2 + seen.untracked_per_m2;
+            seen.nearest_per_m2 = seen.nearest_per_m2.max(each.per_m2);
             seen.is_of_track |= each.is_best && each.per_m2 * each.detection > untracked_per_m2;
         }
     }
@@ -126,6 +130,16 @@ impl Contacts {
         pairs.map(|(each, seen)| (each.ratio * each.detection, seen))
     }
 
+    /// The reported kinds of the contacts that are of the weighed track, or of items which cannot be tracked apart from it.
+    pub(super) fn of_group(&self) -> impl Iterator<Item = u16> {
+        let pairs = self.matches.iter().zip(&self.seen);
+        let near = pairs.filter(|(each, seen)| {
+            let new_per_m2 = seen.false_per_m2 + seen.untracked_per_m2;
+            each.per_m2 > new_per_m2 && each.per_m2 > AS_NEAR * seen.nearest_per_m2
+        });
+        near.map(|(_, seen)| seen.kind)
+    }
+
     /// Sum of the likelihood ratios of the contacts for an item of a kind.
     fn hits_of(&self, kind: usize, detector: &Detector, detection: f64) -> f64 {
         let pairs = self.matches.iter().zip(&self.seen);
@@ -161,6 +175,7 @@ impl Track {
                 let ratio = self.add_likelihoods(look, in_view, None);
                 self.add((own, self.prior), last_track_id, ratio);
                 self.update_own_kind(look);
+                self.update_group(look, None, in_view);
             }
             return in_view > 0.0;
         };
@@ -178,9 +193,19 @@ impl Track {
         if is_of_item > 0.5 {
             self.note_contact(own);
         }
+        self.update_group(look, Some(contacts), in_view);
         self.move_to(contacts, all);
         self.update_own_kind(look);
         true
+    }
+
+    /// Takes the contacts of an observation for those of a group of items.
+    fn update_group(&mut self, look: &Look, contacts: Option<&Contacts>, in_view: f64) {
+        if let Some(kinds) = look.kinds {
+            let distance_m = look.observation.pose.at.to(self.at).length();
+            let group = &mut self.group;
+            group.observe((look, kinds), contacts, (distance_m, in_view));
+        }
     }
 
     /// Log odds before the own observations, the first of which this may be.

@@ -41,6 +41,8 @@ pub(crate) struct SeenContact {
     pub(super) untracked_per_m2: f64,
     /// Density of contacts of the items of all tracks that this robot has observed.
     pub(super) tracked_per_m2: f64,
+    /// The same of the item that it is most probably of, if each exists and is detected.
+    pub(super) nearest_per_m2: f64,
     /// Whether it is rather of the item of a track, if that exists, than a false alarm or of another item.
     pub(super) is_of_track: bool,
 }
@@ -51,19 +53,22 @@ pub(super) struct Look<'l> {
     pub(super) view: View,
     pub(super) map: Option<&'l Map>,
     pub(super) kinds: Option<&'l KindModel>,
+    /// The kinds of items that are to be cleared, one bit for each; none outside of a lane.
+    pub(super) hazards: Option<u8>,
 }
 
 impl<'l> Look<'l> {
     pub(super) fn new(
         observation: &'l OwnObservation<'l>,
         map: Option<&'l Map>,
-        kinds: Option<&'l KindModel>,
+        (kinds, hazards): (Option<&'l KindModel>, Option<u8>),
     ) -> Self {
         Self {
             observation,
             view: View::new(observation.detector, observation.pose.heading_rad),
             map,
             kinds,
+            hazards,
         }
     }
 
@@ -88,6 +93,7 @@ impl<'l> Look<'l> {
             false_per_m2: self.false_per_m2(contact.kind, at, pose_variance_m2),
             untracked_per_m2: unseen * observation.untracked_per_m2(contact),
             tracked_per_m2: 0.0,
+            nearest_per_m2: 0.0,
             is_of_track: false,
         })
     }

@@ -17,7 +17,7 @@ impl Items {
     /// Ends the belief in each of the changed tracks that is of the same item as a more probable one. The tracks stay: other
     /// robots learn of the end.
     pub(super) fn end_duplicates(&mut self, own: RobotId, changed: &TrackSet) {
-        if self.is_in_lane {
+        if self.hazards.is_some() {
             // The controllers of a lane weigh all marks.
             return;
         }

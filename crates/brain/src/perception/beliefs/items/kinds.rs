@@ -88,6 +88,11 @@ impl KindModel {
         NUMBERS * (model.unwrap_or(0) * self.kinds() + kind)
     }
 
+    /// Share of a kind among the items.
+    pub(super) fn share(&self, kind: usize) -> f64 {
+        self.shares.get(kind).copied().unwrap_or_default()
+    }
+
     pub(super) fn each_kind(&self) -> core::ops::Range<usize> {
         0..self.kinds()
     }

@@ -1,6 +1,7 @@
 //! Own observations of items: existing tracks, and new ones.
 
 use super::contact::{Look, SeenContact};
+use super::group::Group;
 use super::kinds::KindModel;
 use super::own_observation::{OwnObservation, OwnRatio};
 use super::track::{MAX_LOG_ODDS, Source, Track};
@@ -24,7 +25,7 @@ impl Items {
         map: Option<&Map>,
     ) {
         let kinds = self.kinds.clone();
-        let look = Look::new(observation, map, kinds.as_deref());
+        let look = Look::new(observation, map, (kinds.as_deref(), self.hazards));
         let mut seen = core::mem::take(&mut self.contacts);
         seen.take(contacts.filter_map(|contact| look.contact(contact)));
         for track in &self.tracks {
@@ -75,6 +76,9 @@ impl Look<'_> {
             None => OwnRatio::Added(log_ratio(kind.into())),
             Some(kinds) => {
                 track.evidence = kinds.no_evidence();
+                if self.hazards.is_some() {
+                    track.group = Group::new(kinds);
+                }
                 for true_kind in kinds.each_kind() {
                     let misses = observation.relative_misses(true_kind, contact.range_m);
                     let place = kinds.place(observation.detector, true_kind);

@@ -1,5 +1,6 @@
 //! One track: the sources of an item, its position and its log odds.
 
+use super::group::Group;
 use crate::io::body::RobotId;
 use crate::io::message::Provenance;
 use alloc::vec::Vec;
@@ -37,6 +38,8 @@ pub(crate) struct Track {
     pub(crate) edge: f64,
     /// Own measurements by sensor model and kind; empty if kinds are certain.
     pub(crate) evidence: Vec<f64>,
+    /// Whether it is of several items; empty outside of lanes that are to be cleared.
+    pub(crate) group: Group,
 }
 
 impl Hashed for Track {
@@ -50,10 +53,12 @@ impl Hashed for Track {
             count,
             edge,
             evidence,
+            group,
         } = self;
         (*kind, *at).add_to(hash);
         [*variance_m2, *prior, *edge].add_to(hash);
         sources[..*count].add_to(hash);
+        group.add_to(hash);
         if !evidence.is_empty() {
             evidence.add_to(hash);
             for source in &sources[..*count] {
@@ -100,6 +105,7 @@ impl Track {
             count: 0,
             edge: 0.0,
             evidence: Vec::new(),
+            group: Group::default(),
         }
     }
 

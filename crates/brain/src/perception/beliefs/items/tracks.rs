@@ -22,9 +22,9 @@ pub(crate) struct Items {
     /// Without it, contacts have the kind of the item.
     #[hashed(skip)]
     pub(crate) kinds: Option<Arc<KindModel>>,
-    /// Whether a controller has named a lane that is to be cleared.
+    /// The kinds of items that are to be cleared, one bit for each, if a controller has named a lane.
     #[hashed(skip)]
-    pub(crate) is_in_lane: bool,
+    pub(crate) hazards: Option<u8>,
     pub(crate) tracks: Vec<Track>,
     pub(crate) last_track_id: u32,
     /// Index of the track that was repeated last.
@@ -45,7 +45,7 @@ impl Items {
                 .unwrap_or(MAX_TRACKS)
                 .min(MAX_TRACKS),
             kinds: kinds.map(Arc::new),
-            is_in_lane: false,
+            hazards: None,
             tracks: Vec::new(),
             last_track_id: 0,
             repeated: 0,
