@@ -10,6 +10,9 @@ const MAX_LANES: f64 = 1000.0;
 /// range itself it is hardly in view, however often the robot passes: sqrt(3) / 2.
 const USEFUL_RANGE: f64 = 0.866_025_403_784_438_6;
 
+/// The lanes at the border are at least this part of their distance nearer to it than if all were the same distance apart.
+const MIN_BORDER: f64 = 0.5;
+
 /// The path of a search of a robot.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Lanes {
@@ -18,6 +21,17 @@ pub(crate) struct Lanes {
     /// Where the centre of the robot can be; without it, anywhere. Lanes end at its border, as one
     /// beyond it would never be finished.
     pub(crate) within: Option<Rectangle>,
+    /// The range at which items are in view, if those at the border are to be in view for as long as those between two
+    /// lanes; without it, all lanes are the same distance apart.
+    pub(crate) range_m: Option<f64>,
+}
+
+/// The places of lanes across an area.
+struct Across {
+    count: f64,
+    /// Distance of the first and the last one from the border.
+    border_m: f64,
+    apart_m: f64,
 }
 
 impl Lanes {
@@ -34,6 +48,7 @@ impl Lanes {
         Self {
             within: Some(within),
             apart_m: USEFUL_RANGE * self.apart_m,
+            range_m: Some(self.apart_m / 2.0),
         }
     }
 
@@ -41,12 +56,12 @@ impl Lanes {
     pub(crate) fn corner(&self, task: &Task, number: u32) -> Option<Point> {
         let (at, radius_m) = (task.at(), f64::from(task.radius_m));
         let [low_m, high_m] = self.extent_m(at, radius_m);
-        let lanes = libm::ceil((high_m - low_m) / self.apart_m.max(1e-3)).clamp(1.0, MAX_LANES);
+        let across = self.across(high_m - low_m);
         let lane = f64::from(number / 2);
-        if lane >= lanes {
+        if lane >= across.count {
             return None;
         }
-        let up_m = low_m + (high_m - low_m) * (2.0 * lane + 1.0) / (2.0 * lanes);
+        let up_m = low_m + across.border_m + lane * across.apart_m;
         let side_m = libm::sqrt((radius_m * radius_m - up_m * up_m).max(0.0));
         let is_right = matches!(number % 4, 1 | 2);
         let right_m = if is_right { side_m } else { -side_m };
@@ -55,6 +70,38 @@ impl Lanes {
             x: x.clamp(within.min().x, within.max().x),
             y: y.clamp(within.min().y, within.max().y),
         }))
+    }
+
+    /// The lanes across an area of a height, as few as possible.
+    ///
+    /// The border is in view from one lane only, the middle between two lanes from both. An item at a distance d from a
+    /// lane is in view along `2 sqrt(r^2 - d^2)`, so that both are in view for the same time if
+    ///
+    /// ```text
+    /// a^2 - e^2 = 3 r^2     a: distance of two lanes, e: distance of the border, 2 e + (n - 1) a = height
+    /// ```
+    fn across(&self, height_m: f64) -> Across {
+        let count = libm::ceil(height_m / self.apart_m.max(1e-3)).clamp(1.0, MAX_LANES);
+        let even_m = height_m / (2.0 * count);
+        let (gaps, range_m) = (count - 1.0, self.range_m.unwrap_or_default());
+        if gaps < 1.0 || range_m <= 0.0 {
+            return Across {
+                count,
+                border_m: even_m,
+                apart_m: 2.0 * even_m,
+            };
+        }
+        // With a as a function of e, the lower root; there is none if lanes are so dense that all are in view from several.
+        let square = 4.0 - gaps * gaps;
+        let constant = height_m * height_m - 3.0 * gaps * gaps * range_m * range_m;
+        let discriminant = 16.0 * height_m * height_m - 4.0 * square * constant;
+        let root_m = 2.0 * constant / (4.0 * height_m + libm::sqrt(discriminant.max(0.0)));
+        let border_m = root_m.clamp(MIN_BORDER * even_m, even_m);
+        Across {
+            count,
+            border_m,
+            apart_m: (height_m - 2.0 * border_m) / gaps,
+        }
     }
 
     /// Length of the path, from its first corner.
@@ -110,6 +157,7 @@ mod tests {
         let lanes = Lanes {
             apart_m: 3.0,
             within: None,
+            range_m: None,
         };
         let corners = corners(&lanes);
         assert_eq!(corners.len(), 14);
@@ -132,6 +180,7 @@ mod tests {
         let lanes = Lanes {
             apart_m: 10.0,
             within: None,
+            range_m: None,
         };
         let corner = |x: f64, y: f64| Point { x, y };
         let lane = Rectangle::spanned(corner(-7.0, -6.0), corner(13.0, 14.0));
@@ -151,11 +200,42 @@ mod tests {
     }
 
     #[test]
+    fn the_border_of_a_mined_lane_is_in_view_for_as_long_as_the_middle_between_two_lanes() {
+        let along_m = |away_m: f64| libm::sqrt(4.0 * 4.0 - away_m * away_m);
+        for height_m in [9.0, 13.0, 17.0, 20.0, 26.0] {
+            let lanes = Lanes {
+                apart_m: USEFUL_RANGE * 8.0,
+                within: None,
+                range_m: Some(4.0),
+            };
+            let across = lanes.across(height_m);
+            let all_m = 2.0 * across.border_m + (across.count - 1.0) * across.apart_m;
+            assert!((all_m - height_m).abs() < 1e-9);
+            let even = Lanes {
+                range_m: None,
+                ..lanes
+            };
+            let least =
+                |across: &Across| along_m(across.border_m).min(2.0 * along_m(across.apart_m / 2.0));
+            assert!(
+                least(&across) >= least(&even.across(height_m)),
+                "{height_m}"
+            );
+            let difference_m = along_m(across.border_m) - 2.0 * along_m(across.apart_m / 2.0);
+            assert!(
+                difference_m.abs() < 1e-6 || across.border_m < 2.0,
+                "{height_m}: {difference_m}"
+            );
+        }
+    }
+
+    #[test]
     fn lanes_end_at_the_border_and_the_part_within_has_as_many_as_it_needs() {
         let corner = |x: f64, y: f64| Point { x, y };
         let half = Lanes {
             apart_m: 3.0,
             within: Some(Rectangle::spanned(corner(0.0, 4.0), corner(50.0, 50.0))),
+            range_m: None,
         };
         let corners = corners(&half);
         assert_eq!(corners.len(), 8);
