@@ -359,6 +359,7 @@ mod tests {
             first: 0,
             marks: 0,
             missed: [0; 16],
+            driven: [0; 16],
         };
         let mark = Mark {
             id: GoalId::default(),

@@ -154,6 +154,9 @@ pub struct Coverage {
     /// For each cell, the probability that all looks miss an item there that the sensors can detect,
     /// as its negative logarithm in steps of 1/16 nat; 255 stands for 255 or more.
     pub missed: [u8; CELLS_PER_MESSAGE],
+    /// For each cell, the share of it that the robot has driven over, so that an item there would have destroyed it, in
+    /// steps of 1/255.
+    pub driven: [u8; CELLS_PER_MESSAGE],
 }
 
 impl Coverage {
@@ -166,6 +169,23 @@ impl Coverage {
     )]
     pub fn steps(nats: f64) -> u8 {
         libm::round(nats * STEPS_PER_NAT).clamp(0.0, 255.0) as u8
+    }
+
+    /// A share as coverage states it.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
+    pub fn parts(share: f64) -> u8 {
+        libm::round(share * 255.0).clamp(0.0, 255.0) as u8
+    }
+
+    /// The share for a number of parts.
+    #[must_use]
+    pub fn share(parts: u8) -> f64 {
+        f64::from(parts) / 255.0
     }
 
     /// The negative logarithm in nats for a number of steps.

@@ -4,6 +4,7 @@
 //! looks of each robot from that robot, and count them once.
 
 use super::ability::Moment;
+use super::lane_driven::{Driven, danger_m};
 use super::lane_masks::masks;
 use crate::io::lane::{CELLS_PER_MESSAGE, Coverage, Lane};
 use crate::perception::beliefs::Beliefs;
@@ -26,14 +27,22 @@ pub(super) struct LaneCoverage {
     #[hashed(skip)]
     field: Field,
     own: CoverageMap,
-    /// The steps that were sent last, and the next block of cells.
-    sent: Vec<u8>,
+    driven: Driven,
+    /// What was sent last of each cell, and the next block of cells.
+    sent: Vec<Cell>,
     next_block: usize,
-    /// The steps of each cell, computed again for the blocks in view of later observations.
+    /// What is known of each cell, computed again for the blocks in view of later observations.
     #[hashed(skip)]
-    steps: Vec<u8>,
+    now: Vec<Cell>,
     #[hashed(skip)]
     is_stale: Vec<bool>,
+}
+
+/// What messages state of a cell.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
+struct Cell {
+    missed: u8,
+    driven: u8,
 }
 
 impl LaneCoverage {
@@ -44,10 +53,11 @@ impl LaneCoverage {
         Self {
             lane,
             own: CoverageMap::new(field.cells()),
+            driven: Driven::new(),
             field,
-            sent: vec![0; blocks * CELLS_PER_MESSAGE],
+            sent: vec![Cell::default(); blocks * CELLS_PER_MESSAGE],
             next_block: 0,
-            steps: vec![0; blocks * CELLS_PER_MESSAGE],
+            now: vec![Cell::default(); blocks * CELLS_PER_MESSAGE],
             is_stale: vec![false; blocks],
         }
     }
@@ -61,6 +71,7 @@ impl LaneCoverage {
         let Some(map) = &beliefs.map else {
             return;
         };
+        self.drive(moment, beliefs);
         for observation in &moment.percept.observations {
             let mut detectors = moment.body.detectors.iter();
             let detector = detectors.find(|detector| detector.sensor == observation.sensor);
@@ -82,6 +93,16 @@ impl LaneCoverage {
         }
     }
 
+    /// Adds the ground under the robot.
+    fn drive(&mut self, moment: &Moment, beliefs: &Beliefs) {
+        let danger_m = danger_m(moment.body, &self.lane);
+        if let (Some(pose), Some(radius_m)) = (beliefs.pose(), danger_m)
+            && self.driven.take(&self.field, pose.at, radius_m)
+        {
+            self.note_look(pose.at, radius_m);
+        }
+    }
+
     /// Notes that cells within a distance may have changed.
     fn note_look(&mut self, at: Point, within_m: f64) {
         let reach = Point {
@@ -97,13 +118,12 @@ impl LaneCoverage {
         }
     }
 
-    /// Computes the steps of the cells that may have changed.
+    /// Computes the cells that may have changed.
     fn refresh(&mut self) {
         for block in 0..self.is_stale.len() {
             if core::mem::take(&mut self.is_stale[block]) {
-                let steps = self.block(block);
-                self.steps[block * CELLS_PER_MESSAGE..][..CELLS_PER_MESSAGE]
-                    .copy_from_slice(&steps);
+                let cells = self.block(block);
+                self.now[block * CELLS_PER_MESSAGE..][..CELLS_PER_MESSAGE].copy_from_slice(&cells);
             }
         }
     }
@@ -122,7 +142,7 @@ impl LaneCoverage {
         let order = (0..blocks).map(|index| (self.next_block + index) % blocks);
         let (mut due, same): (Vec<usize>, Vec<usize>) = order.partition(|block| {
             let cells = block * CELLS_PER_MESSAGE..(block + 1) * CELLS_PER_MESSAGE;
-            self.sent[cells.clone()] != self.steps[cells]
+            self.sent[cells.clone()] != self.now[cells]
         });
         due.truncate(max.saturating_sub(1));
         due.extend(same.into_iter().take(max - due.len()));
@@ -131,47 +151,66 @@ impl LaneCoverage {
         }
         let send = |block: usize| {
             let first = block * CELLS_PER_MESSAGE;
-            let missed = core::array::from_fn(|index| self.steps[first + index]);
-            self.sent[first..first + CELLS_PER_MESSAGE].copy_from_slice(&missed);
+            let cells: [Cell; CELLS_PER_MESSAGE] =
+                core::array::from_fn(|index| self.now[first + index]);
+            self.sent[first..first + CELLS_PER_MESSAGE].copy_from_slice(&cells);
             Coverage {
                 first: u32::try_from(first).unwrap_or(u32::MAX),
                 marks,
-                missed,
+                missed: cells.map(|cell| cell.missed),
+                driven: cells.map(|cell| cell.driven),
             }
         };
         due.into_iter().map(send).collect()
     }
 
-    fn block(&self, block: usize) -> [u8; CELLS_PER_MESSAGE] {
+    fn block(&self, block: usize) -> [Cell; CELLS_PER_MESSAGE] {
         core::array::from_fn(|index| {
             let cell = block * CELLS_PER_MESSAGE + index;
             if cell < self.lane.cells() {
-                Coverage::steps(self.nats(cell))
+                self.cell(cell)
             } else {
-                0
+                Cell::default()
             }
         })
     }
 
-    /// How often all looks miss a visible item at a random position of a cell of the lane, in nats.
-    fn nats(&self, cell: usize) -> f64 {
+    /// How often all looks miss a visible item at a random position of a cell of the lane, and how much of the cell has been
+    /// driven over.
+    fn cell(&self, cell: usize) -> Cell {
         let field = &self.field;
         let area = self.lane.cell_area(cell);
         let [columns, rows] = field.columns_and_rows(area.min(), area.max());
-        let (mut sum, mut count) = (0.0, 0.0);
+        let (mut missed, mut driven, mut count) = (0.0, 0.0, 0.0);
         for row in rows {
-            for cell in row * field.columns + columns.start..row * field.columns + columns.end {
-                if area.contains(field.centre(cell)) {
-                    sum += self.own.of(cell);
+            for part in row * field.columns + columns.start..row * field.columns + columns.end {
+                if area.contains(field.centre(part)) {
+                    let [part_missed, part_driven] = self.part(part);
+                    missed += part_missed;
+                    driven += part_driven;
                     count += 1.0;
                 }
             }
         }
-        let missed = if count > 0.0 {
-            sum / count
-        } else {
-            self.own.of(field.nearest_cell(self.lane.centre(cell)))
-        };
-        -libm::log(missed.max(f64::MIN_POSITIVE))
+        if count < 1.0 {
+            let nearest = self.part(field.nearest_cell(self.lane.centre(cell)));
+            ([missed, driven], count) = (nearest, 1.0);
+        }
+        Cell::new(missed / count, driven / count)
+    }
+
+    /// The probability that all looks miss a visible item in a part, and whether it has been driven over.
+    fn part(&self, part: usize) -> [f64; 2] {
+        let driven = f64::from(u8::from(self.driven.has(part)));
+        [self.own.of(part), driven]
+    }
+}
+
+impl Cell {
+    fn new(missed: f64, driven: f64) -> Self {
+        Self {
+            missed: Coverage::steps(-libm::log(missed.max(f64::MIN_POSITIVE))),
+            driven: Coverage::parts(driven),
+        }
     }
 }

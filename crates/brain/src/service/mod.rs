@@ -5,7 +5,8 @@
 //! * [`assignee`]: the robot's half, a step as a table of contents, with [`bids`],
 //!   [`renewals`] and [`reporting`], the [`jobs`] that it serves, its known [`offers`], its
 //!   [`failures`], and when it sends what ([`schedule`]);
-//! * [`lane_reports`]: what it reports of a mined lane, [`lane_coverage`] and [`lane_marks`].
+//! * [`lane_reports`]: what it reports of a mined lane, [`lane_coverage`], [`lane_driven`] and
+//!   [`lane_marks`].
 
 pub(crate) mod ability;
 pub(crate) mod assignee;
@@ -19,6 +20,7 @@ pub(crate) mod grantor;
 pub(crate) mod holder;
 pub(crate) mod jobs;
 mod lane_coverage;
+mod lane_driven;
 mod lane_marks;
 mod lane_masks;
 pub(crate) mod lane_reports;

@@ -12,6 +12,9 @@ pub(super) struct Searched {
     /// The sums over the robots of each model, in steps of the messages.
     #[hashed(skip)]
     totals: Vec<Vec<u32>>,
+    /// For each cell, the largest share that one robot has driven over, in steps of the messages: robots may drive along
+    /// the same path.
+    driven: Vec<u8>,
 }
 
 #[derive(Debug, Clone, Hashed)]
@@ -26,6 +29,7 @@ impl Searched {
         Self {
             robots: Vec::new(),
             totals: vec![vec![0; cells]; models],
+            driven: vec![0; cells],
         }
     }
 
@@ -47,11 +51,20 @@ impl Searched {
         let steps = &mut self.robots[index].steps;
         let cells = steps.iter_mut().zip(totals);
         let first = usize::try_from(coverage.first).unwrap_or(usize::MAX);
+        let each = self.driven.iter_mut().skip(first);
+        for (cell, driven) in each.zip(coverage.driven) {
+            *cell = driven.max(*cell);
+        }
         for ((cell, total), missed) in cells.skip(first).zip(coverage.missed) {
             let more = missed.saturating_sub(*cell);
             *cell += more;
             *total += u32::from(more);
         }
+    }
+
+    /// The share of a cell that a robot has driven over without being destroyed.
+    pub(super) fn driven(&self, cell: usize) -> f64 {
+        self.driven.get(cell).copied().map_or(0.0, Coverage::share)
     }
 
     /// How often all looks of a model miss a visible item in a cell, in nats, without those of some
@@ -86,6 +99,7 @@ mod tests {
             first,
             marks: 0,
             missed: [steps; 16],
+            driven: [0; 16],
         }
     }
 

@@ -1,4 +1,6 @@
 //! The expected numbers of mines without a mark, kept for each cell: only messages about a cell change them.
+//!
+//! Where a robot has driven, a mine would have destroyed it, also one to which all sensors are blind.
 
 use super::coverage::Searched;
 use super::settings::{Clearance, Skill};
@@ -66,7 +68,9 @@ impl Remaining {
                         let more_nats = more_nats.get(model).copied().unwrap_or_default();
                         missed_share(shares[kind], nats + more_nats)
                     });
-                    expected * share * missed.product::<f64>()
+                    let destroys = clearance.destroy_probability.get(kind).copied();
+                    let survived = 1.0 - destroys.unwrap_or_default() * searched.driven(cell);
+                    expected * share * survived * missed.product::<f64>()
                 });
                 left.sum::<f64>()
             };

@@ -15,6 +15,8 @@ pub struct Clearance {
     /// Expected number of items of each kind in the lane, uniformly distributed over its free ground; the number is Poisson
     /// distributed. At most four kinds: marks distinguish no more.
     pub expected: Vec<f64>,
+    /// Probability that an item of each kind destroys a robot that drives over it; 0 if missing.
+    pub destroy_probability: Vec<f64>,
     /// The kinds of robots, as ids count them.
     pub robots: Vec<RobotModel>,
     /// The lane is declared clear when the risk is below this probability.

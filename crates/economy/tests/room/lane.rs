@@ -19,6 +19,7 @@ fn settings() -> Settings {
         },
         free_shares: Vec::new(),
         expected: vec![2.0],
+        destroy_probability: Vec::new(),
         robots: vec![RobotModel {
             search_nats: 3.0,
             ..RobotModel::default()
@@ -104,6 +105,7 @@ fn searched(first: u32) -> (RobotId, Dispatch) {
         first,
         marks: 0,
         missed: [200; 16],
+        driven: [0; 16],
     };
     (OAV, Dispatch::Coverage(coverage))
 }

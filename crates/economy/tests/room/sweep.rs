@@ -33,6 +33,7 @@ fn clearance() -> Clearance {
         },
         free_shares: Vec::new(),
         expected: vec![2.0],
+        destroy_probability: Vec::new(),
         robots: vec![RobotModel {
             search_nats: 3.0,
             ..RobotModel::default()

@@ -36,6 +36,15 @@ impl ClearanceSpec {
             },
             free_shares: Vec::new(),
             expected: self.expected(scenario),
+            destroy_probability: scenario
+                .items
+                .values()
+                .map(|kind| {
+                    kind.hazard
+                        .as_ref()
+                        .map_or(0.0, |hazard| hazard.destroy_probability)
+                })
+                .collect(),
             robots: scenario
                 .robots
                 .iter()

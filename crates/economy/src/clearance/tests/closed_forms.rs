@@ -25,6 +25,7 @@ fn searched(clearance: &Clearance, kinds: &[u8], looks: impl Fn(usize) -> u32) -
                 missed: core::array::from_fn(|cell| {
                     Coverage::steps(nats * f64::from(looks(first + cell)))
                 }),
+                driven: [0; 16],
             };
             picture.take_coverage(
                 RobotId {

@@ -30,6 +30,7 @@ fn looked(picture: &mut LanePicture, robot: RobotId, nats: f64) {
                 first,
                 marks: 0,
                 missed,
+                driven: [0; 16],
             },
         );
     }
@@ -116,6 +117,7 @@ fn looks_of_a_robot_count_only_with_all_of_its_marks() {
         first: 0,
         marks: 1,
         missed: [32; 16],
+        driven: [0; 16],
     };
     picture.take_coverage(OAV, &coverage);
     assert_eq!(

@@ -58,6 +58,7 @@ fn searched(picture: &mut LanePicture, robot: RobotId, nats: f64) {
                 first,
                 marks,
                 missed,
+                driven: [0; 16],
             },
         );
     }
@@ -174,6 +175,7 @@ fn a_lane_is_not_declared_clear_while_marks_are_missing() {
             first: 0,
             marks: 1,
             missed: [255; 16],
+            driven: [0; 16],
         },
     );
     let mut decision = Decision::default();

@@ -77,6 +77,7 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
         },
         free_shares: Vec::new(),
         expected: expected.to_vec(),
+        destroy_probability: Vec::new(),
         robots: vec![robot(0, blind[0]), robot(1, blind[1])],
         declare_below: 0.05,
         interrogate_above: 0.05,
@@ -185,6 +186,7 @@ impl Searcher<'_> {
             missed: core::array::from_fn(|cell| {
                 Coverage::steps(nats * f64::from(looks(first + cell)))
             }),
+            driven: [0; 16],
         }
     }
 
