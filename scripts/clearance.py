@@ -71,6 +71,7 @@ CLEARANCE = "controllers.station.clearance"
 BELOW = f"{CLEARANCE}.declare_below"
 EXPECTED = f"{CLEARANCE}.expected_count"
 BLIND = ("robots.oav.sensors.camera.blind_share", "robots.ugv.sensors.detector.blind_share")
+SENSORS = tuple(key.removesuffix(".blind_share") for key in BLIND)
 DETECTION = "robots.ugv.sensors.detector.detection_probability"
 BELIEFS = ("robots.oav.brain.beliefs.prior_count", "robots.ugv.brain.beliefs.prior_count")
 
@@ -248,6 +249,10 @@ def directions(scale: float) -> Iterable[Direction]:
     clutter = {"mine": 3, "clutter": 40}
     more: Changes = {"items.clutter.count": 40, **dict.fromkeys(BELIEFS, clutter)}
     better = of_kinds([DETECTION], 0.5)
+    stated = of_kinds(BLIND, 0.1)
+    blind = of_kinds(BLIND, 0.2) | {
+        f"{each}.believed.blind_share": {"mine": 0.1} for each in SENSORS
+    }
     time_s, not_clear = "declared_s", "declared_not_clear"
     changes: list[tuple[str, Changes, Changes, str, int]] = [
         ("a better sensor of ground vehicles", {}, better, time_s, -1),
@@ -255,6 +260,7 @@ def directions(scale: float) -> Iterable[Direction]:
         ("more clutter", {}, more, time_s, 1),
         ("60% of messages lost", {}, lossy(0.6), time_s, 1),
         ("one more ground vehicle", {}, {"robots.ugv.count": 4}, time_s, -1),
+        ("sensors blind to twice as many mines as believed", stated, blind, not_clear, 1),
         ("declarations at a higher risk", {BELOW: 0.02}, {BELOW: 0.5}, not_clear, 1),
     ]
     for claim, before, after, name, sign in changes:

@@ -1,11 +1,14 @@
 //! Quantities that follow from the values of a scenario, for people who check it.
 
 use crate::bodies::RobotSpec;
+use crate::controllers::lane::in_truth;
 use crate::scenario::{Checked, ScenarioSpec};
-use crate::sensors::items::{Detection, ItemsSpec};
+use crate::sensors::detection::Detection;
+use crate::sensors::items::ItemsSpec;
 use crate::sensors::pass::{Pass, Path};
 use crate::sensors::{Measures, SensorSpec};
-use crate::warnings::lane_reach::{lane_reach, percent};
+use crate::warnings::lane_reach::{lane_reach, percent, reach_of};
+use economy::Clearance;
 
 /// What a pass of each item detector detects, for each kind of item that it detects: (sensor and kind, text).
 pub(crate) fn derived(checked: &Checked) -> Vec<(String, String)> {
@@ -15,7 +18,7 @@ pub(crate) fn derived(checked: &Checked) -> Vec<(String, String)> {
         for (name, sensor) in &robot.sensors {
             if let Measures::Items(items) = &sensor.measures {
                 let of = |kind: &String| {
-                    let text = for_kind(spec, (robot, sensor), items, kind)?;
+                    let text = with_belief(spec, (robot, sensor), items, kind)?;
                     Some((format!("robots.{owner}.sensors.{name}, {kind}"), text))
                 };
                 derived.extend(spec.items.keys().filter_map(of));
@@ -32,10 +35,22 @@ fn floor(checked: &Checked) -> Option<(String, String)> {
     let (name, _) = kinds.find(|(_, kind)| kind.clearance.is_some())?;
     let clearance = checked.scenario.clearance()?;
     let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
+    let floor_of = |clearance: &Clearance| {
+        let reach = reach_of(clearance, checked).map_or(0.0, |reach| reach.floor);
+        reach.max(clearance.floor())
+    };
+    let floor = floor_of(clearance);
+    let truth = in_truth(clearance, &checked.spec);
+    let truth = truth.map(|truth| floor_of(&truth));
+    let truth = truth.filter(|truth| percent(*truth) != percent(floor));
+    let believed = truth.map_or(String::new(), |_| {
+        format!(
+            "; controllers believe that it never falls below {}",
+            percent(floor)
+        )
+    });
+    let floor = truth.unwrap_or(floor);
     let reach = lane_reach(checked);
-    let floor = reach
-        .map_or(0.0, |reach| reach.floor)
-        .max(clearance.floor());
     let unseen = reach.map_or(0.0, |reach| reach.unseen);
     let unseen = (unseen > 0.0).then(|| {
         format!(
@@ -44,11 +59,28 @@ fn floor(checked: &Checked) -> Option<(String, String)> {
         )
     });
     let text = format!(
-        "{expected} expected mines; {}the risk never falls below {}, however often all sensors look",
+        "{expected} expected mines; {}the risk never falls below {}, however often all sensors look{believed}",
         unseen.unwrap_or_default(),
         percent(floor)
     );
     Some((format!("controllers.{name}.clearance"), text))
+}
+
+/// What the sensor detects, and what it is believed to detect if that differs.
+fn with_belief(
+    spec: &ScenarioSpec,
+    robot: (&RobotSpec, &SensorSpec),
+    items: &ItemsSpec,
+    kind: &str,
+) -> Option<String> {
+    let truth = for_kind(spec, robot, items, kind);
+    let believed = for_kind(spec, robot, &items.as_believed(spec.items.keys()), kind);
+    if truth == believed {
+        return truth;
+    }
+    let [truth, believed] =
+        [truth, believed].map(|text| text.unwrap_or_else(|| "detects none".to_owned()));
+    Some(format!("{truth}. Believed: {believed}"))
 }
 
 /// `None` if the sensor never detects that kind, or there is nothing to state.
@@ -69,7 +101,14 @@ fn for_kind(
     let pass = is_moving.then(|| of_pass(&Pass::new(items, detection, path), path, blind));
     let ceiling =
         (blind > 0.0).then(|| format!("at most {} however often it passes", percent(1.0 - blind)));
-    let parts: Vec<String> = pass.into_iter().chain(ceiling).collect();
+    let alike = items.lookalike_share.get(kind).into_iter().flatten();
+    let alike = alike.filter(|(_, share)| **share > 0.0);
+    let alike = alike.map(|(other, share)| {
+        let share = percent(*share);
+        format!("{share} look like {other} however often it passes")
+    });
+    let parts = pass.into_iter().chain(ceiling).chain(alike);
+    let parts: Vec<String> = parts.collect();
     (!parts.is_empty()).then(|| parts.join("; "))
 }
 
@@ -128,6 +167,38 @@ mod tests {
         let text = "a pass at 1 m/s, with a measurement every 0.1 m, detects 65.9% on its path and 58.7% in its swath of \
                     2.000 m; at most 75.0% however often it passes";
         assert_eq!(lines("1", eye)[0].1, text);
+    }
+
+    #[test]
+    fn what_a_sensor_is_believed_to_detect_is_stated_beside_the_truth() {
+        let eye = "range_m = 1\ndetection_probability = { mine = 0.1 }\nblind_share = { mine = 0.25 }\n\
+                   believed = { detection_probability = { clutter = 0.1 }, blind_share = { mine = 0.1 } }";
+        let texts: Vec<String> = lines("1", eye).into_iter().map(|(_, text)| text).collect();
+        assert!(
+            texts[0].starts_with("detects none. Believed: a pass at 1 m/s"),
+            "{texts:?}"
+        );
+        let [truth, believed] = [0, 1].map(|part| texts[1].split(". Believed: ").nth(part));
+        assert!(
+            truth
+                .unwrap()
+                .ends_with("at most 75.0% however often it passes")
+        );
+        assert!(
+            believed
+                .unwrap()
+                .ends_with("at most 90.0% however often it passes")
+        );
+    }
+
+    #[test]
+    fn the_share_that_looks_like_another_kind_is_stated() {
+        let eye = "range_m = 1\nlookalike_share = { mine = { clutter = 0.2 } }";
+        let text = &lines("1", eye)[1].1;
+        assert!(
+            text.ends_with("; 20.0% look like clutter however often it passes"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -681,9 +681,12 @@ class Detector(TypedDict):
             none if it never detects that kind.
         blind_share: Share of the items of each kind that it never detects, however often it
             looks; empty if it is 0 for all kinds.
-        confusion: Probability of each reported kind (column) by the true kind of a detected
-            item (row); empty if kinds are reported as they are.
-        model: The sensor model: detectors with the same number are blind to the same items.
+        lookalike_share: Share of the items of each kind (row) that look like each kind (column)
+            to its model, however often it looks; empty if all look like what they are.
+        confusion: Probability of each reported kind (column) by the kind that a detected item
+            looks like (row); empty if kinds are reported as they are.
+        model: The sensor model: detectors with the same number are blind to the same items, and
+            the same items look like another kind to them.
         false_alarms_per_m2: False alarms of each kind per measurement and square metre in view.
         noise_m: Standard deviation of the measured position of a contact, along each axis.
         needs_line_of_sight: Whether obstacles hide items.
@@ -695,6 +698,7 @@ class Detector(TypedDict):
     facing_rad: float
     detection_probability: Sequence[Sequence[Sequence[float]]]
     blind_share: NotRequired[Sequence[float]]
+    lookalike_share: NotRequired[Sequence[Sequence[float]]]
     confusion: NotRequired[Sequence[Sequence[float]]]
     model: NotRequired[int]
     false_alarms_per_m2: Sequence[float]

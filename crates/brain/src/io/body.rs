@@ -189,11 +189,16 @@ pub struct Detector {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub blind_share: Vec<f64>,
-    /// Probability of each reported kind (column) by the true kind of a detected item (row); empty
-    /// if kinds are reported as they are.
+    /// Share of the items of each kind (row) that look like each kind (column) to its model, however
+    /// often it looks; empty if all look like what they are.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lookalike_share: Vec<Vec<f64>>,
+    /// Probability of each reported kind (column) by the kind that a detected item looks like (row);
+    /// empty if kinds are reported as they are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub confusion: Vec<Vec<f64>>,
-    /// The sensor model: detectors with the same number are blind to the same items.
+    /// The sensor model: detectors with the same number are blind to the same items, and the same
+    /// items look like another kind to them.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub model: u32,
     /// False alarms of each kind per measurement and square metre in view.

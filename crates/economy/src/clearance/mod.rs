@@ -2,7 +2,8 @@
 //!
 //! * [`settings`]: what it knows before: the lane, the prior, and the sensors of robots;
 //! * [`coverage`]: what robots have searched; [`marks`]: what they have detected, fused by [`place`];
-//! * [`picture`]: both together; [`remaining`]: what follows for each cell; [`risk`]: the probability that at least one mine is left;
+//! * [`lookalikes`]: items that look like another kind to all sensors of a model, whatever they mark;
+//! * [`picture`]: all of this together; [`remaining`]: what follows for each cell; [`risk`]: the probability that at least one mine is left;
 //! * [`cleared`]: the share of the mines of each kind that are cleared;
 //! * [`plan`]: the goals that follow; [`declare`]: whether the lane is declared clear or given up.
 //!
@@ -20,6 +21,7 @@
 mod cleared;
 mod coverage;
 mod declare;
+mod lookalikes;
 mod marks;
 mod picture;
 mod place;

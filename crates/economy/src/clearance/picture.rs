@@ -3,6 +3,7 @@
 mod kinds;
 
 use super::coverage::Searched;
+use super::lookalikes::Lookalikes;
 use super::marks::Marks;
 use super::place::{GONE, Place};
 use super::remaining::{Remaining, missed_share};
@@ -34,9 +35,12 @@ const NEAR_M: f64 = 1.5;
 pub struct LanePicture {
     #[hashed(skip)]
     clearance: Arc<Clearance>,
-    /// For each sensor model, the blind share of each kind; for each kind of robots, its model.
+    /// For each sensor model, the blind share of each kind, and what looks like another kind; for each kind of robots, its
+    /// model.
     #[hashed(skip)]
     blind: Vec<[f64; MARK_KINDS]>,
+    #[hashed(skip)]
+    lookalikes: Vec<Option<Lookalikes>>,
     #[hashed(skip)]
     model_of_kind: Vec<usize>,
     searched: Searched,
@@ -87,9 +91,12 @@ impl LanePicture {
         let shares = models
             .iter()
             .map(|robot| core::array::from_fn(|kind| robot.blind_share_of(kind)));
+        let lookalikes = models.iter();
+        let lookalikes = lookalikes.map(|robot| Lookalikes::new(&robot.lookalike_share));
         let cells = clearance.lane.cells();
         let mut picture = Self {
             blind: shares.collect(),
+            lookalikes: lookalikes.collect(),
             searched: Searched::new(models.len(), cells),
             marks: Marks::default(),
             remaining: Remaining::new(&clearance),
@@ -294,8 +301,8 @@ impl LanePicture {
     /// Log odds of a kind of items at a place, against nothing but false alarms, if some sensor models have detected
     /// it.
     ///
-    /// An item that a sensor model has detected is one that it can detect. If the model has not,
-    /// either all of its looks have missed the item, or the model is blind to it.
+    /// An item that a sensor model has detected is one that it can detect; its robots agree on what it looks like. If the
+    /// model has not, either all of its looks have missed the item, or the model is blind to it.
     fn log_odds(&self, place: &Place, kind: usize, detected: &[bool]) -> f64 {
         let area_m2 = self.remaining.free_m2;
         let expected = self.clearance.expected.get(kind).copied();
@@ -312,30 +319,40 @@ impl LanePicture {
         let models = models.map(|(model, has_detected)| {
             let blind = self.blind[model][kind];
             if *has_detected {
-                libm::log(1.0 - blind) - self.searched.nats_without(model, cell, &robots)
+                let nats = self.searched.nats_without(model, cell, &robots);
+                libm::log(1.0 - blind) - nats + self.lookalike_log_ratio(place, kind, model)
             } else {
                 let nats = self.searched.nats_without(model, cell, &[]);
-                libm::log(missed_share(blind, nats)) + self.log_ratio_of_another(place, model)
+                libm::log(missed_share(blind, nats))
             }
         });
-        libm::log(expected / area_m2) + place.log_ratio_m2(kind, is_of_item) + models.sum::<f64>()
+        let of_marks_m2 = self.log_ratio_m2(place, kind, is_of_item);
+        libm::log(expected / area_m2) + of_marks_m2 + models.sum::<f64>()
     }
 
-    /// Log likelihood ratio of the marks of a sensor model at a place, if that has not detected the item: they are false
+    /// The log likelihood ratio of the marks of a place, as [`Place::log_ratio_m2`]: those that are not of the item are false
     /// alarms, or of another item beside it.
-    fn log_ratio_of_another(&self, place: &Place, model: usize) -> f64 {
-        let is_of_model = |mark: &Mark| self.model_of(mark.id.issuer) == Some(model);
-        if !place.marks.iter().any(is_of_model) {
-            return 0.0;
+    fn log_ratio_m2(&self, place: &Place, kind: usize, is_of_item: impl Fn(&Mark) -> bool) -> f64 {
+        let alone = place.log_ratio_m2(|mark| is_of_item(mark).then_some(kind));
+        if place.marks.iter().all(&is_of_item) {
+            return alone;
         }
         let expected = &self.clearance.expected;
         let all: f64 = expected.iter().sum();
-        let beside_m2 = TAU * place.variance_m2;
-        let of_kinds = expected.iter().enumerate().map(|(kind, expected)| {
-            let ratio_m2 = libm::exp(place.log_ratio_m2(kind, is_of_model));
-            expected / all * ratio_m2 / beside_m2
+        let beside = expected.iter().enumerate().map(|(other, expected)| {
+            let kind_of = |mark: &Mark| Some(if is_of_item(mark) { kind } else { other });
+            libm::log(HAS_ANOTHER * expected / all) + place.log_ratio_m2(kind_of)
         });
-        libm::log1p(HAS_ANOTHER * of_kinds.sum::<f64>())
+        log_sum(core::iter::once(alone).chain(beside).collect())
+    }
+
+    /// What the marks of a model add to the log odds of a kind, as an item of it may look like another kind.
+    fn lookalike_log_ratio(&self, place: &Place, kind: usize, model: usize) -> f64 {
+        let lookalikes = self.lookalikes[model].as_ref();
+        lookalikes.map_or(0.0, |lookalikes| {
+            let is_of_model = |mark: &Mark| self.model_of(mark.id.issuer) == Some(model);
+            lookalikes.relative_log_ratio(kind, place.log_ratios(kind, is_of_model))
+        })
     }
 
     /// Whether a robot of each model has marked a place.
@@ -357,4 +374,11 @@ impl LanePicture {
         robots.extend(place.robots());
         robots
     }
+}
+
+/// The logarithm of the sum of numbers, from their logarithms.
+fn log_sum(logs: Vec<f64>) -> f64 {
+    let highest = logs.iter().copied().fold(f64::MIN, f64::max);
+    let sum: f64 = logs.iter().map(|log| libm::exp(log - highest)).sum();
+    highest + libm::log(sum)
 }

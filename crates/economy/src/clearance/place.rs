@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{Coverage, GoalId, Mark, MarkVerdict, RobotId};
+use brain::{Coverage, GoalId, MARK_KINDS, Mark, MarkVerdict, RobotId};
 use core::cmp::Reverse;
 use core::f64::consts::TAU;
 
@@ -86,7 +86,7 @@ impl Place {
 
     /// Expected number of mines that are left there when one item has been destroyed.
     pub(super) fn further(&self) -> f64 {
-        self.surest(None).map(Mark::further).fold(0.0, f64::max)
+        self.surest(|_| None).map(Mark::further).fold(0.0, f64::max)
     }
 
     /// Whether what was there has been destroyed.
@@ -121,7 +121,7 @@ impl Place {
     /// the looks since then.
     pub(super) fn is_left(&self) -> f64 {
         let nats: f64 = self
-            .surest(None)
+            .surest(|_| None)
             .map(|mark| Coverage::nats(mark.missed_since.into()))
             .sum();
         let least = if nats > 0.0 { GONE } else { 0.0 };
@@ -156,13 +156,16 @@ impl Place {
         self.marks.iter().any(|mark| mark.id.issuer == robot)
     }
 
-    /// For each robot, the mark that is most probably of an item of a kind, or of any: of those that it still tracks, if
-    /// there are any.
-    fn surest(&self, kind: Option<usize>) -> impl Iterator<Item = &Mark> + Clone {
+    /// For each robot, the mark that is most probably of an item of the kind that it is of, or of any: of those that it still
+    /// tracks, if there are any.
+    fn surest(
+        &self,
+        kind_of: impl Fn(&Mark) -> Option<usize> + Clone,
+    ) -> impl Iterator<Item = &Mark> + Clone {
         let is_surer = move |one: &Mark, other: &Mark| {
             let any = |mark: &Mark| mark.log_ratios.into_iter().fold(f32::MIN, f32::max);
             let strength =
-                |mark: &Mark| kind.map_or_else(|| any(mark), |kind| mark.log_ratios[kind]);
+                |mark: &Mark| kind_of(mark).map_or_else(|| any(mark), |kind| mark.log_ratios[kind]);
             let rank = |mark: &Mark| (Reverse(mark.missed_since), strength(mark), mark.id.number);
             rank(one) > rank(other)
         };
@@ -172,17 +175,34 @@ impl Place {
         })
     }
 
-    /// Log likelihood ratio of those marks that `is_of_item` chooses, for a kind of items that all of their sensors
-    /// can detect, integrated over the position of the item, in square metres.
+    /// For each kind, the sum of the log likelihood ratios of those marks that `is_of_item` chooses: of the marks that are
+    /// most probably of an item of a kind, as in [`log_ratio_m2`](Self::log_ratio_m2).
+    pub(super) fn log_ratios(
+        &self,
+        kind: usize,
+        is_of_item: impl Fn(&Mark) -> bool,
+    ) -> [f64; MARK_KINDS] {
+        let mut sums = [0.0; MARK_KINDS];
+        for mark in self.surest(|_| Some(kind)).filter(|mark| is_of_item(mark)) {
+            for (sum, ratio) in sums.iter_mut().zip(mark.log_ratios) {
+                *sum += f64::from(ratio);
+            }
+        }
+        sums
+    }
+
+    /// Log likelihood ratio of those marks that have a kind, for an item that looks like it and that all of their sensors can
+    /// detect, integrated over the position, in square metres. Items of several kinds are at the same position.
     ///
     /// ```text
     /// integral of product exp(L_r - |x - x_r|^2 / 2 s_r^2) dx
     ///   = exp(sum L_r) x 2 pi s^2 x exp(-sum |x_0 - x_r|^2 / 2 s_r^2),  1 / s^2 = sum 1 / s_r^2
     /// ```
-    pub(super) fn log_ratio_m2(&self, kind: usize, is_of_item: impl Fn(&Mark) -> bool) -> f64 {
-        let marks = self.surest(Some(kind)).filter(|mark| is_of_item(mark));
-        let (at, joint_m2) = fused(marks.clone());
-        let each = marks.map(|mark| {
+    pub(super) fn log_ratio_m2(&self, kind_of: impl Fn(&Mark) -> Option<usize>) -> f64 {
+        let marks = self.surest(&kind_of);
+        let marks = marks.filter_map(|mark| Some((mark, kind_of(mark)?)));
+        let (at, joint_m2) = fused(marks.clone().map(|(mark, _)| mark));
+        let each = marks.map(|(mark, kind)| {
             let away_m2 = at.to(mark.at()).length_squared();
             f64::from(mark.log_ratios[kind]) - away_m2 / (2.0 * variance_m2(mark))
         });
@@ -190,7 +210,7 @@ impl Place {
     }
 
     fn fuse(&mut self) {
-        (self.at, self.variance_m2) = fused(self.surest(None));
+        (self.at, self.variance_m2) = fused(self.surest(|_| None));
     }
 }
 

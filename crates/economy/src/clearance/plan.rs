@@ -7,6 +7,9 @@
 //!              probability when they have been interrogated: the sensors may be blind to the mine
 //! ```
 //!
+//! Where mines may look like clutter however often sensors look, the marks below that probability can be what keeps
+//! the risk too high. Once the rest of the lane is searched, they are interrogated and neutralised as well.
+//!
 //! The value of a goal is the expected number of mines that it finds or destroys. An auction divides
 //! the time of a bid by it, so that robots serve first what lowers the risk most per second.
 
@@ -97,9 +100,12 @@ impl Plan {
         let marks = picture.marks();
         let marks = marks.filter(|mark| mark.may_be_in(&clearance.lane));
         let marks: Vec<BelievedMark> = marks.collect();
+        let suspect_above = suspect_above(picture, &marks);
         for mark in &marks {
             let interrogations = (circumstances.interrogations)(mark.number);
-            proposals.extend(work_at(mark, clearance, &tiles, interrogations));
+            let is_suspect = mark.mine > suspect_above;
+            let work = work_at(mark, clearance, is_suspect, interrogations);
+            proposals.extend(work.and_then(|work| at_mark(mark, &tiles, work)));
         }
         proposals.retain(|one| !(circumstances.is_vain)(one.subject));
         let risk = picture.risk_with(marks.iter().copied());
@@ -160,36 +166,57 @@ fn searches(picture: &LanePicture, tiles: &Lane, search: u8, skill: Skill) -> Ve
     each.collect()
 }
 
-/// What is to be done at a mark, if anything.
+/// Marks are worth a visit while the probability of a mine there is above this.
+///
+/// It is 0 when marks of which looks do not settle the kind are all that keeps the lane from being declared clear.
+fn suspect_above(picture: &LanePicture, marks: &[BelievedMark]) -> f64 {
+    let clearance = picture.clearance();
+    let above = clearance.interrogate_above;
+    if !clearance.has_lookalikes() {
+        return above;
+    }
+    let improbable = marks.iter().filter(|mark| mark.mine <= above);
+    let with = picture.risk_with(improbable.copied()).probability;
+    let without = picture.risk_with(core::iter::empty()).probability;
+    if without < clearance.declare_below && with >= clearance.declare_below {
+        0.0
+    } else {
+        above
+    }
+}
+
+/// What is to be done at a mark, if anything, and what robots need for it.
 fn work_at(
     mark: &BelievedMark,
     clearance: &Clearance,
-    tiles: &Lane,
+    is_suspect: bool,
     interrogations: u32,
-) -> Option<Proposal> {
-    let place = mark.number;
-    let is_suspect = mark.mine > clearance.interrogate_above;
-    let (subject, work, skill) = match mark.verdict {
+) -> Option<(Work, Skill)> {
+    match mark.verdict {
         Some(MarkVerdict::Confirmed | MarkVerdict::Isolated) => {
-            let subject = Subject::Mine { place };
-            (subject, Work::Neutralise, clearance.neutralise?.skill)
+            Some((Work::Neutralise, clearance.neutralise?.skill))
         }
         None | Some(MarkVerdict::Rejected | MarkVerdict::Missed)
             if is_suspect && interrogations < MAX_INTERROGATIONS =>
         {
-            let subject = Subject::Suspect { place };
-            (subject, Work::Interrogate, clearance.interrogate?)
+            Some((Work::Interrogate, clearance.interrogate?))
         }
         None | Some(MarkVerdict::Rejected | MarkVerdict::Missed)
             if is_suspect && mark.failed_charges < MAX_FAILED_CHARGES =>
         {
-            let subject = Subject::Mine { place };
-            (subject, Work::Neutralise, clearance.neutralise?.skill)
+            Some((Work::Neutralise, clearance.neutralise?.skill))
         }
-        _ => return None,
-    };
+        _ => None,
+    }
+}
+
+fn at_mark(mark: &BelievedMark, tiles: &Lane, (work, skill): (Work, Skill)) -> Option<Proposal> {
+    let place = mark.number;
     Some(Proposal {
-        subject,
+        subject: match work {
+            Work::Neutralise => Subject::Mine { place },
+            _ => Subject::Suspect { place },
+        },
         tile: u32::try_from(tiles.nearest_cell(mark.at)).ok()?,
         at: mark.at,
         radius_m: RADIUS_DEVIATIONS * mark.deviation_m,

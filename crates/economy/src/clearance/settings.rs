@@ -68,6 +68,10 @@ pub struct RobotModel {
     pub model: u32,
     /// Share of the items of each kind that sensors of the model never detect; 0 if missing.
     pub blind_share: Vec<f64>,
+    /// Share of the items of each kind (row) that look like each kind (column) to sensors of the model; empty if all look
+    /// like what they are. They are searched like items of their own kind: an approximation, if sensors detect the
+    /// kinds unequally well.
+    pub lookalike_share: Vec<Vec<f64>>,
     /// Numbers of the capabilities.
     pub capabilities: Vec<u8>,
     /// Probability that one search of a place misses an item that the sensor can detect, as its
@@ -79,7 +83,8 @@ pub struct RobotModel {
 
 impl Clearance {
     /// Lowest risk that any number of looks of all robots can reach: the probability that there is a
-    /// mine to which all sensor models are blind.
+    /// mine to which all sensor models are blind. A mine that looks like another kind gets a mark, which robots can
+    /// neutralise.
     #[must_use]
     pub fn floor(&self) -> f64 {
         chance_of_any(self.undetected(&self.models()))
@@ -144,6 +149,12 @@ impl Clearance {
     pub fn hazards(&self) -> impl Iterator<Item = (usize, f64)> {
         let kinds = self.expected.iter().copied().enumerate();
         kinds.filter(|(kind, _)| self.lane.is_hazard(*kind))
+    }
+
+    /// Whether items look like another kind to some sensors, however often they look.
+    pub(crate) fn has_lookalikes(&self) -> bool {
+        let mut robots = self.robots.iter();
+        robots.any(|robot| !robot.lookalike_share.is_empty())
     }
 
     /// One kind of robots of each sensor model.

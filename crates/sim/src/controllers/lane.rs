@@ -5,12 +5,14 @@ use crate::bodies::RobotSpec;
 use crate::goals::kind::capability;
 use crate::scenario::ScenarioSpec;
 use crate::scenario::areas::number;
-use crate::sensors::items::{Detection, ItemsSpec};
+use crate::sensors::detection::Detection;
+use crate::sensors::items::ItemsSpec;
 use crate::sensors::pass::{Pass, Path};
 use crate::sensors::{Measures, SensorSpec};
 use base::geometry::{Point, Rectangle};
 use brain::{Lane, MARK_KINDS};
 use economy::{Charge, Clearance, RobotModel, Skill};
+use std::borrow::Cow;
 
 /// Places of a cell along each side that are examined for obstacles.
 const SAMPLES: u32 = 4;
@@ -115,6 +117,29 @@ pub(crate) fn around_obstacles(
     }
 }
 
+/// The lane if all sensors were known as they are, by the same ground that they can see; `None` if they are.
+pub(crate) fn in_truth(clearance: &Clearance, scenario: &ScenarioSpec) -> Option<Clearance> {
+    let mut truth = scenario.clone();
+    let sensors = truth.robots.values_mut();
+    let sensors = sensors.flat_map(|robot| robot.sensors.values_mut());
+    let mut is_believed = false;
+    for sensor in sensors {
+        if let Measures::Items(items) = &mut sensor.measures {
+            is_believed |= items.believed.take().is_some();
+        }
+    }
+    let capabilities = truth.capabilities();
+    let robots = truth.robots.iter().zip(&clearance.robots);
+    let robots = robots.map(|(robot, known)| RobotModel {
+        seen: known.seen.clone(),
+        ..model(robot, &truth, &capabilities)
+    });
+    is_believed.then(|| Clearance {
+        robots: robots.collect(),
+        ..clearance.clone()
+    })
+}
+
 /// The weakest charge of all robots.
 fn charge(skill: Skill, scenario: &ScenarioSpec) -> Charge {
     let robots = scenario.robots.values();
@@ -129,20 +154,27 @@ fn charge(skill: Skill, scenario: &ScenarioSpec) -> Charge {
     }
 }
 
-/// What controllers know of the item detectors of a kind of robots, which are of one model.
+/// What controllers believe of the item detectors of a kind of robots, which are of one model.
 fn model(
     (name, robot): (&String, &RobotSpec),
     scenario: &ScenarioSpec,
     capabilities: &[String],
 ) -> RobotModel {
-    let sensors: Vec<(u32, &ItemsSpec, &SensorSpec)> = detectors(robot)
-        .map(|(sensor, items, spec)| (items.model_key(name, sensor), items, spec))
+    let sensors: Vec<(u32, Cow<ItemsSpec>, &SensorSpec)> = detectors(robot)
+        .map(|(sensor, items, spec)| {
+            let believed = items.as_believed(scenario.items.keys());
+            (items.model_key(name, sensor), believed, spec)
+        })
         .collect();
     let blind = |kind: &String| {
         let shares = sensors.iter();
         let shares = shares.map(|(_, items, _)| items.blind_share.get(kind).copied());
         shares.flatten().fold(0.0, f64::max)
     };
+    let item_kinds: Vec<String> = scenario.items.keys().cloned().collect();
+    let appearances = sensors.iter();
+    let mut appearances = appearances.map(|(_, items, _)| items.appearances(&item_kinds));
+    let lookalikes = appearances.find(|rows| !rows.is_empty());
     let nats = sensors
         .iter()
         .map(|(_, items, sensor)| pass_nats(items, sensor, robot, scenario));
@@ -150,6 +182,7 @@ fn model(
     RobotModel {
         model: sensors.first().map_or(0, |(model, ..)| *model),
         blind_share: scenario.items.keys().take(MARK_KINDS).map(blind).collect(),
+        lookalike_share: lookalikes.unwrap_or_default(),
         capabilities: numbers.map(|name| capability(name, capabilities)).collect(),
         search_nats: nats.sum::<f64>().min(MAX_SEARCH_NATS),
         seen: Vec::new(),

@@ -18,7 +18,7 @@ pub(crate) struct Finder<'s> {
     pub(crate) through_m: f64,
 }
 
-/// The kinds of robots with a sensor for a kind of item.
+/// The kinds of robots with a sensor for a kind of item: one that detects it, or is believed to.
 pub(crate) fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
     let finder = |robot: &'s RobotSpec| {
         let mut range_m = None;
@@ -27,7 +27,8 @@ pub(crate) fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>>
             let Measures::Items(items) = &sensor.measures else {
                 continue;
             };
-            let kinds = items.detection_probability.as_ref();
+            let believed = items.as_believed(spec.items.keys());
+            let kinds = believed.detection_probability.as_ref();
             if kinds.is_none_or(|kinds| kinds.contains_key(item)) {
                 let reach_m = items.sector.range_m;
                 range_m = Some(reach_m.max(range_m.unwrap_or(0.0)));

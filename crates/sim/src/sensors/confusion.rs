@@ -3,8 +3,8 @@
 use base::noise::share;
 use std::collections::BTreeMap;
 
-/// Probability of each reported kind, by true kind.
-pub(super) type ConfusionSpec = BTreeMap<String, BTreeMap<String, f64>>;
+/// A share or a probability of each kind, by kind.
+pub(crate) type ConfusionSpec = BTreeMap<String, BTreeMap<String, f64>>;
 
 /// The probabilities of a row sum to 1 up to this error.
 pub(crate) const ROW_TOLERANCE: f64 = 1e-9;

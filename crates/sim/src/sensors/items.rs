@@ -1,7 +1,10 @@
 //! Item detector.
 
+use super::believed::BelievedSpec;
 use super::blindness::Blindness;
 use super::confusion::{Confusion, matrix};
+use super::detection::Detection;
+use super::lookalikes::{Lookalikes, appearances};
 use super::sector::{Sector, SectorSpec};
 use super::sensor_frame::{NoisePurpose, SensorFrame, blurred};
 use crate::poisson::Poisson;
@@ -11,6 +14,7 @@ use base::noise::share;
 use base::random::{Entity, kind_key};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// A detector of items within a sector; each measurement of each item is an independent draw.
@@ -27,12 +31,18 @@ pub struct ItemsSpec {
     /// look, 0 to 1. Drawn once per item. By default 0.
     #[serde(default)]
     pub blind_share: BTreeMap<String, f64>,
-    /// Name of the sensor model: sensors of one model are blind to the same items, on whichever
-    /// robot they are. By default, each sensor of each robot kind is a model of its own.
+    /// Share of the items of each kind (outer keys) that look like another kind (inner keys) to
+    /// sensors of this model, however often they look, 0 to 1: detected and reported as items of
+    /// that kind. Drawn once per item. By default 0.
+    #[serde(default)]
+    pub lookalike_share: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Name of the sensor model: sensors of one model are blind to the same items, and the same items
+    /// look like another kind to them, on whichever robot they are. By default, each sensor of each
+    /// robot kind is a model of its own.
     pub model: Option<String>,
-    /// Probability of each reported kind (inner keys) by the true kind of a detected item (outer
-    /// keys), drawn per look. The probabilities of a true kind must sum to 1; a kind that is not
-    /// given is reported as it is.
+    /// Probability of each reported kind (inner keys) by the kind of a detected item (outer keys),
+    /// that which it looks like, drawn per look. The probabilities of a row must sum to 1; a kind
+    /// that is not given is reported as it is.
     #[serde(default)]
     pub confusion: BTreeMap<String, BTreeMap<String, f64>>,
     /// False alarms per second and square metre in view, by the kind of item that they are taken
@@ -46,66 +56,8 @@ pub struct ItemsSpec {
     /// Whether obstacles hide items.
     #[serde(default = "yes")]
     pub needs_line_of_sight: bool,
-}
-
-/// A brain gets a bell curve as this number of straight pieces.
-const CURVE_PARTS: u32 = 16;
-
-/// Probability of detection per measurement.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum Detection {
-    /// The same at any distance in range.
-    Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
-    /// Pairs of distance (metres) and probability, by increasing distance; linear in between.
-    Table(Vec<[f64; 2]>),
-    /// A bell curve: `peak` at distance 0, half of that at `half_range_m`.
-    Curve {
-        /// Probability at distance 0.
-        #[schemars(range(min = 0.0, max = 1.0))]
-        peak: f64,
-        /// Distance at which the probability is half the peak, in metres.
-        #[schemars(range(min = 0.001, max = 10_000.0))]
-        half_range_m: f64,
-    },
-}
-
-impl Detection {
-    /// Probability of detection at a distance.
-    pub(super) fn probability(&self, distance_m: f64) -> f64 {
-        match self {
-            Self::Constant(probability) => *probability,
-            Self::Table(pairs) => between(pairs, distance_m),
-            Self::Curve { peak, half_range_m } => {
-                let halves = distance_m / half_range_m;
-                peak * libm::exp2(-halves * halves)
-            }
-        }
-    }
-}
-
-impl Detection {
-    /// Pairs of distance and probability, linear in between, up to `range_m`.
-    fn pairs(&self, range_m: f64) -> Vec<[f64; 2]> {
-        match self {
-            Self::Constant(probability) => vec![[0.0, *probability]],
-            Self::Table(pairs) => pairs.clone(),
-            Self::Curve { .. } => (0..=CURVE_PARTS)
-                .map(|part| range_m * f64::from(part) / f64::from(CURVE_PARTS))
-                .map(|at| [at, self.probability(at)])
-                .collect(),
-        }
-    }
-}
-
-/// The value at `x`, linear between pairs; beyond the ends, that of the end.
-fn between(pairs: &[[f64; 2]], x: f64) -> f64 {
-    let next = pairs.partition_point(|[at, _]| *at <= x);
-    match (next.checked_sub(1).map(|last| pairs[last]), pairs.get(next)) {
-        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (x - x0) / (x1 - x0),
-        (Some([_, y]), None) | (None, Some(&[_, y])) => y,
-        (None, None) => 0.0,
-    }
+    /// What robots and controllers believe of the sensor where that differs from what it does.
+    pub believed: Option<Box<BelievedSpec>>,
 }
 
 pub(super) fn yes() -> bool {
@@ -113,6 +65,35 @@ pub(super) fn yes() -> bool {
 }
 
 impl ItemsSpec {
+    /// The sensor as robots and controllers believe it to be, of all kinds of items. It is the sensor
+    /// itself if nothing else is given.
+    pub(crate) fn as_believed<'i>(&self, kinds: impl Iterator<Item = &'i String>) -> Cow<'_, Self> {
+        let Some(believed) = &self.believed else {
+            return Cow::Borrowed(self);
+        };
+        let mut sensor = self.as_it_is();
+        if !believed.detection_probability.is_empty() {
+            let always = kinds.map(|kind| (kind.clone(), Detection::Constant(1.0)));
+            let detected = &mut sensor.detection_probability;
+            let detected = detected.get_or_insert_with(|| always.collect());
+            detected.extend(believed.detection_probability.clone());
+        }
+        sensor.blind_share.extend(believed.blind_share.clone());
+        sensor
+            .lookalike_share
+            .extend(believed.lookalike_share.clone());
+        sensor.confusion.extend(believed.confusion.clone());
+        Cow::Owned(sensor)
+    }
+
+    /// The sensor, if what it is believed to be were the truth about it.
+    pub(crate) fn as_it_is(&self) -> Self {
+        Self {
+            believed: None,
+            ..self.clone()
+        }
+    }
+
     /// The key of its model in random streams, if it is the sensor `name` of a kind `owner`.
     pub(crate) fn model_key(&self, owner: &str, name: &str) -> u32 {
         kind_key(&self.model_name(owner, name))
@@ -135,7 +116,12 @@ impl ItemsSpec {
         shares
     }
 
-    /// What brains know of it: the sensor with this number and model key, which measures every
+    /// The share of the items of each kind that look like each kind; empty if all look like what they are.
+    pub(crate) fn appearances(&self, kinds: &[String]) -> Vec<Vec<f64>> {
+        appearances(&self.lookalike_share, kinds)
+    }
+
+    /// What brains believe of it: the sensor with this number and model key, which measures every
     /// `period_s`.
     pub(crate) fn detector(
         &self,
@@ -143,12 +129,13 @@ impl ItemsSpec {
         item_kinds: &[String],
         period_s: f64,
     ) -> brain::Detector {
-        let sector = &self.sector;
+        let believed = self.as_believed(item_kinds.iter());
+        let sector = &believed.sector;
         let always = Detection::Constant(1.0);
         let detection_probability =
             item_kinds
                 .iter()
-                .map(|kind| match &self.detection_probability {
+                .map(|kind| match &believed.detection_probability {
                     None => always.pairs(sector.range_m),
                     Some(detection_probability) => detection_probability
                         .get(kind)
@@ -156,18 +143,21 @@ impl ItemsSpec {
                 });
         let rates = item_kinds
             .iter()
-            .map(|kind| self.false_alarm_rate_per_m2_s.get(kind));
-        let blind_share = self.blind_shares(item_kinds);
-        let confusion = if self.confusion.is_empty() {
+            .map(|kind| believed.false_alarm_rate_per_m2_s.get(kind));
+        let blind_share = believed.blind_shares(item_kinds);
+        let lookalike_share = believed.appearances(item_kinds);
+        let confusion = if believed.confusion.is_empty() {
             Vec::new()
         } else {
-            matrix(&self.confusion, item_kinds)
+            matrix(&believed.confusion, item_kinds)
         };
+        // Otherwise it does not matter.
+        let is_of_model = !blind_share.is_empty() || !lookalike_share.is_empty();
         brain::Detector {
             sensor,
-            // Without blind items, it does not matter.
-            model: if blind_share.is_empty() { 0 } else { model },
+            model: if is_of_model { model } else { 0 },
             blind_share,
+            lookalike_share,
             confusion,
             range_m: sector.range_m,
             width_rad: sector.fov_deg.to_radians(),
@@ -176,8 +166,8 @@ impl ItemsSpec {
             false_alarms_per_m2: rates
                 .map(|rate| rate.copied().unwrap_or(0.0) * period_s)
                 .collect(),
-            noise_m: self.noise_m,
-            needs_line_of_sight: self.needs_line_of_sight,
+            noise_m: believed.noise_m,
+            needs_line_of_sight: believed.needs_line_of_sight,
         }
     }
 
@@ -195,6 +185,7 @@ pub(crate) struct ItemDetector {
     /// By the kind of item; `None` is never detected.
     detection_probability: Vec<Option<Detection>>,
     blindness: Option<Blindness>,
+    lookalikes: Option<Lookalikes>,
     confusion: Option<Confusion>,
     /// By the kind that they are taken for; only those with a rate above 0.
     false_alarms: Vec<FalseAlarm>,
@@ -231,6 +222,7 @@ impl ItemDetector {
             sector: Sector::new(&spec.sector),
             detection_probability: kinds.iter().map(detection).collect(),
             blindness: Blindness::new(model, spec.blind_shares(kinds)),
+            lookalikes: Lookalikes::new(model, &spec.lookalike_share, kinds),
             confusion: (!spec.confusion.is_empty()).then(|| Confusion::new(&spec.confusion, kinds)),
             false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
             noise_m: spec.noise_m,
@@ -247,16 +239,21 @@ impl ItemDetector {
     ) {
         let blindness = self.blindness.as_ref();
         let blind = blindness.map(|blindness| blindness.in_run(items.run()));
+        let lookalikes = self.lookalikes.as_ref();
+        let appearance = lookalikes.map(|lookalikes| lookalikes.in_run(items.run()));
         for (place, number) in items.near(frame.at, self.sector.range_m) {
             let way = frame.own(*place);
             let kind = items.kind(*number);
-            let Some(detection) = &self.detection_probability[usize::from(kind)] else {
+            let thing = items.thing(*number);
+            let seen = appearance
+                .as_ref()
+                .map_or(kind, |each| each.of(kind, thing));
+            let Some(detection) = &self.detection_probability[usize::from(seen)] else {
                 continue;
             };
             if !self.sector.holds(way) || self.is_hidden(frame, *place) {
                 continue;
             }
-            let thing = items.thing(*number);
             let words = frame.words_of(NoisePurpose::Thing, thing);
             let is_detected = share(words[0]) < detection.probability(way.length());
             if is_detected
@@ -265,7 +262,7 @@ impl ItemDetector {
                     .is_some_and(|blind| blind.contains(kind, thing))
             {
                 let confusion = self.confusion.as_ref();
-                let reported = confusion.map_or(kind, |each| each.reported(kind, words[3]));
+                let reported = confusion.map_or(seen, |each| each.reported(seen, words[3]));
                 give(blurred(way, self.noise_m, words), reported, Some(*number));
             }
         }
@@ -297,48 +294,4 @@ impl ItemDetector {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_detection_table_is_linear_between_its_pairs_and_flat_beyond() {
-        let table = Detection::Table(vec![[1.0, 0.9], [2.0, 0.5], [4.0, 0.1]]);
-        for (distance_m, expected) in [
-            (0.0, 0.9),
-            (1.0, 0.9),
-            (1.5, 0.7),
-            (2.0, 0.5),
-            (3.0, 0.3),
-            (4.0, 0.1),
-            (99.0, 0.1),
-        ] {
-            let probability = table.probability(distance_m);
-            assert!(
-                (probability - expected).abs() < 1e-12,
-                "{distance_m}: {probability}"
-            );
-        }
-        let one = Detection::Table(vec![[1.0, 0.4]]);
-        assert_eq!([0.0, 1.0, 2.0].map(|at| one.probability(at)), [0.4; 3]);
-    }
-
-    #[test]
-    fn a_detection_curve_is_a_bell_curve_with_half_its_peak_at_the_half_range() {
-        let curve = Detection::Curve {
-            peak: 0.8,
-            half_range_m: 1.5,
-        };
-        for (distance_m, expected) in [(0.0, 0.8), (1.5, 0.4), (3.0, 0.05), (4.5, 0.8 / 512.0)] {
-            assert!(
-                (curve.probability(distance_m) - expected).abs() < 1e-12,
-                "{distance_m}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_constant_detection_does_not_depend_on_the_distance() {
-        let constant = Detection::Constant(0.3);
-        assert_eq!([0.0, 7.0].map(|at| constant.probability(at)), [0.3; 2]);
-    }
-}
+mod tests;

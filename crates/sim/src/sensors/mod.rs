@@ -3,10 +3,13 @@
 //! A robot gets what its sensors can detect, and misses the rest. One file per sensor kind.
 
 pub(crate) mod backlog;
+pub(crate) mod believed;
 pub(crate) mod blindness;
 pub(crate) mod confusion;
+pub mod detection;
 pub mod heading;
 pub mod items;
+mod lookalikes;
 pub(crate) mod memory;
 pub(crate) mod pass;
 pub(crate) mod pending;

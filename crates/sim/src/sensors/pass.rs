@@ -1,7 +1,8 @@
 //! The probability that a robot that drives straight past an item detects it.
 
 use super::SensorSpec;
-use super::items::{Detection, ItemsSpec};
+use super::detection::Detection;
+use super::items::ItemsSpec;
 use super::sector::Sector;
 use crate::bodies::RobotSpec;
 use crate::schedule::Schedule;

@@ -1,6 +1,7 @@
 //! Robot detector.
 
-use super::items::{Detection, yes};
+use super::detection::Detection;
+use super::items::yes;
 use super::sector::{Sector, SectorSpec};
 use super::sensor_frame::{NoisePurpose, SensorFrame, blurred};
 use base::geometry::Point;

@@ -4,6 +4,7 @@
 use crate::scenario::Checked;
 use base::document::Place;
 use base::warning::Warning;
+use economy::Clearance;
 
 /// Less of a lane than this is within the error of the examined places.
 const MIN_SHARE: f64 = 0.001;
@@ -13,13 +14,17 @@ const MIN_SHARE: f64 = 0.001;
 pub(crate) struct LaneReach {
     /// Share of its free ground that none of them can see.
     pub(crate) unseen: f64,
-    /// The probability that there is a mine that none of them can detect, however often all of them look.
+    /// The probability that there is a mine that none of them can detect, however often all of them look, as believed.
     pub(crate) floor: f64,
 }
 
 /// Of the lane that controllers are to clear, if there is one and any robots are sent.
 pub(crate) fn lane_reach(checked: &Checked) -> Option<LaneReach> {
-    let clearance = checked.scenario.clearance()?;
+    reach_of(checked.scenario.clearance()?, checked)
+}
+
+/// The same, with other knowledge of the lane.
+pub(crate) fn reach_of(clearance: &Clearance, checked: &Checked) -> Option<LaneReach> {
     let sent = checked.spec.robots.values().map(|robot| robot.count > 0);
     let sent: Vec<bool> = sent.collect();
     let is_sent = |kind: usize| sent.get(kind) == Some(&true);

@@ -146,6 +146,49 @@ fn a_mark_that_the_ground_sensor_misses_is_not_interrogated() {
     assert!(!subjects(&picture, 0).contains(&suspect));
 }
 
+/// A mark below `interrogate_above` is worth a visit only if it keeps the lane from being declared clear, and looks do
+/// not settle its kind.
+#[test]
+fn a_mark_that_may_be_a_lookalike_is_neutralised_when_the_rest_of_the_lane_is_searched() {
+    let mut known = able();
+    known.robots[0].lookalike_share = vec![vec![0.98, 0.02], vec![0.0, 1.0]];
+    (known.interrogate_above, known.declare_below) = (0.06, 0.01);
+    let mut plain = known.clone();
+    plain.robots[0].lookalike_share.clear();
+    let (suspect, mine) = (Subject::Suspect { place: 0 }, Subject::Mine { place: 0 });
+    // All looks of the OAV report clutter.
+    let picture_of = |clearance: &Clearance, nats: f64| {
+        let mut picture = picture(clearance);
+        let id = GoalId {
+            issuer: OAV,
+            number: 0,
+        };
+        picture.take_mark(
+            OAV,
+            &Mark {
+                id,
+                at_m: [12.0, 1.0],
+                deviation_mm: 300,
+                log_ratios: [-20.0, 12.0, 0.0, 0.0],
+                missed_since: 0,
+                further: 0,
+            },
+        );
+        searched(&mut picture, OAV, nats);
+        searched(&mut picture, UGV, nats);
+        picture
+    };
+    let clear = picture_of(&known, 15.0);
+    let probability = clear.marks().next().unwrap().mine;
+    assert!((0.001..0.06).contains(&probability), "{probability}");
+    assert!(subjects(&clear, 0).contains(&suspect));
+    assert!(subjects(&clear, MAX_INTERROGATIONS).contains(&mine));
+    for other in [picture_of(&known, 0.0), picture_of(&plain, 15.0)] {
+        let subjects = subjects(&other, 0);
+        assert!(!subjects.contains(&suspect) && !subjects.contains(&mine));
+    }
+}
+
 #[test]
 fn a_lane_is_declared_clear_when_the_stated_risk_is_low_enough() {
     let mut picture = picture(&able());

@@ -55,8 +55,8 @@ pub(super) struct Sensor {
 pub(super) struct Item {
     pub(super) at: Point,
     pub(super) kind: usize,
-    /// Whether each model can detect it.
-    is_visible: Vec<bool>,
+    /// The kind that it looks like to each model; `None` if the model cannot detect it.
+    seen: Vec<Option<usize>>,
     pub(super) is_marked: bool,
 }
 
@@ -88,6 +88,14 @@ pub(super) fn clearance(expected: [f64; 2], blind: [f64; 2]) -> Clearance {
     }
 }
 
+/// The same, with a share of the mines that look like clutter to each model.
+pub(super) fn with_lookalikes(mut clearance: Clearance, shares: [f64; 2]) -> Clearance {
+    for (robot, share) in clearance.robots.iter_mut().zip(shares) {
+        robot.lookalike_share = vec![vec![1.0 - share, share], vec![0.0, 1.0]];
+    }
+    clearance
+}
+
 /// The items of a lane that is as the clearance assumes.
 pub(super) fn items(clearance: &Clearance, random: &mut Random) -> Vec<Item> {
     let area = clearance.lane.area();
@@ -100,11 +108,19 @@ pub(super) fn items(clearance: &Clearance, random: &mut Random) -> Vec<Item> {
                 y: area.min().y + up * area.size().y,
             };
             let robots = clearance.robots.iter();
-            let is_visible = robots.map(|robot| !random.is(robot.blind_share[kind]));
+            let seen = robots.map(|robot| {
+                let is_visible = !random.is(robot.blind_share[kind]);
+                is_visible.then(|| {
+                    let share = robot.lookalike_share.get(kind);
+                    let other = 1 - kind;
+                    let is_alike = share.is_some_and(|row| random.is(row[other]));
+                    if is_alike { other } else { kind }
+                })
+            });
             items.push(Item {
                 at,
                 kind,
-                is_visible: is_visible.collect(),
+                seen: seen.collect(),
                 is_marked: false,
             });
         }
@@ -136,10 +152,10 @@ impl Searcher<'_> {
         let mut marks: Vec<Mark> = Vec::new();
         for item in items.iter_mut() {
             let cell = lane.cell_at(item.at).unwrap();
-            if !item.is_visible[usize::from(self.id.kind)] {
+            let Some(seen) = item.seen[usize::from(self.id.kind)] else {
                 continue;
-            }
-            let contacts = self.contacts(item, self.looks[cell], random);
+            };
+            let contacts = self.contacts(item.at, seen, self.looks[cell], random);
             if !contacts.is_empty() {
                 item.is_marked = true;
                 marks.push(self.mark(marks.len(), &contacts, self.looks[cell]));
@@ -190,13 +206,20 @@ impl Searcher<'_> {
         }
     }
 
-    fn contacts(&self, item: &Item, looks: u32, random: &mut Random) -> Vec<(Point, usize)> {
+    /// The contacts of looks at an item that looks like a kind.
+    fn contacts(
+        &self,
+        at: Point,
+        seen: usize,
+        looks: u32,
+        random: &mut Random,
+    ) -> Vec<(Point, usize)> {
         let mut contacts = Vec::new();
         for _ in 0..looks {
             if random.is(self.sensor.detection) {
                 let is_right = random.is(self.sensor.is_right);
-                let kind = if is_right { item.kind } else { 1 - item.kind };
-                contacts.push((random.near(item.at, self.sensor.noise_m), kind));
+                let kind = if is_right { seen } else { 1 - seen };
+                contacts.push((random.near(at, self.sensor.noise_m), kind));
             }
         }
         contacts

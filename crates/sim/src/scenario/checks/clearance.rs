@@ -4,7 +4,7 @@ use super::controllers::unknown;
 use super::lane_outcomes;
 use crate::bodies::{Layer, RobotSpec};
 use crate::controllers::clearance::{ClearanceSpec, SkillSpec};
-use crate::controllers::lane::detectors;
+use crate::controllers::lane::{detectors, in_truth};
 use crate::scenario::lane_work;
 use crate::scenario::spec::ScenarioSpec;
 use crate::world::items::CompletedBy;
@@ -12,7 +12,7 @@ use base::document::{Document, Place, Value};
 use base::error::InputError;
 use brain::MARK_KINDS;
 use brain::behaviours::BehaviourSpec;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The lowest risk of declarations is above the floor by this factor, so that robots can reach it.
 const ABOVE_FLOOR: f64 = 1.05;
@@ -191,7 +191,8 @@ fn of_requirement(
     let place = document.place().key("require");
     let written = place.key("probability").value();
     let required = written.map_or(Some(DEFAULT_PROBABILITY), |text| text.parse().ok())?;
-    let floor = clearance.ready(spec).floor();
+    let believed = clearance.ready(spec);
+    let floor = in_truth(&believed, spec).unwrap_or(believed).floor();
     let allowed = format!(
         "at most {:.3}: with probability {floor:.3}, a mine remains that no sensor detects, and the lane is not clear",
         1.0 - floor
@@ -259,7 +260,10 @@ fn of_world(spec: &ScenarioSpec, root: &Place) -> Vec<InputError> {
         let models = detectors(robot).map(|(sensor, items, _)| items.model_name(name, sensor));
         let models: BTreeSet<String> = models.collect();
         let is_blind = |(_, items, _): (_, &crate::sensors::items::ItemsSpec, _)| {
-            items.blind_share.values().any(|share| *share > 0.0)
+            let believed = items.as_believed(spec.items.keys());
+            let alike = believed.lookalike_share.values().flat_map(BTreeMap::values);
+            let mut shares = believed.blind_share.values().chain(alike);
+            shares.any(|share| *share > 0.0)
         };
         if models.len() > 1 && detectors(robot).any(is_blind) {
             let allowed = "item detectors of one model: robots report all of their looks together";

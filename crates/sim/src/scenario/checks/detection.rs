@@ -4,7 +4,8 @@ use crate::poisson::MAX_MEAN;
 use crate::scenario::spec::ScenarioSpec;
 use crate::schedule::Schedule;
 use crate::sensors::Measures;
-use crate::sensors::items::{Detection, ItemsSpec};
+use crate::sensors::detection::Detection;
+use crate::sensors::items::ItemsSpec;
 use base::document::Place;
 use base::error::InputError;
 
@@ -47,10 +48,20 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
         let is_known = kinds.contains(&kind);
         (!is_known).then(|| at.key(kind).unknown_key(kind, kinds.iter().copied()))
     };
-    let detection_probability = at.key("detection_probability");
-    for (kind, detection) in items.detection_probability.iter().flatten() {
-        errors.extend(unknown(kind, &detection_probability));
-        errors.extend(error_of(detection, &detection_probability.key(kind)));
+    let believed = items.believed.as_ref();
+    let tables = [
+        (at.clone(), items.detection_probability.as_ref()),
+        (
+            at.key("believed"),
+            believed.map(|each| &each.detection_probability),
+        ),
+    ];
+    for (at, table) in tables {
+        let at = at.key("detection_probability");
+        for (kind, detection) in table.into_iter().flatten() {
+            errors.extend(unknown(kind, &at));
+            errors.extend(error_of(detection, &at.key(kind)));
+        }
     }
     let alarms = at.key("false_alarm_rate_per_m2_s");
     for (kind, rate) in &items.false_alarm_rate_per_m2_s {

@@ -156,9 +156,42 @@ fn kinds_are_reported_with_the_probabilities_of_their_row_at_each_look() {
 }
 
 #[test]
-fn blind_shares_of_zero_and_rows_of_the_true_kind_change_nothing() {
+fn a_share_of_the_mines_looks_like_clutter_to_all_sensors_of_a_model_at_each_look() {
+    let alike = "lookalike_share = { mine = { clutter = 0.3 } }";
+    let one_model = format!("{alike}\nmodel = \"magnetometer\"");
+    let text = TEXT.to_owned()
+        + &watcher("a", 5.0, &one_model)
+        + &watcher("b", 9.0, &one_model)
+        + &watcher("c", 12.0, alike);
+    let mut simulation = Simulation::new(scenario(&text), 1, 0).unwrap();
+    let mut reported = [0; 3].map(|_| vec![None; 2 * ITEMS as usize]);
+    for _ in 0..LOOKS {
+        simulation.step();
+        for kind in 0..3 {
+            let reported = &mut reported[usize::from(kind)];
+            for (item, as_kind) in contacts(&mut simulation, id(kind, 0)) {
+                assert!(reported[item].is_none_or(|before| before == as_kind));
+                reported[item] = Some(as_kind);
+            }
+        }
+    }
+    let reported = &reported;
+    let alike = |kind: usize| {
+        let mines = ITEMS as usize..2 * ITEMS as usize;
+        mines
+            .filter(move |mine| reported[kind][*mine] == Some(0))
+            .collect::<BTreeSet<usize>>()
+    };
+    let [one, same, other] = [0, 1, 2].map(alike);
+    assert_eq!(one, same);
+    assert_share(one.len(), ITEMS as usize, 0.3);
+    assert_share(one.intersection(&other).count(), one.len(), 0.3);
+}
+
+#[test]
+fn shares_of_zero_and_rows_of_the_true_kind_change_nothing() {
     let plain = TEXT.to_owned() + &watcher("watcher", 5.0, "noise_m = 0.1");
-    let same = "noise_m = 0.1\nblind_share = { mine = 0 }\nmodel = \"magnetometer\"\n\
+    let same = "noise_m = 0.1\nblind_share = { mine = 0 }\nlookalike_share = { mine = { clutter = 0 } }\nmodel = \"magnetometer\"\n\
                 confusion = { mine = { mine = 1 }, clutter = { clutter = 1, mine = 0 } }";
     let same = TEXT.to_owned() + &watcher("watcher", 5.0, same);
     let percepts = |text: &str| {

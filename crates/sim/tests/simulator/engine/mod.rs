@@ -32,6 +32,7 @@ mod identification;
 mod inspect;
 mod item_numbers;
 mod judge;
+mod lane_believed;
 mod lane_ends;
 mod lane_neighbours;
 mod lane_obstacles;

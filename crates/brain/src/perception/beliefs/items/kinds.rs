@@ -1,19 +1,21 @@
-//! Uncertain kinds, and sensors that are blind to a share of the items.
+//! Uncertain kinds, and sensors that are blind to a share of the items, or to which they look like another kind.
 //!
-//! For each own sensor model and each kind, a track has the log likelihood ratio of all measurements of that
-//! model: of an item of that kind that the model can detect, against false alarms alone. An item to which the
-//! model is blind leaves the measurements as they are without it, so that its ratio is 1:
+//! For each own sensor model and each kind, a track has the log likelihood ratio E of all measurements of that
+//! model: of an item that looks like that kind to the model, which can detect it, against false alarms alone. An item to
+//! which the model is blind leaves the measurements as they are without it, so that its ratio is 1:
 //!
 //! ```text
-//! likelihood of kind k = product over models of (b + (1 - b) exp(sum of log ratios))
+//! likelihood of kind k = product over models of (b + (1 - b) sum over kinds a of s x exp(E of a))
 //! own log ratio        = ln(sum over kinds of share k x likelihood k)
-//! a contact reported as kind j adds  ln(p C N(d; S) / f)    p: probability of detection of kind k,
-//! a miss adds                        ln(1 - p)              C: probability that kind k is reported as j,
-//!                                                           f: false alarms of kind j per m2,
-//!                                                           b: blind share of kind k
+//! a contact reported as kind j adds to E of a  ln(p C N(d; S) / f)    p: probability of detection of kind a,
+//! a miss adds                                  ln(1 - p)              C: probability that kind a is reported as j,
+//!                                                                     f: false alarms of kind j per m2,
+//!                                                                     b: blind share of kind k,
+//!                                                                     s: share of kind k that looks like kind a
 //! ```
 //!
-//! However often a sensor misses an item, the likelihood therefore stays above the blind share.
+//! However often a sensor misses an item, the likelihood therefore stays above the blind share; and however often it
+//! reports an item as clutter, the probability of a mine stays above that of a mine that looks like clutter.
 //!
 //! A report names one kind, and states the probability of an item of that kind and that of the kind given an item. What is
 //! left is divided among the other kinds by the confusion of the known detectors: as if that kind had been reported once.
@@ -42,15 +44,17 @@ pub(crate) struct KindModel {
     models: Vec<u32>,
     /// Blind share by model, and by kind within it.
     blind: Vec<f64>,
+    /// By model, and by kind within it: the kinds that its items look like, each with their share.
+    appearances: Vec<Vec<(usize, f64)>>,
     /// Probability of each true kind by the reported kind, row by row.
     reported: Vec<f64>,
 }
 
 impl KindModel {
-    /// For items of each kind with a density; `None` if no own detector confuses kinds or is blind to items.
+    /// For items of each kind with a density; `None` if all own detectors report all items, as they are.
     pub(crate) fn new(body: &Body, per_m2: &[f64]) -> Option<Self> {
         let mut own = body.detectors.iter();
-        if !own.any(|detector| !detector.confusion.is_empty() || !detector.blind_share.is_empty()) {
+        if !own.any(Detector::is_uncertain) {
             return None;
         }
         let total: f64 = per_m2.iter().sum();
@@ -66,6 +70,7 @@ impl KindModel {
         models.dedup();
         Some(Self {
             blind: blind_shares(&models, &body.detectors, shares.len()),
+            appearances: appearances(&models, &body.detectors, shares.len()),
             reported: reported(body, &shares),
             shares,
             models,
@@ -142,6 +147,30 @@ fn blind_shares(models: &[u32], detectors: &[Detector], kinds: usize) -> Vec<f64
         .collect()
 }
 
+/// For models, by kind: the kinds that its items look like; of detectors of one model, those of the first that states any.
+fn appearances(models: &[u32], detectors: &[Detector], kinds: usize) -> Vec<Vec<(usize, f64)>> {
+    let of = |model: u32, kind: usize| {
+        let mut own = detectors.iter().filter(|detector| detector.model == model);
+        let stated = own.find(|detector| !detector.lookalike_share.is_empty());
+        let each = (0..kinds).map(|seen| {
+            (
+                seen,
+                stated.map_or_else(|| same(kind, seen), |one| one.appears(kind, seen)),
+            )
+        });
+        each.filter(|(_, share)| *share > 0.0).collect()
+    };
+    let models = models.iter();
+    models
+        .flat_map(|model| (0..kinds).map(move |kind| of(*model, kind)))
+        .collect()
+}
+
+/// 1 if two kinds are the same, and otherwise 0.
+fn same(kind: usize, other: usize) -> f64 {
+    f64::from(u8::from(kind == other))
+}
+
 /// Probability of each true kind by the reported kind, for one contact of the known detectors.
 fn reported(body: &Body, shares: &[f64]) -> Vec<f64> {
     let others = body.others.iter().flat_map(|other| &other.detectors);
@@ -149,8 +178,7 @@ fn reported(body: &Body, shares: &[f64]) -> Vec<f64> {
     let kinds = shares.len();
     let weight = |reported: usize, kind: usize| {
         let each = detectors.iter();
-        let contacts =
-            each.map(|detector| detector.probability(kind, 0.0) * detector.reports(kind, reported));
+        let contacts = each.map(|detector| detector.contacts((kind, 1.0), reported, 0.0));
         shares[kind] * contacts.sum::<f64>()
     };
     let row = |reported: usize| {
@@ -163,16 +191,51 @@ fn reported(body: &Body, shares: &[f64]) -> Vec<f64> {
 }
 
 impl Detector {
-    /// Probability that a detected item of a kind is reported as another.
-    pub(crate) fn reports(&self, kind: usize, reported: usize) -> f64 {
-        if self.confusion.is_empty() {
-            return f64::from(u8::from(kind == reported));
-        }
-        let row = self.confusion.get(kind);
-        row.and_then(|row| row.get(reported))
-            .copied()
-            .unwrap_or_default()
+    /// Whether it is blind to items, or does not report all of them as they are.
+    fn is_uncertain(&self) -> bool {
+        let is_certain = self.confusion.is_empty()
+            && self.blind_share.is_empty()
+            && self.lookalike_share.is_empty();
+        !is_certain
     }
+
+    /// Probability that a detected item that looks like a kind is reported as another.
+    pub(crate) fn reports(&self, kind: usize, reported: usize) -> f64 {
+        of_kinds(&self.confusion, kind, reported)
+    }
+
+    /// Share of the items of a kind that look like another to its model.
+    fn appears(&self, kind: usize, seen: usize) -> f64 {
+        of_kinds(&self.lookalike_share, kind, seen)
+    }
+
+    /// Contacts at a distance, reported as a kind, of a number of items of a true kind to none of which it is blind.
+    pub(crate) fn contacts(
+        &self,
+        (kind, items): (usize, f64),
+        reported: usize,
+        range_m: f64,
+    ) -> f64 {
+        let as_kind = |(seen, items): (usize, f64)| {
+            items * self.probability(seen, range_m) * self.reports(seen, reported)
+        };
+        if self.lookalike_share.is_empty() {
+            return as_kind((kind, items));
+        }
+        let kinds = 0..self.lookalike_share.len();
+        let seen = kinds.map(|seen| (seen, items * self.appears(kind, seen)));
+        seen.map(as_kind).sum()
+    }
+}
+
+/// A number of two kinds, by row and column; without rows, each kind is what it is.
+fn of_kinds(rows: &[Vec<f64>], kind: usize, other: usize) -> f64 {
+    if rows.is_empty() {
+        return same(kind, other);
+    }
+    let row = rows.get(kind);
+    let number = row.and_then(|row| row.get(other));
+    number.copied().unwrap_or_default()
 }
 
 impl Track {
@@ -180,29 +243,44 @@ impl Track {
     fn own_likelihood(&self, kinds: &KindModel, kind: usize) -> f64 {
         let models = 0..kinds.models.len();
         let of_model = |model: usize| {
-            let place = model * kinds.kinds() + kind;
-            let blind = kinds.blind[place];
-            blind + (1.0 - blind) * libm::exp(self.evidence[NUMBERS * place])
+            let blind = kinds.blind[model * kinds.kinds() + kind];
+            blind + (1.0 - blind) * self.visible_likelihood(kinds, model, kind)
         };
         models.map(of_model).product()
     }
 
-    /// Probability of a kind that a detector can see, given that there is an item, by own measurements.
-    pub(super) fn visible_share(&self, kinds: &KindModel, detector: &Detector, kind: usize) -> f64 {
+    /// Likelihood ratio of the measurements of a model for an item of a kind that it can detect, whatever the item looks
+    /// like.
+    fn visible_likelihood(&self, kinds: &KindModel, model: usize, kind: usize) -> f64 {
+        let first = model * kinds.kinds();
+        let seen = kinds.appearances[first + kind].iter();
+        seen.map(|(seen, share)| share * libm::exp(self.evidence[NUMBERS * (first + seen)]))
+            .sum()
+    }
+
+    /// Probability that a detector can see an item and that it looks like a kind to it, given that there is an item, by
+    /// own measurements.
+    pub(super) fn visible_share(&self, kinds: &KindModel, detector: &Detector, seen: usize) -> f64 {
         let total: f64 = kinds
             .each_kind()
             .map(|kind| kinds.shares[kind] * self.own_likelihood(kinds, kind))
             .sum();
-        let place = kinds.place(detector, kind);
-        let blind = kinds.blind[place / NUMBERS];
-        let visible = (1.0 - blind) * libm::exp(self.evidence[place]);
-        kinds.shares[kind] * self.own_likelihood(kinds, kind) / total.max(f64::MIN_POSITIVE)
-            * visible
-            / (blind + visible)
+        let place = kinds.place(detector, seen);
+        let model = place / NUMBERS / kinds.kinds();
+        let share_of = |kind: usize| {
+            let blind = kinds.blind[model * kinds.kinds() + kind];
+            let mut like = kinds.appearances[model * kinds.kinds() + kind].iter();
+            let (_, share) = like.find(|(like, _)| *like == seen)?;
+            let visible = (1.0 - blind) * (share * libm::exp(self.evidence[place]));
+            let all = (1.0 - blind) * self.visible_likelihood(kinds, model, kind);
+            let of_all = kinds.shares[kind] * self.own_likelihood(kinds, kind);
+            Some(of_all / total.max(f64::MIN_POSITIVE) * visible / (blind + all))
+        };
+        kinds.each_kind().filter_map(share_of).sum()
     }
 
-    /// For each kind, the log likelihood ratio of all own measurements for an item that the own sensor models can
-    /// detect.
+    /// For each kind, the log likelihood ratio of all own measurements for an item that looks like it and that the own
+    /// sensor models can detect.
     pub(crate) fn visible_log_ratios(&self, kinds: &KindModel) -> Vec<f64> {
         let each = kinds.each_kind();
         let of = |kind: usize| {

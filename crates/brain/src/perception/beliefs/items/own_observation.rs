@@ -31,8 +31,9 @@ impl OwnObservation<'_> {
     /// Density at a contact of the contacts of items, if none has been observed.
     pub(super) fn untracked_per_m2(&self, contact: &Contact) -> f64 {
         let contacts = |(kind, per_m2): (usize, &f64)| {
-            let detection = self.detector.probability(kind, contact.range_m);
-            per_m2 * detection * self.detector.reports(kind, contact.kind.into())
+            let reported = contact.kind.into();
+            let items = (kind, *per_m2);
+            self.detector.contacts(items, reported, contact.range_m)
         };
         self.per_m2.iter().enumerate().map(contacts).sum()
     }

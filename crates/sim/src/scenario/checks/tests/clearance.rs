@@ -387,6 +387,37 @@ fn a_requirement_that_only_clear_lanes_meet_is_not_above_what_looks_achieve() {
     }
 }
 
+/// Controllers declare lanes by what they believe; whether these are clear is up to the sensors.
+#[test]
+fn what_is_believed_sets_the_risk_of_declarations_and_the_truth_the_requirement() {
+    let blind = "blind_share = { mine = 0.1 }";
+    let believed = format!("{blind}\nbelieved = {{ blind_share = {{ mine = 0.01 }} }}");
+    let text = with("declare_below = 0.1", "declare_below = 0.001").replace(blind, &believed);
+    assert_eq!(errors_in(&text), [""; 0]);
+    let required = "[require]\nall = [\"declared_clear >= 1\"]\nprobability = 0.99\n";
+    let reported = errors_in(&format!("{text}\n{required}"));
+    assert_eq!(reported.len(), 1, "{reported:#?}");
+    assert!(
+        reported[0].contains("must be at most 0.961"),
+        "{reported:#?}"
+    );
+}
+
+#[test]
+fn item_detectors_of_a_robot_are_of_one_model_where_items_look_alike_to_them() {
+    let alike = "range_m = 2\nlookalike_share = { mine = { clutter = 0.1 } }\nbelieved = { blind_share = { mine = 0 } }";
+    let two =
+        "[robots.ugv.sensors.radar]\nkind = \"items\"\nrange_m = 2\n[robots.ugv.sensors.detector]";
+    let text = with("[robots.ugv.sensors.detector]", two)
+        .replace("range_m = 2\nblind", &format!("{alike}\nblind"));
+    let reported = errors_in(&text);
+    assert_eq!(reported.len(), 1, "{reported:#?}");
+    assert!(
+        reported[0].contains("item detectors of one model"),
+        "{reported:#?}"
+    );
+}
+
 #[test]
 fn a_requirement_that_other_lanes_meet_too_may_have_any_probability() {
     for conditions in [

@@ -87,3 +87,71 @@ fn values_for_kinds_that_the_sensor_never_detects_are_refused() {
     ];
     assert_eq!(errors_in(&text), expected);
 }
+
+#[test]
+fn shares_of_lookalikes_and_what_is_believed_are_optional() {
+    let lines = "lookalike_share = { mine = { clutter = 0.1 }, clutter = {} }\n\
+                 believed = { detection_probability = { mine = 0.9 }, blind_share = { clutter = 0.1 }, \
+                 lookalike_share = { mine = { clutter = 0 } }, confusion = { mine = { mine = 1 } } }";
+    assert_eq!(errors_in(&with(lines)), [""; 0]);
+    assert_eq!(
+        errors_in(&with("lookalike_share = {}\nbelieved = {}")),
+        [""; 0]
+    );
+}
+
+#[test]
+fn all_errors_of_lookalikes_are_reported_at_once() {
+    let lines =
+        "lookalike_share = { mine = { clutter = 1.5, mien = 0.1, mine = 0.5 }, cluter = {} }";
+    let known = "is not a known key: expected one of clutter, mine; did you mean";
+    let at = format!("{EYE}.lookalike_share");
+    let mut expected = [
+        format!("{at}.cluter {known} clutter?"),
+        format!("{at}.mine.clutter = 1.5: must be a number from 0 to 1"),
+        format!("{at}.mine.mien {known} mine?"),
+        format!(
+            "{at}.mine.mine = 0.5: must be removed: what looks like no other kind looks like what it is"
+        ),
+    ];
+    let mut reported = errors_in(&with(lines));
+    reported.sort();
+    expected.sort();
+    assert_eq!(reported, expected);
+}
+
+/// What is believed has the rules of what is true, with the kinds that the sensor is believed to detect.
+#[test]
+fn all_errors_of_what_is_believed_are_reported_at_once() {
+    let lines = "believed = { detection_probability = { mine = 0.9, rock = 0.1 }, \
+                 blind_share = { mine = 2, clutter = 0.1 }, confusion = { mine = { mine = 0.9 } } }";
+    let text = with(lines).replace("clutter = 0.5, ", "").replace(
+        "count = 1\n[items.mine]",
+        "count = 1\ntarget = false\n[items.mine]",
+    );
+    let at = format!("{EYE}.believed");
+    let mut expected = [
+        format!(
+            "{at}.blind_share.clutter = 0.1: must be removed, or the kind added to detection_probability: the sensor \
+             never detects it"
+        ),
+        format!("{at}.blind_share.mine = 2: must be a number from 0 to 1"),
+        format!(
+            "{at}.confusion.mine = {{...}}: must be probabilities that sum to 1, one for each reported kind; they sum \
+             to 0.9"
+        ),
+        format!(
+            "{at}.detection_probability.rock is not a known key: expected one of clutter, mine"
+        ),
+    ];
+    let mut reported = errors_in(&text);
+    reported.sort();
+    expected.sort();
+    assert_eq!(reported, expected);
+    let all = text.replace("rock = 0.1", "clutter = 0.1");
+    assert!(
+        !errors_in(&all)
+            .iter()
+            .any(|error| error.contains("clutter"))
+    );
+}

@@ -132,6 +132,90 @@ fn any_number_of_misses_leaves_the_blind_share_of_a_reported_item() {
     assert_eq!(track.kind, 1);
 }
 
+/// A tenth of the mines look like clutter to the sensor.
+const ALIKE: [[f64; 2]; 2] = [[1.0, 0.0], [0.1, 0.9]];
+
+fn detector_of_lookalikes() -> Detector {
+    Detector {
+        lookalike_share: ALIKE.map(Vec::from).to_vec(),
+        ..detector_of_kinds()
+    }
+}
+
+#[test]
+fn any_number_of_reports_of_clutter_leaves_the_share_of_mines_that_look_like_it() {
+    let shares = |detector: &Detector| {
+        let mut items = Items::new(64, Some(model_of(detector)));
+        for _ in 0..100 {
+            let seen = [seen_as(0, POSITION)];
+            look(&mut items, detector, Point::default(), &seen, None);
+        }
+        let kinds = items.kinds.as_deref().unwrap();
+        let mut shares = Vec::new();
+        items.tracks[0].write_kind_shares(kinds, ME, &mut shares);
+        shares
+    };
+    // A third of the items are mines, of which the sensor detects 60%.
+    let [clutter, mine] = [2.0 / 3.0, 1.0 / 3.0 * 0.6 * 0.1];
+    let expected = mine / (clutter + mine);
+    let alike = shares(&detector_of_lookalikes());
+    assert!((alike[1] - expected).abs() < 1e-6, "{alike:?}");
+    assert!(shares(&detector_of_kinds())[1] < 1e-6);
+}
+
+/// Each item is of a kind, and the sensor is blind to it, or it looks like a kind.
+#[test]
+fn beliefs_of_lookalikes_are_those_of_all_kinds_and_what_they_may_look_like() {
+    let detector = detector_of_lookalikes();
+    let mut items = Items::new(64, Some(model_of(&detector)));
+    for reported in [0, 1, 0] {
+        let seen = [seen_as(reported, POSITION)];
+        look(&mut items, &detector, Point::default(), &seen, None);
+    }
+    look(&mut items, &detector, Point::default(), &[], None);
+    let (track, kinds) = (&items.tracks[0], items.kinds.as_deref().unwrap());
+    let ratios = track.visible_log_ratios(kinds).into_iter().map(libm::exp);
+    let ratios: Vec<f64> = ratios.collect();
+    let mut all = [[0.0; 3]; 2];
+    for kind in 0..2 {
+        let share = KINDS_PER_M2[kind] / 0.03;
+        all[kind][2] = share * BLIND[kind];
+        for seen in 0..2 {
+            all[kind][seen] = share * (1.0 - BLIND[kind]) * ALIKE[kind][seen] * ratios[seen];
+        }
+    }
+    let total: f64 = all.iter().flatten().sum();
+    assert!((track.own_log_ratio(kinds) - libm::log(total)).abs() < 1e-9);
+    let mut shares = Vec::new();
+    track.write_kind_shares(kinds, ME, &mut shares);
+    for kind in 0..2 {
+        let expected = all[kind].iter().sum::<f64>() / total;
+        assert!((shares[kind] - expected).abs() < 1e-9);
+    }
+    for seen in [0, 1] {
+        let as_kind: f64 = all.iter().map(|each| each[seen]).sum();
+        let visible = track.visible_share(kinds, &detector, seen);
+        assert!((visible - as_kind / total).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn lookalike_shares_of_zero_change_nothing() {
+    let beliefs = |detector: &Detector| {
+        let mut items = Items::new(64, Some(model_of(detector)));
+        for reported in [0, 1, 0] {
+            let seen = [seen_as(reported, POSITION)];
+            look(&mut items, detector, Point::default(), &seen, None);
+        }
+        (items.tracks[0].evidence.clone(), confidence_of(&items, 0))
+    };
+    let same = Detector {
+        lookalike_share: vec![vec![1.0, 0.0], vec![0.0, 1.0]],
+        ..detector_of_kinds()
+    };
+    assert_eq!(beliefs(&same), beliefs(&detector_of_kinds()));
+}
+
 /// A belief is true if an item is at most this far away.
 const NEAR_M: f64 = 0.35;
 
