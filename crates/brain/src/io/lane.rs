@@ -20,10 +20,12 @@ pub const MARK_KINDS: usize = 4;
 
 /// Probability that an item in a lane has another one beside it, as they may lie in groups whatever their number. It is small,
 /// but more than a search by one sensor model leaves open.
-pub const HAS_ANOTHER: f64 = 0.05;
+pub const HAS_ANOTHER: f64 = 0.2;
 
-/// Steps of coverage per nat.
-const STEPS_PER_NAT: f64 = 16.0;
+/// Steps of coverage up to this one are a sixteenth of a nat, the others a half.
+const FINE_STEPS: u8 = 128;
+const PER_NAT: f64 = 16.0;
+const PER_COARSE_STEP: u32 = 8;
 
 /// Largest plausible log likelihood ratio of a mark, in nats.
 const MAX_LOG_RATIO: f32 = 1e4;
@@ -152,7 +154,7 @@ pub struct Coverage {
     /// for a receiver that has all marks.
     pub marks: u32,
     /// For each cell, the probability that all looks miss an item there that the sensors can detect,
-    /// as its negative logarithm in steps of 1/16 nat; 255 stands for 255 or more.
+    /// as its negative logarithm in steps: 1/16 nat each up to 128 steps, and 1/2 nat above; 255 stands for 255 or more.
     pub missed: [u8; CELLS_PER_MESSAGE],
     /// For each cell, the share of it that the robot has driven over, so that an item there would have destroyed it, in
     /// steps of 1/255.
@@ -168,7 +170,10 @@ impl Coverage {
         reason = "clamped"
     )]
     pub fn steps(nats: f64) -> u8 {
-        libm::round(nats * STEPS_PER_NAT).clamp(0.0, 255.0) as u8
+        let fine = nats * PER_NAT;
+        let coarse = (fine - f64::from(FINE_STEPS)) / f64::from(PER_COARSE_STEP);
+        let steps = fine.min(f64::from(FINE_STEPS) + coarse.max(0.0));
+        libm::round(steps).clamp(0.0, 255.0) as u8
     }
 
     /// A share as coverage states it.
@@ -188,10 +193,17 @@ impl Coverage {
         f64::from(parts) / 255.0
     }
 
-    /// The negative logarithm in nats for a number of steps.
+    /// The negative logarithm for a number of steps, in sixteenths of a nat: sums of them are exact.
     #[must_use]
-    pub fn nats(steps: u32) -> f64 {
-        f64::from(steps) / STEPS_PER_NAT
+    pub fn sixteenths(steps: u8) -> u32 {
+        let fine = steps.min(FINE_STEPS);
+        u32::from(fine) + PER_COARSE_STEP * u32::from(steps - fine)
+    }
+
+    /// Nats for a number of sixteenths.
+    #[must_use]
+    pub fn nats(sixteenths: u32) -> f64 {
+        f64::from(sixteenths) / PER_NAT
     }
 }
 
@@ -206,8 +218,8 @@ pub struct Mark {
     pub at_m: [f32; 2],
     /// Standard deviation of the position along each axis, the error of the robot's pose included, in millimetres.
     pub deviation_mm: u16,
-    /// How often all looks of the robot since it has stopped tracking the item miss a visible item there, in steps of 1/16
-    /// nat, at most 255: since something there has been destroyed. 0 while it tracks the item.
+    /// How often all looks of the robot since it has stopped tracking the item miss a visible item there, in the steps of
+    /// coverage: since something there has been destroyed. 0 while it tracks the item.
     pub missed_since: u8,
     /// Expected number of items to be cleared that are left there when one item has been destroyed, in steps of 1/100.
     pub further: u8,
@@ -241,6 +253,12 @@ impl Mark {
         libm::round(deviation_m * 1e3).clamp(1.0, f64::from(u16::MAX)) as u16
     }
 
+    /// How often all looks since it has stopped tracking the item miss a visible item there, in nats.
+    #[must_use]
+    pub fn missed_since_nats(&self) -> f64 {
+        Coverage::nats(Coverage::sixteenths(self.missed_since))
+    }
+
     /// An expected number of further items as a mark states it.
     #[must_use]
     #[expect(
@@ -255,7 +273,7 @@ impl Mark {
     /// Expected number of items to be cleared that are left when one item there has been destroyed now.
     #[must_use]
     pub fn further(&self) -> f64 {
-        f64::from(self.further) / 100.0 * libm::exp(-Coverage::nats(self.missed_since.into()))
+        f64::from(self.further) / 100.0 * libm::exp(-self.missed_since_nats())
     }
 
     /// Whether all of its numbers are finite and plausible.

@@ -148,9 +148,9 @@ impl Reported {
         let max_m = CHANGE_DEVIATIONS * self.mark.deviation_m();
         let mut ratios = ratios.map(|(now, then)| (now - then).abs());
         let mut moved = moved.map(|(now, then)| (now - then).abs());
-        let missed = self.mark.missed_since.saturating_sub(sent.missed_since);
+        let missed_nats = self.mark.missed_since_nats() - sent.missed_since_nats();
         let further = self.mark.further.abs_diff(sent.further);
-        Coverage::nats(missed.into()) > CHANGE_NATS.into()
+        missed_nats > CHANGE_NATS.into()
             || further > CHANGE_HUNDREDTHS
             || ratios.any(|change| change > CHANGE_NATS)
             || moved.any(|change_m| f64::from(change_m) > max_m)

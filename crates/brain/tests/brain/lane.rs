@@ -153,7 +153,7 @@ fn nats_of(lane: Lane, sent: &[Dispatch], x: f64, y: f64) -> f64 {
         }
         _ => None,
     });
-    Coverage::nats(steps.next_back().unwrap_or_default().into())
+    Coverage::nats(Coverage::sixteenths(steps.next_back().unwrap_or_default()))
 }
 
 fn marks(sent: &[Dispatch]) -> Vec<Mark> {
@@ -331,7 +331,7 @@ fn the_mark_of_an_item_that_another_robot_has_destroyed_counts_the_looks_since_t
     let after = after.iter().rfind(|mark| mark.id == before.id).unwrap();
     let bits = |mark: &Mark| mark.log_ratios.map(f32::to_bits);
     assert_eq!(bits(after), bits(&before));
-    let missed = Coverage::nats(after.missed_since.into());
+    let missed = after.missed_since_nats();
     assert!(missed > 10.0 * 2.0_f64.ln(), "{missed}");
 }
 

@@ -9,7 +9,7 @@ use brain::{Coverage, RobotId};
 #[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Searched {
     robots: Vec<RobotSearched>,
-    /// The sums over the robots of each model, in steps of the messages.
+    /// The sums over the robots of each model, in sixteenths of a nat.
     #[hashed(skip)]
     totals: Vec<Vec<u32>>,
     /// For each cell, the largest share that one robot has driven over, in steps of the messages: robots may drive along
@@ -31,6 +31,11 @@ impl Searched {
             totals: vec![vec![0; cells]; models],
             driven: vec![0; cells],
         }
+    }
+
+    /// Number of sensor models.
+    pub(super) fn models(&self) -> usize {
+        self.totals.len()
     }
 
     /// Takes a message of a robot with a sensor model; the order of messages does not matter.
@@ -56,9 +61,10 @@ impl Searched {
             *cell = driven.max(*cell);
         }
         for ((cell, total), missed) in cells.skip(first).zip(coverage.missed) {
-            let more = missed.saturating_sub(*cell);
-            *cell += more;
-            *total += u32::from(more);
+            if missed > *cell {
+                *total += Coverage::sixteenths(missed) - Coverage::sixteenths(*cell);
+                *cell = missed;
+            }
         }
     }
 
@@ -80,7 +86,7 @@ impl Searched {
             .iter()
             .filter(|one| one.model == model && robots.contains(&one.robot));
         let without = without.filter_map(|one| one.steps.get(cell).copied());
-        let without: u32 = without.map(u32::from).sum();
+        let without: u32 = without.map(Coverage::sixteenths).sum();
         Coverage::nats(total.saturating_sub(without))
     }
 }

@@ -149,7 +149,7 @@ impl LanePicture {
                 let cell = self.clearance.lane.nearest_cell(place.at);
                 let further = place.further();
                 self.remaining
-                    .note_destroyed(cell, further, &self.clearance);
+                    .note_destroyed((cell, further), &self.searched);
                 self.refresh(cell..cell + 1);
             }
         }

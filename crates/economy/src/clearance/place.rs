@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{Coverage, GoalId, MARK_KINDS, Mark, MarkVerdict, RobotId};
+use brain::{GoalId, MARK_KINDS, Mark, MarkVerdict, RobotId};
 use core::cmp::Reverse;
 use core::f64::consts::TAU;
 
@@ -120,10 +120,7 @@ impl Place {
     /// Probability that its item, if there was one, has not been destroyed, by what has been destroyed beside it and by
     /// the looks since then.
     pub(super) fn is_left(&self) -> f64 {
-        let nats: f64 = self
-            .surest(|_| None)
-            .map(|mark| Coverage::nats(mark.missed_since.into()))
-            .sum();
+        let nats: f64 = self.surest(|_| None).map(Mark::missed_since_nats).sum();
         let least = if nats > 0.0 { GONE } else { 0.0 };
         let gone = (1.0 - self.is_other).max(least);
         let left = (1.0 - gone) * libm::exp(-nats);

@@ -82,7 +82,7 @@ pub(crate) struct Circumstances<'c> {
     /// Whether no robot can do it at present.
     pub(crate) is_impossible: &'c dyn Fn(Subject) -> bool,
     /// Whether it has been served in vain, so that it is not to be served again.
-    pub(crate) is_vain: &'c dyn Fn(Subject) -> bool,
+    pub(crate) is_vain: &'c dyn Fn(&Proposal) -> bool,
     /// Whether the goals of a tile are those of this controller.
     pub(crate) is_own: &'c dyn Fn(u32) -> bool,
     /// The expected number of mines that the goals of the other controllers in range may find or destroy.
@@ -107,7 +107,7 @@ impl Plan {
             let work = work_at(mark, clearance, is_suspect, interrogations);
             proposals.extend(work.and_then(|work| at_mark(mark, &tiles, work)));
         }
-        proposals.retain(|one| !(circumstances.is_vain)(one.subject));
+        proposals.retain(|one| !(circumstances.is_vain)(one));
         let risk = picture.risk_with(marks.iter().copied());
         let expected = risk.expected();
         let possible = proposals.iter();

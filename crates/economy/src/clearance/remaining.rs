@@ -6,8 +6,12 @@ use super::coverage::Searched;
 use super::settings::{Clearance, Skill};
 use alloc::vec;
 use alloc::vec::Vec;
-use brain::{HAS_ANOTHER, Lane, MARK_KINDS};
+use brain::{Lane, MARK_KINDS};
 use core::ops::Range;
+
+/// Expected number of mines beside an item that has been destroyed, at least: mines may lie in groups that no mark shows. It is
+/// small, but more than a search by one sensor model leaves open.
+const BESIDE_DESTROYED: f64 = 0.05;
 
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
 #[derive(Debug, Clone)]
@@ -19,8 +23,19 @@ pub(super) struct Remaining {
     pub(super) tiles: Vec<u32>,
     /// For each way to search, the looks of one search by each sensor model, in nats.
     ways: Vec<Vec<f64>>,
+    /// Where items have been destroyed.
+    beside: Vec<Beside>,
     pub(super) now: Vec<f64>,
     pub(super) after: Vec<Vec<f64>>,
+}
+
+/// Mines that may lie beside an item that has been destroyed.
+#[derive(Debug, Clone)]
+struct Beside {
+    cell: usize,
+    expected: f64,
+    /// The looks of each sensor model until then, in nats: they were at the item.
+    nats: Vec<f64>,
 }
 
 impl Remaining {
@@ -38,18 +53,23 @@ impl Remaining {
             shares: shares.collect(),
             tiles: cells.map(tile).collect(),
             ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
+            beside: Vec::new(),
             now: vec![0.0; lane.cells()],
             after: vec![vec![0.0; lane.cells()]; clearance.searches.len()],
         }
     }
 
-    /// Takes that an item in a cell has been destroyed, with an expected number of further mines beside it: another one may
-    /// lie there that no mark shows.
-    pub(super) fn note_destroyed(&mut self, cell: usize, further: f64, clearance: &Clearance) {
-        let expected: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
-        if let Some(share) = self.shares.get_mut(cell).filter(|_| expected > 0.0) {
-            *share += further.max(HAS_ANOTHER) / expected;
-        }
+    /// Takes that an item in a cell has been destroyed, with an expected number of further mines beside it. The place is to be
+    /// searched again.
+    pub(super) fn note_destroyed(&mut self, (cell, further): (usize, f64), searched: &Searched) {
+        let models = 0..searched.models();
+        self.beside.push(Beside {
+            cell,
+            expected: further.max(BESIDE_DESTROYED),
+            nats: models
+                .map(|model| searched.nats_without(model, cell, &[]))
+                .collect(),
+        });
     }
 
     /// Computes the numbers of some cells again.
@@ -59,18 +79,23 @@ impl Remaining {
         clearance: &Clearance,
         (blind, searched): (&[[f64; MARK_KINDS]], &Searched),
     ) {
+        let of_all_kinds: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
         for cell in cells.start..cells.end.min(self.shares.len()) {
-            let share = self.shares[cell];
             let expected = |more_nats: &[f64]| {
                 let left = clearance.hazards().map(|(kind, expected)| {
-                    let missed = blind.iter().enumerate().map(|(model, shares)| {
-                        let nats = searched.nats_without(model, cell, &[]);
-                        let more_nats = more_nats.get(model).copied().unwrap_or_default();
-                        missed_share(shares[kind], nats + more_nats)
-                    });
+                    let looks = Looks {
+                        kind,
+                        blind,
+                        searched,
+                        cell,
+                        more_nats,
+                    };
                     let destroys = clearance.destroy_probability.get(kind).copied();
                     let survived = 1.0 - destroys.unwrap_or_default() * searched.driven(cell);
-                    expected * share * survived * missed.product::<f64>()
+                    let everywhere = expected * self.shares[cell] * survived * looks.missed(&[]);
+                    let beside = self.beside.iter().filter(|beside| beside.cell == cell);
+                    let beside = beside.map(|beside| beside.expected * looks.missed(&beside.nats));
+                    everywhere + beside.sum::<f64>() * expected / of_all_kinds
                 });
                 left.sum::<f64>()
             };
@@ -88,6 +113,28 @@ impl Remaining {
                 };
             }
         }
+    }
+}
+
+/// The looks at a cell, for a kind of items.
+struct Looks<'l> {
+    kind: usize,
+    cell: usize,
+    blind: &'l [[f64; MARK_KINDS]],
+    searched: &'l Searched,
+    /// Further looks of each sensor model, in nats.
+    more_nats: &'l [f64],
+}
+
+impl Looks<'_> {
+    /// Share of the items that all models have missed, in the looks that were made after those with some nats.
+    fn missed(&self, before: &[f64]) -> f64 {
+        let of = |nats: &[f64], model: usize| nats.get(model).copied().unwrap_or_default();
+        let missed = self.blind.iter().enumerate().map(|(model, shares)| {
+            let nats = self.searched.nats_without(model, self.cell, &[]) - of(before, model);
+            missed_share(shares[self.kind], nats + of(self.more_nats, model))
+        });
+        missed.product()
     }
 }
 

@@ -72,7 +72,7 @@ impl Controller {
                     times.map_or(0, |(_, times)| *times)
                 },
                 is_impossible: &|subject| impossible.contains(&subject),
-                is_vain: &|subject| work.tried.is_vain(subject),
+                is_vain: &|proposal| work.tried.is_vain(proposal),
                 is_own: &|tile| tile % turns == turn,
                 others_gain: self.colleagues.lane_gain(self.own),
             },
