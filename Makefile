@@ -133,7 +133,7 @@ economy: .venv/installed ## Regenerate docs/economy.md and its charts (takes min
 	$(BIN)/python scripts/economy.py
 
 # A claim that fails is an error, after all measurements.
-clearance: .venv/installed ## Compare what controllers state of mined lanes with the truth (takes half an hour)
+clearance: .venv/installed ## Compare what controllers state of mined lanes with the truth (takes an hour)
 	$(BIN)/python scripts/clearance.py
 
 # Longer than the schedules of `make test`.

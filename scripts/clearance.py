@@ -2,15 +2,17 @@
 
 Calibration: of the lanes that are declared clear with a stated risk r, the share r is not clear.
 Directions: changes of the team, the sensors and the radio move results the right way.
-Passages: of vehicles with a stated risk r, the share r is lost (scripts/passage.py). The
-measurements are docs/mines/calibration.csv, directions.csv and passage.csv; the tables of
-docs/mines.md are between `<!-- calibration -->`, `<!-- directions -->` or `<!-- passage -->` and
-`<!-- end -->`. Examples:
+Passages: of vehicles with a stated risk r, the share r is lost (scripts/passage.py).
+Random lanes: both parts of the stated risk, over lanes of all sizes (scripts/random_lanes.py). The
+measurements are docs/mines/calibration.csv, directions.csv, passage.csv and lanes.csv; the tables
+of docs/mines.md are between `<!-- calibration -->`, `<!-- directions -->`, `<!-- passage -->` or
+`<!-- lanes -->` and `<!-- end -->`. Examples:
 
-    python scripts/clearance.py               run everything (half an hour on two cores)
+    python scripts/clearance.py               run everything (an hour on two cores)
     python scripts/clearance.py --scale 0.2   fewer runs: most cells are undecided
     python scripts/clearance.py --draw        only the chart and the page, from the CSV files
     python scripts/clearance.py --passages    only the passages, the chart and the page
+    python scripts/clearance.py --lanes       only the random lanes (20 minutes)
 
 The status is 1 if a cell or a direction fails.
 """
@@ -20,6 +22,7 @@ import math
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,6 +30,7 @@ import pyarrow as pa
 from measured import ROOT, Page, table
 from passage import PassageBin, of_passages, passages
 from plots import Row, Spec, page_of, panel, path, points
+from random_lanes import LaneBin, of_lanes, random_lanes
 from scipy import stats
 
 import agent_economy as ae
@@ -160,24 +164,28 @@ def main() -> None:
     parser.add_argument("--scale", type=float, default=1.0, help="factor of the numbers of runs")
     parser.add_argument("--draw", action="store_true", help="only the chart and the page")
     parser.add_argument("--passages", action="store_true", help="run only the passages")
+    parser.add_argument("--lanes", action="store_true", help="run only the random lanes")
     options = parser.parse_args()
     if not options.draw:
-        measure(options.scale, only_passages=options.passages)
+        chosen = {"passages": options.passages, "lanes": options.lanes}
+        measure(options.scale, {name for name, is_chosen in chosen.items() if is_chosen})
     cells, moved = PAGE.read("calibration", Cell), PAGE.read("directions", Direction)
-    driven = PAGE.read("passage", PassageBin)
+    driven, pooled = PAGE.read("passage", PassageBin), PAGE.read("lanes", LaneBin)
     tables = {
         "calibration": of_cells(cells),
         "directions": of_directions(moved),
         "passage": of_passages(driven),
+        "lanes": of_lanes(pooled),
     }
     PAGE.draw(lambda name: tables[name], {"calibration": chart(cells)})
     failed = [f"{each.series}, {each.declare_below:g}" for each in cells if is_failed(each)]
     failed += [each.claim for each in moved if is_failed(each)]
     failed += [f"passages, {each.low:g}" for each in driven if is_failed(each)]
+    failed += [f"{each.density} lanes, {each.low:g}" for each in pooled if is_failed(each)]
     sys.exit(f"failed: {'; '.join(failed)}" if failed else 0)
 
 
-def is_failed(each: Cell | Direction | PassageBin) -> bool:
+def is_failed(each: Cell | Direction | PassageBin | LaneBin) -> bool:
     """Return whether a cell, a direction or a bin fails."""
     return each.verdict.startswith("fails")
 
@@ -185,10 +193,14 @@ def is_failed(each: Cell | Direction | PassageBin) -> bool:
 # Measured.
 
 
-def measure(scale: float, *, only_passages: bool) -> None:
-    """Run everything, and write the measurements as they come."""
-    PAGE.write("passage", PassageBin, passages(scenario, SEED, scale))
-    if only_passages:
+def measure(scale: float, only: set[str]) -> None:
+    """Run everything, or only some parts, and write the measurements as they come."""
+    if not only or "passages" in only:
+        PAGE.write("passage", PassageBin, passages(scenario, SEED, scale))
+    if not only or "lanes" in only:
+        bundled = partial(scenario, lane={})
+        PAGE.write("lanes", LaneBin, random_lanes(bundled, SEED, scale))
+    if only:
         return
     cells = (cell(series, risk, scale) for series in SERIES for risk in series.risks)
     PAGE.write("calibration", Cell, cells)

@@ -267,13 +267,16 @@ class Coverage(TypedDict):
         marks: Number of marks of the robot so far. Looks without a mark are evidence of a clear
             place only for a receiver that has all marks.
         missed: For each cell, the probability that all looks miss an item there that the
-            sensors can detect, as its negative logarithm in steps of 1/16 nat; 255 stands for
-            255 or more.
+            sensors can detect, as its negative logarithm in steps: 1/16 nat each up to 128
+            steps, and 1/2 nat above; 255 stands for 255 or more.
+        driven: For each cell, the share of it that the robot has driven over, so that an item
+            there would have destroyed it, in steps of 1/255.
     """
 
     first: int
     marks: int
     missed: Sequence[int]
+    driven: Sequence[int]
 
 
 class Mark(TypedDict):
@@ -287,8 +290,10 @@ class Mark(TypedDict):
         deviation_mm: Standard deviation of the position along each axis, the error of the
             robot's pose included, in millimetres.
         missed_since: How often all looks of the robot since it has stopped tracking the item
-            miss a visible item there, in steps of 1/16 nat, at most 255: since something there
-            has been destroyed. 0 while it tracks the item.
+            miss a visible item there, in the steps of coverage: since something there has been
+            destroyed. 0 while it tracks the item.
+        further: Expected number of items to be cleared that are left there when one item has
+            been destroyed, in steps of 1/100.
         log_ratios: For each of the first four kinds of items, the log likelihood ratio of all
             looks of the robot at the place, contacts and misses: an item of that kind that its
             sensors can detect, against nothing there but false alarms.
@@ -298,6 +303,7 @@ class Mark(TypedDict):
     at_m: Sequence[float]
     deviation_mm: int
     missed_since: int
+    further: int
     log_ratios: Sequence[float]
 
 

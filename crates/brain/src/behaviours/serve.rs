@@ -71,7 +71,7 @@ impl Ready {
                 lanes: Lanes {
                     apart_m: swath_m(body).0,
                     within: body.field.map(|field| inset(field, body.radius_m)),
-                    range_m: None,
+                    is_balanced: false,
                 },
                 all_round_m: all_round_m(body),
                 ahead_m: ahead_m(body),

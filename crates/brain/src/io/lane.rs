@@ -378,9 +378,15 @@ mod tests {
 
     #[test]
     fn coverage_is_rounded_to_the_nearest_step_and_saturates() {
-        for nats in [0.0, 0.4, 3.3, 15.9] {
-            let rounded = Coverage::nats(Coverage::steps(nats).into());
-            assert!((rounded - nats).abs() <= 1.0 / 32.0, "{nats}");
+        for (nats, error) in [
+            (0.0, 0.0),
+            (0.4, 1.0 / 32.0),
+            (7.99, 1.0 / 32.0),
+            (8.3, 0.25),
+            (70.9, 0.25),
+        ] {
+            let rounded = Coverage::nats(Coverage::sixteenths(Coverage::steps(nats)));
+            assert!((rounded - nats).abs() <= error, "{nats}: {rounded}");
         }
         assert_eq!(Coverage::steps(1e9), 255);
         assert_eq!(Coverage::steps(-1.0), 0);

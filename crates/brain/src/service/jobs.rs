@@ -204,7 +204,7 @@ mod tests {
         let lanes = Lanes {
             apart_m: 4.0,
             within: None,
-            range_m: None,
+            is_balanced: false,
         };
         let ability = Ability {
             speed_m_s: 1.0,

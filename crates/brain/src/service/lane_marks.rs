@@ -174,7 +174,7 @@ fn mark_of(
     let mut log_ratios = [EXCLUDED; MARK_KINDS];
     if let Some(kinds) = kinds {
         let mut of_track = track.visible_log_ratios(kinds);
-        track.group.with_several(kinds, &mut of_track);
+        track.group.with_several(kinds.shares(), &mut of_track);
         let of_kinds = log_ratios.iter_mut().zip(of_track);
         of_kinds.for_each(|(mark, own)| *mark = (own as f32).max(EXCLUDED));
     } else {

@@ -21,9 +21,9 @@ pub(crate) struct Lanes {
     /// Where the centre of the robot can be; without it, anywhere. Lanes end at its border, as one
     /// beyond it would never be finished.
     pub(crate) within: Option<Rectangle>,
-    /// The range at which items are in view, if those at the border are to be in view for as long as those between two
-    /// lanes; without it, all lanes are the same distance apart.
-    pub(crate) range_m: Option<f64>,
+    /// Whether items at the border are to be in view for as long as those between two lanes; otherwise, all lanes are the
+    /// same distance apart.
+    pub(crate) is_balanced: bool,
 }
 
 /// The places of lanes across an area.
@@ -48,7 +48,7 @@ impl Lanes {
         Self {
             within: Some(within),
             apart_m: USEFUL_RANGE * self.apart_m,
-            range_m: Some(self.apart_m / 2.0),
+            is_balanced: true,
         }
     }
 
@@ -83,14 +83,15 @@ impl Lanes {
     fn across(&self, height_m: f64) -> Across {
         let count = libm::ceil(height_m / self.apart_m.max(1e-3)).clamp(1.0, MAX_LANES);
         let even_m = height_m / (2.0 * count);
-        let (gaps, range_m) = (count - 1.0, self.range_m.unwrap_or_default());
-        if gaps < 1.0 || range_m <= 0.0 {
+        let gaps = count - 1.0;
+        if gaps < 1.0 || !self.is_balanced {
             return Across {
                 count,
                 border_m: even_m,
                 apart_m: 2.0 * even_m,
             };
         }
+        let range_m = self.apart_m / (2.0 * USEFUL_RANGE);
         // With a as a function of e, the lower root; there is none if lanes are so dense that all are in view from several.
         let square = 4.0 - gaps * gaps;
         let constant = height_m * height_m - 3.0 * gaps * gaps * range_m * range_m;
@@ -157,7 +158,7 @@ mod tests {
         let lanes = Lanes {
             apart_m: 3.0,
             within: None,
-            range_m: None,
+            is_balanced: false,
         };
         let corners = corners(&lanes);
         assert_eq!(corners.len(), 14);
@@ -180,7 +181,7 @@ mod tests {
         let lanes = Lanes {
             apart_m: 10.0,
             within: None,
-            range_m: None,
+            is_balanced: false,
         };
         let corner = |x: f64, y: f64| Point { x, y };
         let lane = Rectangle::spanned(corner(-7.0, -6.0), corner(13.0, 14.0));
@@ -206,13 +207,13 @@ mod tests {
             let lanes = Lanes {
                 apart_m: USEFUL_RANGE * 8.0,
                 within: None,
-                range_m: Some(4.0),
+                is_balanced: true,
             };
             let across = lanes.across(height_m);
             let all_m = 2.0 * across.border_m + (across.count - 1.0) * across.apart_m;
             assert!((all_m - height_m).abs() < 1e-9);
             let even = Lanes {
-                range_m: None,
+                is_balanced: false,
                 ..lanes
             };
             let least =
@@ -235,7 +236,7 @@ mod tests {
         let half = Lanes {
             apart_m: 3.0,
             within: Some(Rectangle::spanned(corner(0.0, 4.0), corner(50.0, 50.0))),
-            range_m: None,
+            is_balanced: false,
         };
         let corners = corners(&half);
         assert_eq!(corners.len(), 8);

@@ -338,12 +338,13 @@ impl LanePicture {
             return alone;
         }
         let expected = &self.clearance.expected;
-        let all: f64 = expected.iter().sum();
+        let items: f64 = expected.iter().sum();
         let beside = expected.iter().enumerate().map(|(other, expected)| {
             let kind_of = |mark: &Mark| Some(if is_of_item(mark) { kind } else { other });
-            libm::log(HAS_ANOTHER * expected / all) + place.log_ratio_m2(kind_of)
+            libm::log(HAS_ANOTHER * expected / items) + place.log_ratio_m2(kind_of)
         });
-        log_sum(core::iter::once(alone).chain(beside).collect())
+        let all: Vec<f64> = core::iter::once(alone).chain(beside).collect();
+        log_sum(&all)
     }
 
     /// What the marks of a model add to the log odds of a kind, as an item of it may look like another kind.
@@ -377,7 +378,7 @@ impl LanePicture {
 }
 
 /// The logarithm of the sum of numbers, from their logarithms.
-fn log_sum(logs: Vec<f64>) -> f64 {
+fn log_sum(logs: &[f64]) -> f64 {
     let highest = logs.iter().copied().fold(f64::MIN, f64::max);
     let sum: f64 = logs.iter().map(|log| libm::exp(log - highest)).sum();
     highest + libm::log(sum)

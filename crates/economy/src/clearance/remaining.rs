@@ -11,7 +11,7 @@ use core::ops::Range;
 
 /// Expected number of mines beside an item that has been destroyed, at least: mines may lie in groups that no mark shows. It is
 /// small, but more than a search by one sensor model leaves open.
-const BESIDE_DESTROYED: f64 = 0.05;
+const BESIDE_DESTROYED: f64 = 0.01;
 
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
 #[derive(Debug, Clone)]
@@ -80,20 +80,26 @@ impl Remaining {
         (blind, searched): (&[[f64; MARK_KINDS]], &Searched),
     ) {
         let of_all_kinds: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
-        for cell in cells.start..cells.end.min(self.shares.len()) {
+        let cells = cells.start..cells.end.min(self.shares.len());
+        let near = self
+            .beside
+            .iter()
+            .filter(|beside| cells.contains(&beside.cell));
+        let near: Vec<&Beside> = near.collect();
+        for cell in cells {
             let expected = |more_nats: &[f64]| {
                 let left = clearance.hazards().map(|(kind, expected)| {
                     let looks = Looks {
                         kind,
+                        cell,
                         blind,
                         searched,
-                        cell,
                         more_nats,
                     };
                     let destroys = clearance.destroy_probability.get(kind).copied();
                     let survived = 1.0 - destroys.unwrap_or_default() * searched.driven(cell);
                     let everywhere = expected * self.shares[cell] * survived * looks.missed(&[]);
-                    let beside = self.beside.iter().filter(|beside| beside.cell == cell);
+                    let beside = near.iter().filter(|beside| beside.cell == cell);
                     let beside = beside.map(|beside| beside.expected * looks.missed(&beside.nats));
                     everywhere + beside.sum::<f64>() * expected / of_all_kinds
                 });

@@ -139,8 +139,10 @@ export interface Coverage {
   first: number;
   /** Number of marks of the robot so far. Looks without a mark are evidence of a clear place only for a receiver that has all marks. */
   marks: number;
-  /** For each cell, the probability that all looks miss an item there that the sensors can detect, as its negative logarithm in steps of 1/16 nat; 255 stands for 255 or more. */
+  /** For each cell, the probability that all looks miss an item there that the sensors can detect, as its negative logarithm in steps: 1/16 nat each up to 128 steps, and 1/2 nat above; 255 stands for 255 or more. */
   missed: [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
+  /** For each cell, the share of it that the robot has driven over, so that an item there would have destroyed it, in steps of 1/255. */
+  driven: [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
 }
 
 /** A message about a goal that a controller owns or awards. */
@@ -238,8 +240,10 @@ export interface Mark {
   at_m: [number, number];
   /** Standard deviation of the position along each axis, the error of the robot's pose included, in millimetres. */
   deviation_mm: number;
-  /** How often all looks of the robot since it has stopped tracking the item miss a visible item there, in steps of 1/16 nat, at most 255: since something there has been destroyed. 0 while it tracks the item. */
+  /** How often all looks of the robot since it has stopped tracking the item miss a visible item there, in the steps of coverage: since something there has been destroyed. 0 while it tracks the item. */
   missed_since: number;
+  /** Expected number of items to be cleared that are left there when one item has been destroyed, in steps of 1/100. */
+  further: number;
   /** For each of the first four kinds of items, the log likelihood ratio of all looks of the robot at the place, contacts and misses: an item of that kind that its sensors can detect, against nothing there but false alarms. */
   log_ratios: [number, number, number, number];
 }

@@ -78,8 +78,29 @@ pub(super) fn search(
     items
 }
 
-/// Destroys what is at places that probably hold a mine.
-pub(super) fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) {
+/// Looks again where something has been destroyed.
+fn search_again(
+    cells: &[usize],
+    (picture, items): (&mut LanePicture, &mut Vec<Item>),
+    random: &mut Random,
+) {
+    for kind in 0..2 {
+        let all = 0..picture.clearance().lane.cells();
+        let searcher = Searcher {
+            id: RobotId { kind, index: 2 },
+            sensor: &SENSORS[usize::from(kind)],
+            loss: 0.0,
+            looks: all
+                .map(|cell| if cells.contains(&cell) { 12 } else { 0 })
+                .collect(),
+        };
+        searcher.search(items, picture, random);
+    }
+}
+
+/// Destroys what is at places that probably hold a mine. Returns their cells.
+pub(super) fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) -> Vec<usize> {
+    let mut cells = Vec::new();
     let probable = picture.marks().filter(|mark| mark.mine > NEUTRALISE_ABOVE);
     let probable: Vec<_> = probable.collect();
     for mark in probable {
@@ -88,6 +109,7 @@ pub(super) fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) {
         let nearest = away.min_by(|one, other| one.0.total_cmp(&other.0));
         if let Some((_, index)) = nearest.filter(|(away_m, _)| *away_m < 0.5) {
             items.remove(index);
+            cells.push(picture.clearance().lane.nearest_cell(mark.at));
             picture.take_statement(&Statement {
                 mark: GOAL,
                 at_m: [mark.at.x as f32, mark.at.y as f32],
@@ -95,6 +117,7 @@ pub(super) fn neutralise(picture: &mut LanePicture, items: &mut Vec<Item>) {
             });
         }
     }
+    cells
 }
 
 /// Lanes by the risk that a controller states which assumes these blind shares.
@@ -109,7 +132,8 @@ fn bins_of(lanes: u64, (truth, assumed): (&Clearance, &Clearance), loss: f64) ->
         let mut random = Random(lane.wrapping_mul(0x1234_5678_9abc_def1));
         let mut picture = picture(assumed);
         let mut items = search(truth, &mut picture, loss, &mut random);
-        neutralise(&mut picture, &mut items);
+        let destroyed = neutralise(&mut picture, &mut items);
+        search_again(&destroyed, (&mut picture, &mut items), &mut random);
         let stated = picture.risk().probability;
         let bin = LIMITS.iter().filter(|limit| stated >= **limit).count();
         if picture.missing_marks() == 0 && (1..LIMITS.len()).contains(&bin) {

@@ -15,6 +15,7 @@
 //! So a contact between two items confirms neither, and the stray contacts of a sure item are no item of their own.
 
 use super::contact::{Look, SeenContact};
+use super::group::Observed;
 use super::own_observation::OwnRatio;
 use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track, probability};
 use crate::io::body::{Detector, RobotId};
@@ -201,11 +202,18 @@ impl Track {
 
     /// Takes the contacts of an observation for those of a group of items.
     fn update_group(&mut self, look: &Look, contacts: Option<&Contacts>, in_view: f64) {
-        if let Some(kinds) = look.kinds {
-            let distance_m = look.observation.pose.at.to(self.at).length();
-            let group = &mut self.group;
-            group.observe((look, kinds), contacts, (distance_m, in_view));
-        }
+        let Some(kinds) = look.kinds else {
+            return;
+        };
+        let observed = Observed {
+            detector: look.observation.detector,
+            distance_m: look.observation.pose.at.to(self.at).length(),
+            in_view,
+            shares: kinds.shares(),
+            hazards: look.hazards.unwrap_or_default(),
+        };
+        let contacts = contacts.into_iter().flat_map(Contacts::of_group);
+        self.group.observe(&observed, contacts);
     }
 
     /// Log odds before the own observations, the first of which this may be.

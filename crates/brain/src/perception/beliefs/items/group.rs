@@ -12,9 +12,7 @@
 //!
 //! The numbers count as Poisson distributed, which is wider than their distribution is.
 
-use super::association::Contacts;
-use super::contact::Look;
-use super::kinds::KindModel;
+use crate::io::body::Detector;
 use crate::io::lane::{HAS_ANOTHER, MARK_KINDS};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -49,10 +47,22 @@ impl Hashed for Group {
     }
 }
 
+/// An observation of a place.
+pub(super) struct Observed<'o> {
+    pub(super) detector: &'o Detector,
+    pub(super) distance_m: f64,
+    /// Probability that the place was in view.
+    pub(super) in_view: f64,
+    /// Share of each kind among all items.
+    pub(super) shares: &'o [f64],
+    /// The kinds of items that are to be cleared, one bit for each.
+    pub(super) hazards: u8,
+}
+
 impl Group {
-    /// Without contacts. The first one of a track does not count: without it, there would be no track.
-    pub(super) fn new(kinds: &KindModel) -> Self {
-        let count = kinds.each_kind().len();
+    /// Without contacts, for a number of kinds. The first contact of a track does not count: without it, there would be no
+    /// track.
+    pub(super) fn new(count: usize) -> Self {
         if count > MARK_KINDS {
             return Self::default();
         }
@@ -64,36 +74,31 @@ impl Group {
         }
     }
 
-    /// Takes an observation, in which an item at the place of the track was in view with a probability.
-    pub(super) fn observe(
-        &mut self,
-        (look, kinds): (&Look, &KindModel),
-        contacts: Option<&Contacts>,
-        (distance_m, in_view): (f64, f64),
-    ) {
+    /// Takes an observation, with the kinds that its contacts of the group are reported as.
+    pub(super) fn observe(&mut self, observed: &Observed, contacts: impl Iterator<Item = u16>) {
         if self.contacts.is_empty() {
             return;
         }
-        let detector = look.observation.detector;
-        for kind in kinds.each_kind() {
-            let detected = detector.probability(kind, distance_m) * in_view;
-            for reported in kinds.each_kind() {
+        let detector = observed.detector;
+        for kind in 0..self.contacts.len() {
+            let detected = detector.probability(kind, observed.distance_m) * observed.in_view;
+            for reported in 0..self.contacts.len() {
                 let place = kind * self.contacts.len() + reported;
                 self.of_one[place] += detected * detector.reports(kind, reported);
             }
         }
-        for kind in contacts.into_iter().flat_map(Contacts::of_group) {
+        for kind in contacts {
             if let Some(count) = self.contacts.get_mut(usize::from(kind)) {
                 *count += 1.0;
             }
         }
-        self.weigh(kinds, look.hazards.unwrap_or_default());
+        self.weigh(observed.shares, observed.hazards);
     }
 
     /// Computes the probabilities of several items again.
-    fn weigh(&mut self, kinds: &KindModel, hazards: u8) {
-        let each = compositions(kinds.each_kind().len());
-        let weights = each.map(|numbers| (self.log_weight(kinds, &numbers), numbers));
+    fn weigh(&mut self, shares: &[f64], hazards: u8) {
+        let each = compositions(self.contacts.len());
+        let weights = each.map(|numbers| (self.log_weight(shares, &numbers), numbers));
         let weights: Vec<(f64, [usize; MARK_KINDS])> = weights.collect();
         let highest = weights
             .iter()
@@ -121,14 +126,14 @@ impl Group {
     }
 
     /// Log likelihood of numbers of items, and their probability without contacts.
-    fn log_weight(&self, kinds: &KindModel, numbers: &[usize; MARK_KINDS]) -> f64 {
+    fn log_weight(&self, shares: &[f64], numbers: &[usize; MARK_KINDS]) -> f64 {
         let (mut arrangements, mut count) = (1.0, 0.0);
         let mut log_prior = 0.0;
         for (kind, number) in numbers.iter().enumerate() {
             for index in 1..=*number {
                 count += 1.0;
                 arrangements *= count / float(index);
-                log_prior += libm::log(kinds.share(kind));
+                log_prior += libm::log(shares[kind]);
             }
         }
         log_prior += libm::log(arrangements) + (count - 1.0) * libm::log(HAS_ANOTHER);
@@ -151,20 +156,19 @@ impl Group {
 
     /// The log likelihood ratios of an item of each kind, with those of several items: such as contain an item that is to be
     /// cleared count as that. `alone` are those of one item.
-    pub(crate) fn with_several(&self, kinds: &KindModel, alone: &mut [f64]) {
+    pub(crate) fn with_several(&self, shares: &[f64], alone: &mut [f64]) {
         let several: f64 = self.of_several.iter().sum();
         if several <= 0.0 {
             return;
         }
         let highest = alone.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let of = |kind: usize, ratio: f64| kinds.share(kind) * libm::exp(ratio - highest);
+        let of = |kind: usize, ratio: f64| shares[kind] * libm::exp(ratio - highest);
         let any: f64 = (0..)
             .zip(&*alone)
             .map(|(kind, ratio)| of(kind, *ratio))
             .sum();
-        for ((kind, ratio), of_several) in (0..).zip(alone).zip(&self.of_several) {
-            let share = kinds.share(kind);
-            if share > 0.0 {
+        for ((ratio, share), of_several) in alone.iter_mut().zip(shares).zip(&self.of_several) {
+            if *share > 0.0 {
                 let one = (1.0 - several) * libm::exp(*ratio - highest);
                 *ratio = highest + libm::log(one + any * of_several / share);
             }

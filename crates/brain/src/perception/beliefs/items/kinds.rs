@@ -93,9 +93,9 @@ impl KindModel {
         NUMBERS * (model.unwrap_or(0) * self.kinds() + kind)
     }
 
-    /// Share of a kind among the items.
-    pub(super) fn share(&self, kind: usize) -> f64 {
-        self.shares.get(kind).copied().unwrap_or_default()
+    /// Share of each kind among the items.
+    pub(crate) fn shares(&self) -> &[f64] {
+        &self.shares
     }
 
     pub(super) fn each_kind(&self) -> core::ops::Range<usize> {

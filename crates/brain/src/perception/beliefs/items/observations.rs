@@ -77,7 +77,7 @@ impl Look<'_> {
             Some(kinds) => {
                 track.evidence = kinds.no_evidence();
                 if self.hazards.is_some() {
-                    track.group = Group::new(kinds);
+                    track.group = Group::new(kinds.shares().len());
                 }
                 for true_kind in kinds.each_kind() {
                     let misses = observation.relative_misses(true_kind, contact.range_m);

@@ -13,6 +13,7 @@ use base::random::{Entity, Purpose, Stream, stream, unit};
 use core::f64::consts::TAU;
 
 mod calibration;
+mod groups;
 mod observations;
 mod uncertain;
 

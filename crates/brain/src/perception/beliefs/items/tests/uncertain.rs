@@ -14,8 +14,8 @@ use core::f64::consts::PI;
 const KINDS_PER_M2: [f64; 2] = [0.02, 0.01];
 
 /// Clutter is detected more often than mines.
-const DETECTION: [f64; 2] = [0.8, 0.6];
-const CONFUSION: [[f64; 2]; 2] = [[0.7, 0.3], [0.2, 0.8]];
+pub(super) const DETECTION: [f64; 2] = [0.8, 0.6];
+pub(super) const CONFUSION: [[f64; 2]; 2] = [[0.7, 0.3], [0.2, 0.8]];
 const BLIND: [f64; 2] = [0.0, 0.4];
 
 fn detector_of_kinds() -> Detector {
@@ -37,14 +37,14 @@ fn model_of(detector: &Detector) -> KindModel {
     KindModel::new(&body, &KINDS_PER_M2).unwrap()
 }
 
-fn seen_as(kind: u16, at: Point) -> Contact {
+pub(super) fn seen_as(kind: u16, at: Point) -> Contact {
     Contact {
         kind,
         ..contact(Point::default(), at)
     }
 }
 
-fn look(
+pub(super) fn look(
     items: &mut Items,
     detector: &Detector,
     from: Point,
@@ -67,7 +67,7 @@ fn confidence_of(items: &Items, place: usize) -> f64 {
     share * probability(track.log_odds())
 }
 
-fn beliefs() -> (Items, Detector) {
+pub(super) fn beliefs() -> (Items, Detector) {
     let detector = detector_of_kinds();
     (Items::new(64, Some(model_of(&detector))), detector)
 }
