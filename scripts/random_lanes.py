@@ -304,7 +304,9 @@ def verdict(risk: float, interval: tuple[float, float]) -> str:
     low, high = interval
     if risk < low - tolerance(risk):
         return "fails: the stated risk is too low"
-    return "careful" if risk > high + tolerance(risk) else "passes"
+    if risk > high + tolerance(risk):
+        return "careful"
+    return "undecided" if (high - low) / 2 > tolerance(risk) else "passes"
 
 
 def of_lanes(found: list[LaneBin]) -> str:

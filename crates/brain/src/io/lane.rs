@@ -170,7 +170,8 @@ impl Coverage {
         reason = "clamped"
     )]
     pub fn steps(nats: f64) -> u8 {
-        let fine = nats * PER_NAT;
+        // A number that is none counts as no look.
+        let fine = if nats > 0.0 { nats * PER_NAT } else { 0.0 };
         let coarse = (fine - f64::from(FINE_STEPS)) / f64::from(PER_COARSE_STEP);
         let steps = fine.min(f64::from(FINE_STEPS) + coarse.max(0.0));
         libm::round(steps).clamp(0.0, 255.0) as u8

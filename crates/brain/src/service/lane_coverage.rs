@@ -95,8 +95,8 @@ impl LaneCoverage {
 
     /// Adds the ground under the robot.
     fn drive(&mut self, moment: &Moment, beliefs: &Beliefs) {
-        let danger_m = danger_m(moment.body, &self.lane);
-        if let (Some(pose), Some(radius_m)) = (beliefs.pose(), danger_m)
+        if let Some(pose) = beliefs.pose()
+            && let Some(radius_m) = danger_m(moment.body, &self.lane, &pose)
             && self.driven.take(&self.field, pose.at, radius_m)
         {
             self.note_look(pose.at, radius_m);

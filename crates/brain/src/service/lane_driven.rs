@@ -5,6 +5,7 @@
 use crate::io::body::Body;
 use crate::io::lane::Lane;
 use crate::perception::beliefs::field::Field;
+use crate::perception::beliefs::pose::Pose;
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -23,8 +24,11 @@ impl Driven {
     }
 
     /// Takes the position of a robot. Returns whether an item in new parts would have destroyed it, being
-    /// within a distance.
+    /// within a distance; that must be at least the side of a part.
     pub(super) fn take(&mut self, field: &Field, at: Point, radius_m: f64) -> bool {
+        if radius_m < field.cell_m {
+            return false;
+        }
         if self.parts.is_empty() {
             self.parts = vec![false; field.cells()];
         }
@@ -52,11 +56,12 @@ impl Driven {
     }
 }
 
-/// How far from the centre of a robot an item of a lane would destroy it, whichever kind it is of; `None` if none does.
-pub(super) fn danger_m(body: &Body, lane: &Lane) -> Option<f64> {
+/// How far from the estimated position of a robot an item of a lane would surely destroy it, whichever kind it is of; `None` if
+/// none does.
+pub(super) fn danger_m(body: &Body, lane: &Lane, pose: &Pose) -> Option<f64> {
     let kinds = body.hazards_m.iter().enumerate();
     let to_clear = kinds.filter(|(kind, _)| lane.is_hazard(*kind));
     let nearest = to_clear.map(|(_, hazard_m)| *hazard_m);
     let nearest_m = nearest.reduce(|one, other| Some(one?.min(other?)))??;
-    Some(body.radius_m + nearest_m)
+    Some(body.radius_m + nearest_m - pose.deviation_m)
 }

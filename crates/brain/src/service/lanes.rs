@@ -10,8 +10,12 @@ const MAX_LANES: f64 = 1000.0;
 /// range itself it is hardly in view, however often the robot passes: sqrt(3) / 2.
 const USEFUL_RANGE: f64 = 0.866_025_403_784_438_6;
 
-/// The lanes at the border are at least this part of their distance nearer to it than if all were the same distance apart.
+/// The lanes at the border are at least as far from it as this part of the distance that they have if all are the same distance
+/// apart.
 const MIN_BORDER: f64 = 0.5;
+
+/// An item between two lanes is at most this far from both, as a part of the range.
+const MAX_BETWEEN: f64 = 0.93;
 
 /// The path of a search of a robot.
 #[derive(Debug, Clone, Copy, Default)]
@@ -97,7 +101,9 @@ impl Lanes {
         let constant = height_m * height_m - 3.0 * gaps * gaps * range_m * range_m;
         let discriminant = 16.0 * height_m * height_m - 4.0 * square * constant;
         let root_m = 2.0 * constant / (4.0 * height_m + libm::sqrt(discriminant.max(0.0)));
-        let border_m = root_m.clamp(MIN_BORDER * even_m, even_m);
+        let widest_m = 2.0 * MAX_BETWEEN * range_m;
+        let least_m = (MIN_BORDER * even_m).max((height_m - gaps * widest_m) / 2.0);
+        let border_m = root_m.max(least_m).min(even_m);
         Across {
             count,
             border_m,
@@ -190,6 +196,11 @@ mod tests {
             ..TASK
         };
         let lanes = lanes.in_lane(lane);
+        for height_m in 1..=60 {
+            let across = lanes.across(f64::from(height_m));
+            assert!(across.border_m <= USEFUL_RANGE * 5.0 + 1e-9);
+            assert!(across.count < 2.0 || across.apart_m <= 2.0 * MAX_BETWEEN * 5.0 + 1e-9);
+        }
         let corners = (0..).map_while(|number| lanes.corner(&task, number));
         let rows: Vec<f64> = corners.map(|at| at.y).collect();
         let nearest = |y: f64| {
@@ -224,7 +235,9 @@ mod tests {
             );
             let difference_m = along_m(across.border_m) - 2.0 * along_m(across.apart_m / 2.0);
             assert!(
-                difference_m.abs() < 1e-6 || across.border_m < 2.0,
+                difference_m.abs() < 1e-6
+                    || across.border_m < 2.0
+                    || across.apart_m > 2.0 * MAX_BETWEEN * 4.0 - 1e-9,
                 "{height_m}: {difference_m}"
             );
         }

@@ -28,6 +28,11 @@ struct Robot {
 
 impl Robot {
     fn new() -> Self {
+        Self::among(Vec::new())
+    }
+
+    /// The same, which each kind of items may destroy within a distance.
+    fn among(hazards_m: Vec<Option<f64>>) -> Self {
         let detector = Detector {
             range_m: 3.0,
             width_rad: 7.0,
@@ -42,6 +47,7 @@ impl Robot {
             detectors: vec![detector],
             item_kinds: vec!["mine".to_owned(), "clutter".to_owned()],
             others: vec![Other::default()],
+            hazards_m,
             field: Some(Rectangle::spanned(Point::default(), corner)),
             ..body()
         };
@@ -183,6 +189,24 @@ fn a_robot_reports_the_looks_at_cells_in_its_view_only() {
         nats(&sent, 5.0, 5.0)
     );
     assert!(nats(&sent, 15.0, 5.0) < 1e-9);
+}
+
+#[test]
+fn a_robot_reports_the_ground_where_a_mine_would_have_destroyed_it() {
+    let driven = |hazards_m: [Option<f64>; 2], x: f64| {
+        let sent = Robot::among(hazards_m.to_vec()).steps(12, &[]);
+        let cell = LANE.cell_at(Point { x, y: 5.0 }).unwrap();
+        let mut of_cell = sent.iter().filter_map(|sent| match sent {
+            Dispatch::Coverage(Coverage { first, driven, .. }) => {
+                driven.get(cell.checked_sub(*first as usize)?).copied()
+            }
+            _ => None,
+        });
+        of_cell.next_back().unwrap_or_default()
+    };
+    assert!(driven([Some(0.8), None], 5.0) > 200);
+    assert_eq!(driven([Some(0.8), None], 15.0), 0);
+    assert_eq!(driven([None, Some(0.8)], 5.0), 0, "clutter is not cleared");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::coverage::Searched;
 use super::lookalikes::Lookalikes;
 use super::marks::Marks;
 use super::place::{GONE, Place};
-use super::remaining::{Remaining, missed_share};
+use super::remaining::{Beside, Known, Remaining, missed_share};
 use super::risk::Risk;
 use super::settings::Clearance;
 use alloc::sync::Arc;
@@ -45,6 +45,8 @@ pub struct LanePicture {
     model_of_kind: Vec<usize>,
     searched: Searched,
     marks: Marks,
+    /// Where items have been destroyed.
+    beside: Vec<Beside>,
     /// What follows for each cell.
     #[hashed(skip)]
     remaining: Remaining,
@@ -99,6 +101,7 @@ impl LanePicture {
             lookalikes: lookalikes.collect(),
             searched: Searched::new(models.len(), cells),
             marks: Marks::default(),
+            beside: Vec::new(),
             remaining: Remaining::new(&clearance),
             model_of_kind: clearance.model_of_kind(),
             clearance,
@@ -109,8 +112,12 @@ impl LanePicture {
 
     /// Computes the expected numbers of mines of some cells again.
     fn refresh(&mut self, cells: Range<usize>) {
-        let known = (self.blind.as_slice(), &self.searched);
-        self.remaining.refresh(cells, &self.clearance, known);
+        let known = Known {
+            blind: &self.blind,
+            searched: &self.searched,
+            beside: &self.beside,
+        };
+        self.remaining.refresh(cells, &self.clearance, &known);
     }
 
     /// What is known of the lane and the robots.
@@ -147,9 +154,10 @@ impl LanePicture {
             let items_per_m2 = items / self.clearance.lane.area().area_m2();
             if let Some(place) = self.marks.state(statement, items_per_m2) {
                 let cell = self.clearance.lane.nearest_cell(place.at);
-                let further = place.further();
-                self.remaining
-                    .note_destroyed((cell, further), &self.searched);
+                let shown = place.further();
+                let shown =
+                    shown.and_then(|(further, robot)| Some((further, self.model_of(robot)?)));
+                self.beside.push(Beside::new(cell, shown, &self.searched));
                 self.refresh(cell..cell + 1);
             }
         }

@@ -84,9 +84,12 @@ impl Place {
         }
     }
 
-    /// Expected number of mines that are left there when one item has been destroyed.
-    pub(super) fn further(&self) -> f64 {
-        self.surest(|_| None).map(Mark::further).fold(0.0, f64::max)
+    /// The highest expected number of mines that are left there when one item has been destroyed, and the robot whose mark
+    /// states it.
+    pub(super) fn further(&self) -> Option<(f64, RobotId)> {
+        let each = self.surest(|_| None);
+        let each = each.map(|mark| (mark.further(), mark.id.issuer));
+        each.max_by(|one, other| one.0.total_cmp(&other.0))
     }
 
     /// Whether what was there has been destroyed.

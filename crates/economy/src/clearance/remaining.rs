@@ -6,11 +6,12 @@ use super::coverage::Searched;
 use super::settings::{Clearance, Skill};
 use alloc::vec;
 use alloc::vec::Vec;
+use base::hashed::Hashed;
 use brain::{Lane, MARK_KINDS};
 use core::ops::Range;
 
-/// Expected number of mines beside an item that has been destroyed, at least: mines may lie in groups that no mark shows. It is
-/// small, but more than a search by one sensor model leaves open.
+/// Expected number of mines beside an item that has been destroyed, at least, of whatever kind that was: mines may lie in groups
+/// that no mark shows. It is small, but more than a search by both sensor models leaves open.
 const BESIDE_DESTROYED: f64 = 0.01;
 
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
@@ -23,19 +24,44 @@ pub(super) struct Remaining {
     pub(super) tiles: Vec<u32>,
     /// For each way to search, the looks of one search by each sensor model, in nats.
     ways: Vec<Vec<f64>>,
-    /// Where items have been destroyed.
-    beside: Vec<Beside>,
     pub(super) now: Vec<f64>,
     pub(super) after: Vec<Vec<f64>>,
 }
 
 /// Mines that may lie beside an item that has been destroyed.
-#[derive(Debug, Clone)]
-struct Beside {
+#[derive(Debug, Clone, Hashed)]
+pub(super) struct Beside {
     cell: usize,
     expected: f64,
+    /// The sensor model that has shown them, so that it is not blind to them.
+    shown_to: Option<usize>,
     /// The looks of each sensor model until then, in nats: they were at the item.
     nats: Vec<f64>,
+}
+
+impl Beside {
+    /// In a cell, with an expected number of mines that marks of a sensor model have shown. The place is to be searched again.
+    pub(super) fn new(cell: usize, shown: Option<(f64, usize)>, searched: &Searched) -> Self {
+        let models = 0..searched.models();
+        let shown = shown.filter(|(further, _)| *further > BESIDE_DESTROYED);
+        Self {
+            cell,
+            expected: shown.map_or(BESIDE_DESTROYED, |(further, _)| further),
+            shown_to: shown.map(|(_, model)| model),
+            nats: models
+                .map(|model| searched.nats_without(model, cell, &[]))
+                .collect(),
+        }
+    }
+}
+
+/// What is known of the lane.
+pub(super) struct Known<'k> {
+    /// For each sensor model, the blind share of each kind.
+    pub(super) blind: &'k [[f64; MARK_KINDS]],
+    pub(super) searched: &'k Searched,
+    /// Where items have been destroyed.
+    pub(super) beside: &'k [Beside],
 }
 
 impl Remaining {
@@ -53,38 +79,17 @@ impl Remaining {
             shares: shares.collect(),
             tiles: cells.map(tile).collect(),
             ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
-            beside: Vec::new(),
             now: vec![0.0; lane.cells()],
             after: vec![vec![0.0; lane.cells()]; clearance.searches.len()],
         }
     }
 
-    /// Takes that an item in a cell has been destroyed, with an expected number of further mines beside it. The place is to be
-    /// searched again.
-    pub(super) fn note_destroyed(&mut self, (cell, further): (usize, f64), searched: &Searched) {
-        let models = 0..searched.models();
-        self.beside.push(Beside {
-            cell,
-            expected: further.max(BESIDE_DESTROYED),
-            nats: models
-                .map(|model| searched.nats_without(model, cell, &[]))
-                .collect(),
-        });
-    }
-
     /// Computes the numbers of some cells again.
-    pub(super) fn refresh(
-        &mut self,
-        cells: Range<usize>,
-        clearance: &Clearance,
-        (blind, searched): (&[[f64; MARK_KINDS]], &Searched),
-    ) {
+    pub(super) fn refresh(&mut self, cells: Range<usize>, clearance: &Clearance, known: &Known) {
         let of_all_kinds: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
         let cells = cells.start..cells.end.min(self.shares.len());
-        let near = self
-            .beside
-            .iter()
-            .filter(|beside| cells.contains(&beside.cell));
+        let near = known.beside.iter();
+        let near = near.filter(|beside| cells.contains(&beside.cell) && of_all_kinds > 0.0);
         let near: Vec<&Beside> = near.collect();
         for cell in cells {
             let expected = |more_nats: &[f64]| {
@@ -92,16 +97,17 @@ impl Remaining {
                     let looks = Looks {
                         kind,
                         cell,
-                        blind,
-                        searched,
+                        known,
                         more_nats,
                     };
                     let destroys = clearance.destroy_probability.get(kind).copied();
-                    let survived = 1.0 - destroys.unwrap_or_default() * searched.driven(cell);
-                    let everywhere = expected * self.shares[cell] * survived * looks.missed(&[]);
+                    let survived = 1.0 - destroys.unwrap_or_default() * known.searched.driven(cell);
+                    let everywhere = expected * self.shares[cell] * survived * looks.missed(None);
                     let beside = near.iter().filter(|beside| beside.cell == cell);
-                    let beside = beside.map(|beside| beside.expected * looks.missed(&beside.nats));
-                    everywhere + beside.sum::<f64>() * expected / of_all_kinds
+                    let beside = beside.map(|beside| {
+                        beside.expected * expected / of_all_kinds * looks.missed(Some(beside))
+                    });
+                    everywhere + beside.sum::<f64>()
                 });
                 left.sum::<f64>()
             };
@@ -126,19 +132,25 @@ impl Remaining {
 struct Looks<'l> {
     kind: usize,
     cell: usize,
-    blind: &'l [[f64; MARK_KINDS]],
-    searched: &'l Searched,
+    known: &'l Known<'l>,
     /// Further looks of each sensor model, in nats.
     more_nats: &'l [f64],
 }
 
 impl Looks<'_> {
-    /// Share of the items that all models have missed, in the looks that were made after those with some nats.
-    fn missed(&self, before: &[f64]) -> f64 {
+    /// Share of the mines that all models have missed: of all, or of those beside a destroyed item since then.
+    fn missed(&self, beside: Option<&Beside>) -> f64 {
         let of = |nats: &[f64], model: usize| nats.get(model).copied().unwrap_or_default();
-        let missed = self.blind.iter().enumerate().map(|(model, shares)| {
-            let nats = self.searched.nats_without(model, self.cell, &[]) - of(before, model);
-            missed_share(shares[self.kind], nats + of(self.more_nats, model))
+        let before = beside.map_or(&[][..], |beside| &beside.nats);
+        let shown_to = beside.and_then(|beside| beside.shown_to);
+        let missed = self.known.blind.iter().enumerate().map(|(model, shares)| {
+            let nats = self.known.searched.nats_without(model, self.cell, &[]) - of(before, model);
+            let blind = if shown_to == Some(model) {
+                0.0
+            } else {
+                shares[self.kind]
+            };
+            missed_share(blind, nats + of(self.more_nats, model))
         });
         missed.product()
     }

@@ -55,9 +55,12 @@ impl Tried {
         };
         let search = &mut self.0[index];
         if let Some(before) = search.value.take() {
-            let changed = (proposal.value - before) / before;
-            let is_in_vain = changed.abs() < MIN_CHANGE;
-            search.in_vain = if is_in_vain { search.in_vain + 1 } else { 0 };
+            let is_in_vain = (proposal.value - before).abs() < MIN_CHANGE * before;
+            search.in_vain = if is_in_vain {
+                search.in_vain.saturating_add(1)
+            } else {
+                0
+            };
             search.vain_value = proposal.value;
         }
         search.is_vain(proposal.value)

@@ -167,9 +167,11 @@ fn model(
         })
         .collect();
     let blind = |kind: &String| {
-        let shares = sensors.iter();
-        let shares = shares.map(|(_, items, _)| items.blind_share.get(kind).copied());
-        shares.flatten().fold(0.0, f64::max)
+        let able = sensors
+            .iter()
+            .filter(|(_, items, _)| items.may_detect(kind));
+        let shares = able.map(|(_, items, _)| items.blind_share.get(kind).copied().unwrap_or(0.0));
+        shares.reduce(f64::max).unwrap_or(1.0)
     };
     let item_kinds: Vec<String> = scenario.items.keys().cloned().collect();
     let appearances = sensors.iter();

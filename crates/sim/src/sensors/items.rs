@@ -94,6 +94,17 @@ impl ItemsSpec {
         }
     }
 
+    /// Whether it detects items of a kind, if only those that look like another kind.
+    pub(crate) fn may_detect(&self, kind: &str) -> bool {
+        let detects = |kind: &str| {
+            let detected = self.detection_probability.as_ref();
+            detected.is_none_or(|detected| detected.contains_key(kind))
+        };
+        let lookalikes = self.lookalike_share.get(kind).into_iter().flatten();
+        let mut visible = lookalikes.filter(|(_, share)| **share > 0.0);
+        detects(kind) || visible.any(|(other, _)| detects(other))
+    }
+
     /// The key of its model in random streams, if it is the sensor `name` of a kind `owner`.
     pub(crate) fn model_key(&self, owner: &str, name: &str) -> u32 {
         kind_key(&self.model_name(owner, name))

@@ -46,6 +46,36 @@ fn before_any_look_the_risk_is_that_of_the_prior() {
     assert!((risk.probability - (1.0 - (-3.0_f64).exp())).abs() < 1e-9);
 }
 
+#[test]
+fn without_mines_there_is_no_risk() {
+    let picture = searched(&clearance([0.0, 5.0], [0.1, 0.1]), &[0], |_| 3);
+    assert!(picture.risk().probability.abs() < 1e-12);
+}
+
+/// A mine would have destroyed the robot with a probability of 0.8, also one to which its sensors are blind.
+#[test]
+fn ground_that_has_been_driven_over_has_fewer_mines() {
+    let mut clearance = clearance([3.0, 5.0], [1.0, 1.0]);
+    clearance.destroy_probability = vec![0.8, 0.0];
+    let mut picture = picture(&clearance);
+    let mut expected_after = |index: u32, share: f64| {
+        for first in (0..clearance.lane.cells()).step_by(16) {
+            let coverage = Coverage {
+                first: first as u32,
+                marks: 0,
+                missed: [0; 16],
+                driven: [Coverage::parts(share); 16],
+            };
+            picture.take_coverage(RobotId { kind: 1, index }, &coverage);
+        }
+        picture.risk().expected()
+    };
+    assert!((expected_after(0, 0.6) - 3.0 * 0.52).abs() < 1e-9);
+    // The other robot may have driven along the same path.
+    assert!((expected_after(1, 0.4) - 3.0 * 0.52).abs() < 1e-9);
+    assert!((expected_after(1, 1.0) - 3.0 * 0.2).abs() < 1e-9);
+}
+
 /// The floor of the risk with 8 mines and a joint blind share of 2% is 15%, with 12 mines and 5% 45%, and with 8 mines
 /// and 0.3% 2.4%.
 #[test]

@@ -198,6 +198,35 @@ fn what_is_marked_beside_a_destroyed_mine_is_improbable_and_looks_since_then_end
     assert!(mines(&picture)[1] < 0.01 * after[1]);
 }
 
+/// Looks before the charge were at the item that it has destroyed.
+#[test]
+fn only_looks_after_a_charge_count_for_the_mines_beside_the_destroyed_one() {
+    let searched = |ugv_nats: f64| {
+        let mut picture = lane();
+        looked(&mut picture, OAV, 8.0);
+        looked(&mut picture, UGV, ugv_nats);
+        picture
+    };
+    let mut picture = searched(8.0);
+    let several = Mark {
+        further: 100,
+        ..mark(UGV, 10.0, 0.2, 9.0)
+    };
+    picture.take_mark(UGV, &several);
+    picture.take_statement(&Statement {
+        mark: several.id,
+        at_m: several.at_m,
+        verdict: MarkVerdict::Neutralised,
+    });
+    let beside = picture.risk().expected() - searched(8.0).risk().expected();
+    assert!((beside - 1.0).abs() < 1e-6, "{beside}");
+    looked(&mut picture, UGV, 12.0);
+    let beside = picture.risk().expected() - searched(12.0).risk().expected();
+    // The model that has shown the mine is not blind to it.
+    let missed = (-4.0_f64).exp();
+    assert!((beside - missed).abs() < 1e-6, "{beside} {missed}");
+}
+
 #[test]
 fn a_mark_after_a_charge_is_of_another_item_than_the_marks_before_it() {
     let mut picture = lane();

@@ -15,7 +15,7 @@
 //! So a contact between two items confirms neither, and the stray contacts of a sure item are no item of their own.
 
 use super::contact::{Look, SeenContact};
-use super::group::Observed;
+use super::group::{Group, Observed};
 use super::own_observation::OwnRatio;
 use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track, probability};
 use crate::io::body::{Detector, RobotId};
@@ -202,15 +202,22 @@ impl Track {
 
     /// Takes the contacts of an observation for those of a group of items.
     fn update_group(&mut self, look: &Look, contacts: Option<&Contacts>, in_view: f64) {
-        let Some(kinds) = look.kinds else {
+        let (Some(kinds), Some(hazards)) = (look.kinds, look.hazards) else {
             return;
         };
+        if self.group.is_empty() {
+            // The contact by which the track became an own one does not count: without it, there would be none.
+            if self.own_contact(look.observation.observer).is_some() {
+                self.group = Group::new(kinds.shares().len());
+            }
+            return;
+        }
         let observed = Observed {
             detector: look.observation.detector,
             distance_m: look.observation.pose.at.to(self.at).length(),
             in_view,
             shares: kinds.shares(),
-            hazards: look.hazards.unwrap_or_default(),
+            hazards,
         };
         let contacts = contacts.into_iter().flat_map(Contacts::of_group);
         self.group.observe(&observed, contacts);

@@ -10,7 +10,8 @@
 //! X_kj   number of contacts as kind j that one item of kind k gives in the same observations, in the mean
 //! ```
 //!
-//! The numbers count as Poisson distributed, which is wider than their distribution is.
+//! The numbers count as Poisson distributed, which is wider than their distribution is. An item that looks like another kind
+//! counts as of that kind.
 
 use crate::io::body::Detector;
 use crate::io::lane::{HAS_ANOTHER, MARK_KINDS};
@@ -60,8 +61,7 @@ pub(super) struct Observed<'o> {
 }
 
 impl Group {
-    /// Without contacts, for a number of kinds. The first contact of a track does not count: without it, there would be no
-    /// track.
+    /// Without contacts, for a number of kinds.
     pub(super) fn new(count: usize) -> Self {
         if count > MARK_KINDS {
             return Self::default();
@@ -74,11 +74,12 @@ impl Group {
         }
     }
 
+    pub(super) fn is_empty(&self) -> bool {
+        self.contacts.is_empty()
+    }
+
     /// Takes an observation, with the kinds that its contacts of the group are reported as.
     pub(super) fn observe(&mut self, observed: &Observed, contacts: impl Iterator<Item = u16>) {
-        if self.contacts.is_empty() {
-            return;
-        }
         let detector = observed.detector;
         for kind in 0..self.contacts.len() {
             let detected = detector.probability(kind, observed.distance_m) * observed.in_view;

@@ -1,7 +1,6 @@
 //! Own observations of items: existing tracks, and new ones.
 
 use super::contact::{Look, SeenContact};
-use super::group::Group;
 use super::kinds::KindModel;
 use super::own_observation::{OwnObservation, OwnRatio};
 use super::track::{MAX_LOG_ODDS, Source, Track};
@@ -76,9 +75,6 @@ impl Look<'_> {
             None => OwnRatio::Added(log_ratio(kind.into())),
             Some(kinds) => {
                 track.evidence = kinds.no_evidence();
-                if self.hazards.is_some() {
-                    track.group = Group::new(kinds.shares().len());
-                }
                 for true_kind in kinds.each_kind() {
                     let misses = observation.relative_misses(true_kind, contact.range_m);
                     let place = kinds.place(observation.detector, true_kind);
