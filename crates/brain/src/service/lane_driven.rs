@@ -56,8 +56,8 @@ impl Driven {
     }
 }
 
-/// How far from the estimated position of a robot an item of a lane would surely destroy it, whichever kind it is of; `None` if
-/// none does.
+/// How far from the estimated position of a robot an item of a lane would destroy it, less the error of that position, whichever
+/// kind it is of; `None` if none does.
 pub(super) fn danger_m(body: &Body, lane: &Lane, pose: &Pose) -> Option<f64> {
     let kinds = body.hazards_m.iter().enumerate();
     let to_clear = kinds.filter(|(kind, _)| lane.is_hazard(*kind));

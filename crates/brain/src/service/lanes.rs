@@ -101,9 +101,9 @@ impl Lanes {
         let constant = height_m * height_m - 3.0 * gaps * gaps * range_m * range_m;
         let discriminant = 16.0 * height_m * height_m - 4.0 * square * constant;
         let root_m = 2.0 * constant / (4.0 * height_m + libm::sqrt(discriminant.max(0.0)));
-        let widest_m = 2.0 * MAX_BETWEEN * range_m;
-        let least_m = (MIN_BORDER * even_m).max((height_m - gaps * widest_m) / 2.0);
-        let border_m = root_m.max(least_m).min(even_m);
+        let max_apart_m = 2.0 * MAX_BETWEEN * range_m;
+        let min_border_m = (MIN_BORDER * even_m).max((height_m - gaps * max_apart_m) / 2.0);
+        let border_m = root_m.max(min_border_m).min(even_m);
         Across {
             count,
             border_m,
