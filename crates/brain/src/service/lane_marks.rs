@@ -174,7 +174,9 @@ fn mark_of(
     let mut log_ratios = [EXCLUDED; MARK_KINDS];
     if let Some(kinds) = kinds {
         let mut of_track = track.visible_log_ratios(kinds);
-        track.group.with_several(kinds.shares(), &mut of_track);
+        if let Some(group) = &track.group {
+            group.with_several(kinds.shares(), &mut of_track);
+        }
         let of_kinds = log_ratios.iter_mut().zip(of_track);
         of_kinds.for_each(|(mark, own)| *mark = (own as f32).max(EXCLUDED));
     } else {
@@ -191,6 +193,6 @@ fn mark_of(
         deviation_mm: Mark::millimetres(libm::sqrt(variance_m2)),
         log_ratios,
         missed_since: 0,
-        further: Mark::hundredths(track.group.further()),
+        further: Mark::hundredths(track.group.as_ref().map_or(0.0, |group| group.further())),
     })
 }

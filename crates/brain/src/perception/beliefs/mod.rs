@@ -2,10 +2,10 @@
 //! architecture, which has an identifier, a [goal selector](crate::goals) and an
 //! [adapter](crate::navigation::navigator).
 //!
-//! Memory is bounded: with its goals and paths, a brain needs at most 60 kB, plus 20 bytes for each
+//! Memory is bounded: with its goals and paths, a brain needs at most 62 kB, plus 20 bytes for each
 //! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray, plus 50 kB if
-//! readings are late, plus 48 bytes per track if items may destroy the robot. A test measures this,
-//! without such items.
+//! readings are late, plus 48 bytes per track if items may destroy the robot, plus 300 bytes per track
+//! in a mined lane. A test measures this, without such items and lanes.
 
 mod battery;
 mod covariance;

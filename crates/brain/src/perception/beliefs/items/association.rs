@@ -19,6 +19,7 @@ use super::group::{Group, Observed};
 use super::own_observation::OwnRatio;
 use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track, probability};
 use crate::io::body::{Detector, RobotId};
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -205,22 +206,23 @@ impl Track {
         let (Some(kinds), Some(hazards)) = (look.kinds, look.hazards) else {
             return;
         };
-        if self.group.is_empty() {
-            // The contact by which the track became an own one does not count: without it, there would be none.
-            if self.own_contact(look.observation.observer).is_some() {
-                self.group = Group::new(kinds.shares().len());
-            }
+        // The contact by which the track became an own one does not count: without it, there would be none.
+        let is_own = self.own_contact(look.observation.observer).is_some();
+        let distance_m = look.observation.pose.at.to(self.at).length();
+        let Some(group) = &mut self.group else {
+            let new = is_own.then(|| Group::new(kinds.shares().len()));
+            self.group = new.flatten().map(Box::new);
             return;
-        }
+        };
         let observed = Observed {
             detector: look.observation.detector,
-            distance_m: look.observation.pose.at.to(self.at).length(),
+            distance_m,
             in_view,
             shares: kinds.shares(),
             hazards,
         };
         let contacts = contacts.into_iter().flat_map(Contacts::of_group);
-        self.group.observe(&observed, contacts);
+        group.observe(&observed, contacts);
     }
 
     /// Log odds before the own observations, the first of which this may be.

@@ -17,7 +17,6 @@ use crate::io::body::Detector;
 use crate::io::lane::{HAS_ANOTHER, MARK_KINDS};
 use alloc::vec;
 use alloc::vec::Vec;
-use base::hash::Hash;
 use base::hashed::Hashed;
 
 /// Maximum number of items that are distinguished.
@@ -26,8 +25,8 @@ const MAX_ITEMS: usize = 3;
 /// Contacts of a kind that no item explains, in the mean: without them, one false alarm would decide.
 const STRAY: f64 = 1e-3;
 
-/// What the contacts of a track show of a group of items; empty if that is not of interest.
-#[derive(Debug, Clone, Default, PartialEq)]
+/// What the contacts of a track show of a group of items.
+#[derive(Debug, Clone, PartialEq, Hashed)]
 pub(crate) struct Group {
     /// Number of contacts by the reported kind.
     contacts: Vec<f64>,
@@ -37,15 +36,6 @@ pub(crate) struct Group {
     of_several: Vec<f64>,
     /// Expected number of items to be cleared that are left when one item is destroyed, whichever.
     further: f64,
-}
-
-impl Hashed for Group {
-    fn add_to(&self, hash: &mut Hash) {
-        if !self.contacts.is_empty() {
-            self.contacts.add_to(hash);
-            self.of_one.add_to(hash);
-        }
-    }
 }
 
 /// An observation of a place.
@@ -61,21 +51,14 @@ pub(super) struct Observed<'o> {
 }
 
 impl Group {
-    /// Without contacts, for a number of kinds.
-    pub(super) fn new(count: usize) -> Self {
-        if count > MARK_KINDS {
-            return Self::default();
-        }
-        Self {
+    /// Without contacts, for a number of kinds; `None` for more kinds than marks distinguish.
+    pub(super) fn new(count: usize) -> Option<Self> {
+        (count <= MARK_KINDS).then(|| Self {
             contacts: vec![0.0; count],
             of_one: vec![0.0; count * count],
             of_several: vec![0.0; count],
             further: 0.0,
-        }
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.contacts.is_empty()
+        })
     }
 
     /// Takes an observation, with the kinds that its contacts of the group are reported as.

@@ -3,6 +3,7 @@
 use super::group::Group;
 use crate::io::body::RobotId;
 use crate::io::message::Provenance;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hash::Hash;
@@ -38,8 +39,8 @@ pub(crate) struct Track {
     pub(crate) edge: f64,
     /// Own measurements by sensor model and kind; empty if kinds are certain.
     pub(crate) evidence: Vec<f64>,
-    /// Whether it is of several items; empty outside of lanes that are to be cleared.
-    pub(crate) group: Group,
+    /// Whether it is of several items; `None` outside of lanes that are to be cleared.
+    pub(crate) group: Option<Box<Group>>,
 }
 
 impl Hashed for Track {
@@ -58,7 +59,9 @@ impl Hashed for Track {
         (*kind, *at).add_to(hash);
         [*variance_m2, *prior, *edge].add_to(hash);
         sources[..*count].add_to(hash);
-        group.add_to(hash);
+        if let Some(group) = group {
+            group.add_to(hash);
+        }
         if !evidence.is_empty() {
             evidence.add_to(hash);
             for source in &sources[..*count] {
@@ -105,7 +108,7 @@ impl Track {
             count: 0,
             edge: 0.0,
             evidence: Vec::new(),
-            group: Group::default(),
+            group: None,
         }
     }
 

@@ -44,8 +44,9 @@ fn shown(kinds: &[usize], run: u32) -> [f64; 2] {
     let model = items.kinds.as_deref().unwrap();
     let track = &items.tracks[0];
     let mut ratios = track.visible_log_ratios(model);
-    track.group.with_several(model.shares(), &mut ratios);
-    [ratios[1] - ratios[0], track.group.further()]
+    let group = track.group.as_ref().unwrap();
+    group.with_several(model.shares(), &mut ratios);
+    [ratios[1] - ratios[0], group.further()]
 }
 
 /// In how many of 40 runs something holds.
