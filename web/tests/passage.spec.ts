@@ -58,7 +58,9 @@ test("the panel states the risks of the vehicles, what is cleared, and what beca
     panel.getByText(/^Path of 4\d(\.\d)? m, 3 m wide: 0\.00\d+ mines expected in it\.$/),
   ).toBeVisible();
   await expect(panel.getByText("3 vehicles passed, 0 lost.")).toBeVisible();
-  await expect(panel.getByRole("cell", { name: /^99\.\d% \(95% interval \d+(\.\d)?% to 100%\)$/ })).toBeVisible();
+  await expect(
+    panel.getByRole("cell", { name: /^99\.\d% \(95% interval \d+(\.\d)?% to 100%\)$/ }),
+  ).toBeVisible();
   if (process.env.SHOTS) await page.screenshot({ path: join(process.env.SHOTS, "panel.png") });
   await expectAccessiblePanels(page, ["Lane", "Layers"]);
 });
