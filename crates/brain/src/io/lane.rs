@@ -18,8 +18,7 @@ pub const CELLS_PER_MESSAGE: usize = 16;
 /// Number of kinds of items that marks distinguish.
 pub const MARK_KINDS: usize = 4;
 
-/// Probability that an item in a lane has another one beside it, as they may lie in groups whatever their number. It is small,
-/// but more than a search by one sensor model leaves open.
+/// Probability that an item in a lane has another one beside it, as they may lie in groups whatever their number: an assumption.
 pub const HAS_ANOTHER: f64 = 0.2;
 
 /// Steps of coverage up to this one are a sixteenth of a nat, the others a half.
@@ -164,28 +163,18 @@ pub struct Coverage {
 impl Coverage {
     /// The nearest step for a negative logarithm in nats.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
     pub fn steps(nats: f64) -> u8 {
         // A number that is none counts as no look.
         let fine = if nats > 0.0 { nats * PER_NAT } else { 0.0 };
         let coarse = (fine - f64::from(FINE_STEPS)) / f64::from(PER_COARSE_STEP);
         let steps = fine.min(f64::from(FINE_STEPS) + coarse.max(0.0));
-        libm::round(steps).clamp(0.0, 255.0) as u8
+        byte(steps)
     }
 
     /// A share as coverage states it.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
     pub fn parts(share: f64) -> u8 {
-        libm::round(share * 255.0).clamp(0.0, 255.0) as u8
+        byte(share * 255.0)
     }
 
     /// The share for a number of parts.
@@ -206,6 +195,16 @@ impl Coverage {
     pub fn nats(sixteenths: u32) -> f64 {
         f64::from(sixteenths) / PER_NAT
     }
+}
+
+/// The nearest whole number from 0 to 255.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped"
+)]
+fn byte(number: f64) -> u8 {
+    libm::round(number).clamp(0.0, f64::from(u8::MAX)) as u8
 }
 
 /// A place where a robot has detected something. It is cumulative: a later message replaces an earlier
@@ -262,13 +261,8 @@ impl Mark {
 
     /// An expected number of further items as a mark states it.
     #[must_use]
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "clamped"
-    )]
     pub fn hundredths(further: f64) -> u8 {
-        libm::round(further * 100.0).clamp(0.0, f64::from(u8::MAX)) as u8
+        byte(further * 100.0)
     }
 
     /// Expected number of items to be cleared that are left when one item there has been destroyed now.
