@@ -209,7 +209,7 @@ def random_lanes(
         if not missing:
             break
         lane = next(lane for lane in lanes if any(may_be_in(lane, one) for one in missing))
-        runs = ae.replicate(scenario(lane.changes()), RUNS, lane.number)
+        runs = ae.replicate(scenario(lane.changes()), RUNS, seed + lane.number)
         found = outcomes(runs.filter(runs["declared"]))
         declared[lane.density] = np.concatenate([declared[lane.density], found])
     yield from bins(declared)

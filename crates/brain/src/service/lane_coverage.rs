@@ -14,6 +14,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
+use core::ops::Range;
 
 /// Parts of a cell along each side, and the maximum number of parts of all cells.
 const PARTS: f64 = 2.0;
@@ -26,6 +27,8 @@ pub(super) struct LaneCoverage {
     /// Finer than the cells of the lane, as parts of a cell are at the edge of every look.
     #[hashed(skip)]
     field: Field,
+    #[hashed(skip)]
+    parts: Parts,
     own: CoverageMap,
     driven: Driven,
     /// What was sent last of each cell, and the next block of cells.
@@ -36,6 +39,13 @@ pub(super) struct LaneCoverage {
     now: Vec<Cell>,
     #[hashed(skip)]
     is_stale: Vec<bool>,
+}
+
+/// For each column and each row of cells, the columns and the rows of parts whose centres are in it.
+#[derive(Debug, Clone)]
+struct Parts {
+    columns: Vec<Range<usize>>,
+    rows: Vec<Range<usize>>,
 }
 
 /// What messages state of a cell.
@@ -54,6 +64,7 @@ impl LaneCoverage {
             lane,
             own: CoverageMap::new(field.cells()),
             driven: Driven::new(),
+            parts: Parts::new(&lane, &field),
             field,
             sent: vec![Cell::default(); blocks * CELLS_PER_MESSAGE],
             next_block: 0,
@@ -179,17 +190,14 @@ impl LaneCoverage {
     /// driven over.
     fn cell(&self, cell: usize) -> Cell {
         let field = &self.field;
-        let area = self.lane.cell_area(cell);
-        let [columns, rows] = field.columns_and_rows(area.min(), area.max());
+        let [columns, rows] = self.parts.of(cell);
         let (mut missed, mut driven, mut count) = (0.0, 0.0, 0.0);
         for row in rows {
             for part in row * field.columns + columns.start..row * field.columns + columns.end {
-                if area.contains(field.centre(part)) {
-                    let [part_missed, part_driven] = self.part(part);
-                    missed += part_missed;
-                    driven += part_driven;
-                    count += 1.0;
-                }
+                let [part_missed, part_driven] = self.part(part);
+                missed += part_missed;
+                driven += part_driven;
+                count += 1.0;
             }
         }
         if count < 1.0 {
@@ -204,6 +212,49 @@ impl LaneCoverage {
         let driven = f64::from(u8::from(self.driven.has(part)));
         [self.own.of(part), driven]
     }
+}
+
+impl Parts {
+    fn new(lane: &Lane, field: &Field) -> Self {
+        let [columns, rows] = lane.columns_and_rows();
+        let within = |cell: usize| {
+            let area = lane.cell_area(cell);
+            let [columns, rows] = field.columns_and_rows(area.min(), area.max());
+            let (x, y) = (area.min().x..=area.max().x, area.min().y..=area.max().y);
+            [
+                span(columns, |column| x.contains(&field.centre(column).x)),
+                span(rows, |row| y.contains(&field.centre(row * field.columns).y)),
+            ]
+        };
+        let of_column = |column| {
+            let [columns, _] = within(column);
+            columns
+        };
+        let of_row = |row| {
+            let [_, rows] = within(row * columns);
+            rows
+        };
+        Self {
+            columns: (0..columns).map(of_column).collect(),
+            rows: (0..rows).map(of_row).collect(),
+        }
+    }
+
+    /// Columns and rows of the parts of a cell.
+    fn of(&self, cell: usize) -> [Range<usize>; 2] {
+        let columns = self.columns.len();
+        [
+            self.columns[cell % columns].clone(),
+            self.rows[cell / columns].clone(),
+        ]
+    }
+}
+
+/// The part of a range that has a property; there are no gaps in it.
+fn span(range: Range<usize>, has: impl Fn(usize) -> bool) -> Range<usize> {
+    let start = range.clone().find(|index| has(*index)).unwrap_or(range.end);
+    let count = (start..range.end).take_while(|index| has(*index)).count();
+    start..start + count
 }
 
 impl Cell {

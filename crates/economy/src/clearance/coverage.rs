@@ -3,7 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{Coverage, RobotId};
+use brain::{CELLS_PER_MESSAGE, Coverage, RobotId};
+use core::ops::Range;
 
 /// For each sensor model and cell, the evidence that there is no visible item without a mark.
 #[derive(Debug, Clone, Default, Hashed)]
@@ -38,10 +39,16 @@ impl Searched {
         self.totals.len()
     }
 
-    /// Takes a message of a robot with a sensor model; the order of messages does not matter.
-    pub(super) fn take(&mut self, robot: RobotId, model: usize, coverage: &Coverage) {
+    /// Takes a message of a robot with a sensor model; the order of messages does not matter. Returns the cells of the message,
+    /// or none where all of it was known.
+    pub(super) fn take(
+        &mut self,
+        robot: RobotId,
+        model: usize,
+        coverage: &Coverage,
+    ) -> Range<usize> {
         let Some(totals) = self.totals.get_mut(model) else {
-            return;
+            return 0..0;
         };
         let known = self.robots.iter().position(|known| known.robot == robot);
         let index = known.unwrap_or_else(|| {
@@ -57,15 +64,19 @@ impl Searched {
         let cells = steps.iter_mut().zip(totals);
         let first = usize::try_from(coverage.first).unwrap_or(usize::MAX);
         let each = self.driven.iter_mut().skip(first);
+        let mut is_new = false;
         for (cell, driven) in each.zip(coverage.driven) {
+            is_new |= driven > *cell;
             *cell = driven.max(*cell);
         }
         for ((cell, total), missed) in cells.skip(first).zip(coverage.missed) {
             if missed > *cell {
                 *total += Coverage::sixteenths(missed) - Coverage::sixteenths(*cell);
                 *cell = missed;
+                is_new = true;
             }
         }
+        first..first.saturating_add(if is_new { CELLS_PER_MESSAGE } else { 0 })
     }
 
     /// The share of a cell that a robot has driven over without being destroyed.

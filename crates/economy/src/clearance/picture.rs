@@ -14,10 +14,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{
-    CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId,
-    Statement,
-};
+use brain::{Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
 use core::f64::consts::TAU;
 use core::ops::Range;
 
@@ -133,9 +130,8 @@ impl LanePicture {
             return;
         };
         if self.marks.note_reported(robot, coverage.marks) {
-            self.searched.take(robot, model, coverage);
-            let first = usize::try_from(coverage.first).unwrap_or(usize::MAX);
-            self.refresh(first..first.saturating_add(CELLS_PER_MESSAGE));
+            let changed = self.searched.take(robot, model, coverage);
+            self.refresh(changed);
         }
     }
 
@@ -331,7 +327,7 @@ impl LanePicture {
                 libm::log(1.0 - blind) - nats + self.lookalike_log_ratio(place, kind, model)
             } else {
                 let nats = self.searched.nats_without(model, cell, &[]);
-                libm::log(missed_share(blind, nats))
+                libm::log(missed_share(blind, libm::exp(-nats)))
             }
         });
         let of_marks_m2 = self.log_ratio_m2(place, kind, is_of_item);

@@ -22,7 +22,7 @@ pub(super) struct Remaining {
     /// The part of all mines that are expected in each cell before a search, and the tile in which it lies.
     shares: Vec<f64>,
     pub(super) tiles: Vec<u32>,
-    /// For each way to search, the looks of one search by each sensor model, in nats.
+    /// For each way to search, the share of visible mines that one search by each sensor model misses.
     ways: Vec<Vec<f64>>,
     pub(super) now: Vec<f64>,
     pub(super) after: Vec<Vec<f64>>,
@@ -78,7 +78,7 @@ impl Remaining {
             free_m2,
             shares: shares.collect(),
             tiles: cells.map(tile).collect(),
-            ways: ways.map(|skill| nats_of(clearance, *skill)).collect(),
+            ways: ways.map(|skill| missed_by(clearance, *skill)).collect(),
             now: vec![0.0; lane.cells()],
             after: vec![vec![0.0; lane.cells()]; clearance.searches.len()],
         }
@@ -91,14 +91,20 @@ impl Remaining {
         let near = known.beside.iter();
         let near = near.filter(|beside| cells.contains(&beside.cell) && of_all_kinds > 0.0);
         let near: Vec<&Beside> = near.collect();
+        let no_search = vec![1.0; known.blind.len()];
+        let mut so_far = no_search.clone();
         for cell in cells {
-            let expected = |more_nats: &[f64]| {
+            for (model, missed) in so_far.iter_mut().enumerate() {
+                *missed = libm::exp(-known.searched.nats_without(model, cell, &[]));
+            }
+            let expected = |search: &[f64]| {
                 let left = clearance.hazards().map(|(kind, expected)| {
                     let looks = Looks {
                         kind,
                         cell,
                         known,
-                        more_nats,
+                        so_far: &so_far,
+                        search,
                     };
                     let destroys = clearance.destroy_probability.get(kind).copied();
                     let survived = 1.0 - destroys.unwrap_or_default() * known.searched.driven(cell);
@@ -111,7 +117,7 @@ impl Remaining {
                 });
                 left.sum::<f64>()
             };
-            self.now[cell] = expected(&[]);
+            self.now[cell] = expected(&no_search);
             for ((way, skill), after) in self
                 .ways
                 .iter()
@@ -133,26 +139,30 @@ struct Looks<'l> {
     kind: usize,
     cell: usize,
     known: &'l Known<'l>,
-    /// Further looks of each sensor model, in nats.
-    more_nats: &'l [f64],
+    /// The share of visible mines that each sensor model has missed, and that it misses in a further search.
+    so_far: &'l [f64],
+    search: &'l [f64],
 }
 
 impl Looks<'_> {
     /// Share of the mines that all models have missed: of all, or of those beside a destroyed item since then.
     fn missed(&self, beside: Option<&Beside>) -> f64 {
-        let of = |nats: &[f64], model: usize| nats.get(model).copied().unwrap_or_default();
-        let before = beside.map_or(&[][..], |beside| &beside.nats);
-        let shown_to = beside.and_then(|beside| beside.shown_to);
-        let missed = self.known.blind.iter().enumerate().map(|(model, shares)| {
-            let nats = self.known.searched.nats_without(model, self.cell, &[]) - of(before, model);
-            let blind = if shown_to == Some(model) {
-                0.0
-            } else {
-                shares[self.kind]
-            };
-            missed_share(blind, nats + of(self.more_nats, model))
+        let models = self.known.blind.iter().enumerate();
+        let missed = models.map(|(model, shares)| {
+            let is_shown = beside.is_some_and(|beside| beside.shown_to == Some(model));
+            let blind = if is_shown { 0.0 } else { shares[self.kind] };
+            let so_far = beside.map_or(self.so_far[model], |beside| {
+                self.missed_since(beside, model)
+            });
+            missed_share(blind, so_far * self.search[model])
         });
         missed.product()
+    }
+
+    /// Share of visible mines that the looks of a model since the destruction of an item have missed.
+    fn missed_since(&self, beside: &Beside, model: usize) -> f64 {
+        let before = beside.nats.get(model).copied().unwrap_or_default();
+        libm::exp(before - self.known.searched.nats_without(model, self.cell, &[]))
     }
 }
 
@@ -166,20 +176,20 @@ impl Clearance {
     }
 }
 
-/// For each sensor model, the looks of one search by the best robots that have the skill.
-fn nats_of(clearance: &Clearance, skill: Skill) -> Vec<f64> {
+/// For each sensor model, the share of visible mines that one search by the best robots that have the skill misses.
+fn missed_by(clearance: &Clearance, skill: Skill) -> Vec<f64> {
     let models = clearance.models();
-    let mut nats = vec![0.0; models.len()];
+    let mut missed = vec![1.0; models.len()];
     let able = clearance.robots.iter().filter(|robot| robot.has(skill));
     let best = able.max_by(|one, other| one.search_nats.total_cmp(&other.search_nats));
     if let Some(best) = best {
         let index = models.iter().position(|robot| robot.model == best.model);
-        nats[index.unwrap_or_default()] = best.search_nats;
+        missed[index.unwrap_or_default()] = libm::exp(-best.search_nats);
     }
-    nats
+    missed
 }
 
-/// Share of items that all looks of a model miss.
-pub(super) fn missed_share(blind: f64, nats: f64) -> f64 {
-    blind + (1.0 - blind) * libm::exp(-nats)
+/// Share of items that all looks of a model miss, of those that it is blind to and of the visible ones.
+pub(super) fn missed_share(blind: f64, visible: f64) -> f64 {
+    blind + (1.0 - blind) * visible
 }
