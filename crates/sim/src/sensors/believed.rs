@@ -5,7 +5,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// As its maker states it. What is not given, for a kind of item, is believed as it is.
+/// These may be the values that its maker states. What is not given, for a kind of item, is believed as it is; a row of `lookalike_share` or
+/// `confusion` that is given replaces the whole row of that kind. Range, positions and false alarms are always believed as they are.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BelievedSpec {

@@ -270,5 +270,29 @@ fn of_world(spec: &ScenarioSpec, root: &Place) -> Vec<InputError> {
             errors.push(root.key("robots").key(name).key("sensors").error(allowed));
         }
     }
+    errors.extend(of_models(spec, root));
+    errors
+}
+
+/// Sensors of one model to which different items are believed to look alike: controllers know one table of each model.
+fn of_models(spec: &ScenarioSpec, root: &Place) -> Vec<InputError> {
+    let mut models = BTreeMap::new();
+    let mut errors = Vec::new();
+    for (name, robot) in &spec.robots {
+        for (sensor, items, _) in detectors(robot) {
+            let believed = items.as_believed(spec.items.keys()).lookalike_share.clone();
+            let path = format!("robots.{name}.sensors.{sensor}");
+            let (first, known) = models
+                .entry(items.model_name(name, sensor))
+                .or_insert_with(|| (path, believed.clone()));
+            if *known != believed {
+                let at = root.key("robots").key(name).key("sensors").key(sensor);
+                let allowed = format!(
+                    "as in {first}, which is of the same model, or a model of another name"
+                );
+                errors.push(at.key("lookalike_share").error(allowed));
+            }
+        }
+    }
     errors
 }

@@ -39,10 +39,11 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     errors
 }
 
-/// What the tables of a sensor may name: the kinds of items, and which of them it detects.
+/// What the tables of a sensor may name: the kinds of items, which of them it detects, and which look like other kinds.
 struct Fits<'k> {
     kinds: &'k [&'k str],
     detected: Option<Vec<String>>,
+    lookalikes: ConfusionSpec,
 }
 
 impl<'k> Fits<'k> {
@@ -51,6 +52,7 @@ impl<'k> Fits<'k> {
         Self {
             kinds,
             detected: items.detection_probability.as_ref().map(names),
+            lookalikes: items.lookalike_share.clone(),
         }
     }
 
@@ -72,7 +74,10 @@ impl<'k> Fits<'k> {
         let at = at.key("blind_share");
         let mut errors = Vec::new();
         for (kind, share) in shares {
-            errors.extend(self.unfit(kind, &at));
+            // What looks like another kind may be detected as that.
+            if !self.lookalikes.contains_key(kind) {
+                errors.extend(self.unfit(kind, &at));
+            }
             errors.extend(out_of_range(*share, &at.key(kind)));
         }
         errors

@@ -474,3 +474,25 @@ fn sensors_and_tools_reach_mines_from_where_these_destroy_no_robot() {
         assert_eq!(errors_in(&harmless), [""; 0]);
     }
 }
+
+#[test]
+fn items_look_alike_to_all_sensors_of_a_model() {
+    let alike = |share: &str| {
+        format!(
+            "range_m = 2\nmodel = \"em\"\nlookalike_share = {{ mine = {{ clutter = {share} }} }}\nblind"
+        )
+    };
+    let radar = |share: &str| {
+        let table = alike(share).replace("\nblind", "");
+        let two = format!(
+            "[robots.ugv.sensors.radar]\nkind = \"items\"\n{table}\n[robots.ugv.sensors.detector]"
+        );
+        let text = with("[robots.ugv.sensors.detector]", &two);
+        errors_in(&text.replace("range_m = 2\nblind", &alike("0.1")))
+    };
+    assert_eq!(radar("0.1"), [""; 0]);
+    let reported = radar("0.2");
+    assert_eq!(reported.len(), 1, "{reported:#?}");
+    let expected = "lookalike_share = {...}: must be as in robots.ugv.sensors.detector, which is of the same model";
+    assert!(reported[0].contains(expected), "{reported:#?}");
+}

@@ -155,3 +155,18 @@ fn all_errors_of_what_is_believed_are_reported_at_once() {
             .any(|error| error.contains("clutter"))
     );
 }
+
+#[test]
+fn a_kind_that_is_only_detected_as_another_one_may_have_a_blind_share() {
+    let of = |lines: &str| {
+        let text = with(lines).replace("clutter = 0.5, ", "").replace(
+            "count = 1\n[items.mine]",
+            "count = 1\ntarget = false\n[items.mine]",
+        );
+        errors_in(&text)
+    };
+    let blind = "blind_share = { clutter = 0.1 }";
+    assert_eq!(of(blind).len(), 1, "{:#?}", of(blind));
+    let alike = format!("{blind}\nlookalike_share = {{ clutter = {{ mine = 0.3 }} }}");
+    assert_eq!(of(&alike), [""; 0]);
+}
