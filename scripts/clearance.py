@@ -251,7 +251,7 @@ def verdict(one: Cell) -> str:
     """Return whether the share is within the tolerance, if there are enough runs to decide it."""
     off = one.not_clear - one.stated
     if abs(off) > max(tolerance(one.stated), STANDARD_ERRORS * one.standard_error):
-        return f"fails: the stated risk is too {'low' if off > 0 else 'high'}"
+        return "fails: the stated risk is too low" if off > 0 else "careful"
     return "passes" if one.runs >= needed(one) else "undecided"
 
 

@@ -109,15 +109,19 @@ def pooled(driven: pa.Table, chosen: NDArray[np.bool_], bounds: tuple[float, flo
         clearance=mean("true_clearance_mine"),
         verdict="",
     )
-    pairs = ((one.first_stated, one.first_lost), (one.last_stated, one.last_lost))
-    passes = all(is_right(stated, lost, lanes) for stated, lost in pairs)
-    return replace(one, verdict="passes" if passes else "fails")
+    offs = (
+        off(one.first_stated, one.first_lost, lanes),
+        off(one.last_stated, one.last_lost, lanes),
+    )
+    if max(offs) > 0:
+        return replace(one, verdict="fails: the stated risk is too low")
+    return replace(one, verdict="careful" if min(offs) < 0 else "passes")
 
 
-def is_right(stated: float, lost: float, lanes: int) -> bool:
-    """Return whether a share is the stated one, within the tolerance and its standard error."""
-    tolerance = max(MIN_TOLERANCE, TOLERANCE * stated)
-    return abs(lost - stated) <= max(tolerance, STANDARD_ERRORS * error(stated, lanes))
+def off(stated: float, lost: float, lanes: int) -> float:
+    """Return by how much a share is beyond the tolerance of the stated one and its error."""
+    tolerance = max(MIN_TOLERANCE, TOLERANCE * stated, STANDARD_ERRORS * error(stated, lanes))
+    return max(lost - stated - tolerance, 0.0) + min(lost - stated + tolerance, 0.0)
 
 
 def error(share: float, lanes: int) -> float:

@@ -19,7 +19,7 @@ pub const CELLS_PER_MESSAGE: usize = 16;
 pub const MARK_KINDS: usize = 4;
 
 /// Probability that an item in a lane has another one beside it, as they may lie in groups whatever their number: an assumption.
-pub const HAS_ANOTHER: f64 = 0.2;
+pub const HAS_ANOTHER: f64 = 0.03;
 
 /// Steps of coverage up to this one are a sixteenth of a nat, the others a half.
 const FINE_STEPS: u8 = 128;

@@ -10,9 +10,9 @@ use base::hashed::Hashed;
 use brain::{Lane, MARK_KINDS};
 use core::ops::Range;
 
-/// Expected number of mines beside an item that has been destroyed, at least, of whatever kind that was: mines may lie in groups
-/// that no mark shows. It is small, but more than a search by both sensor models leaves open.
-const BESIDE_DESTROYED: f64 = 0.01;
+/// The ground around an item that has been destroyed in which another one was hidden by it, in square metres: before that, looks
+/// at it have shown nothing of the other one.
+const HIDDEN_M2: f64 = 0.3;
 
 /// The expected number of mines without a mark in each cell: now, and after one more search in each way.
 #[derive(Debug, Clone)]
@@ -40,13 +40,20 @@ pub(super) struct Beside {
 }
 
 impl Beside {
-    /// In a cell, with an expected number of mines that marks of a sensor model have shown. The place is to be searched again.
-    pub(super) fn new(cell: usize, shown: Option<(f64, usize)>, searched: &Searched) -> Self {
+    /// In a cell, with the density of mines, or an expected number of mines that marks of a sensor model have shown, whichever
+    /// is higher. The place is to be searched again.
+    pub(super) fn new(
+        cell: usize,
+        mines_per_m2: f64,
+        shown: Option<(f64, usize)>,
+        searched: &Searched,
+    ) -> Self {
         let models = 0..searched.models();
-        let shown = shown.filter(|(further, _)| *further > BESIDE_DESTROYED);
+        let hidden = mines_per_m2 * HIDDEN_M2;
+        let shown = shown.filter(|(further, _)| *further > hidden);
         Self {
             cell,
-            expected: shown.map_or(BESIDE_DESTROYED, |(further, _)| further),
+            expected: shown.map_or(hidden, |(further, _)| further),
             shown_to: shown.map(|(_, model)| model),
             nats: models
                 .map(|model| searched.nats_without(model, cell, &[]))
