@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -11,9 +12,10 @@ from recorded import contents
 
 import agent_economy as ae
 from agent_economy.cli.lane_rows import lane_rows
-from agent_economy.runs.passage import Passage
-from agent_economy.server.runs.lane_view import lane_view
-from agent_economy.server.runs.passage_view import vehicle_view
+from agent_economy.runs.passage import ClearedShare, Passage, Vehicle
+from agent_economy.server.runs.shown import passage as shown_passage
+from agent_economy.server.runs.shown import subjects
+from agent_economy.server.runs.shown.subject import Request
 from agent_economy.study.answer.clearance import clearance, in_words
 from agent_economy.study.answer.evidence import Sample
 
@@ -53,11 +55,44 @@ def test_vehicles_drive_from_end_to_end_of_a_lane_that_was_declared_clear(tmp_pa
         assert vehicle.status in {"passed", "lost"}
         if vehicle.status == "passed":
             assert vehicle.at_m == passage.path_m[-1]
-    view = lane_view(simulation.lanes[0])
-    assert view["passage"] is not None
-    assert view["passage"]["path"] == passage.path_m
-    assert view["passage"]["risks"] == passage.risks
-    assert vehicle_view(simulation.vehicles[0])["name"] == "vehicle/0"
+    ids = frozenset({"passage", "vehicles"})
+    shown = subjects.shown(simulation, Request(layers=ids))
+    assert shown is not None
+    (line,) = shown["layers"]["passage"]["lines"]
+    assert (line["points"], line["band"]) == (passage.path_m, passage.width_m)
+    markers = shown["layers"]["vehicles"]["markers"]
+    assert [marker["at"] for marker in markers] == [each.at_m for each in simulation.vehicles]
+
+
+def test_the_risks_of_the_first_and_the_last_vehicle_are_stated_in_words() -> None:
+    def words(*risks: float) -> str:
+        path = Passage([(8.0, 14.0), (208.0, 14.0)], 3.0, 200.0, 0.00421, list(risks))
+        return f"{shown_passage.passage_label(path)} {shown_passage.path_label(path)}"
+
+    path = "Path of 200 m, 3 m wide: 0.00421 mines expected in it."
+    assert words(0.0031) == f"Risk of the first vehicle 0.31%. {path}"
+    assert words(0.12, 0.02, 0.01) == f"Risk of the first vehicle 12%, last of 3 1%. {path}"
+
+
+@pytest.mark.parametrize(
+    ("statuses", "words"),
+    [
+        (["passed", "passed"], "2 vehicles passed, 0 lost."),
+        (
+            ["lost", "passed", "driving"],
+            "1 vehicle passed, 1 lost (with the first), 1 driving.",
+        ),
+        (["passed", "lost"], "1 vehicle passed, 1 lost."),
+    ],
+)
+def test_what_has_become_of_the_vehicles_is_reported(statuses: list[Any], words: str) -> None:
+    vehicles = [Vehicle(f"vehicle/{i}", (0, 0), True, each) for i, each in enumerate(statuses)]  # noqa: FBT003
+    assert shown_passage.vehicles_label(vehicles) == words
+
+
+def test_the_share_that_is_cleared_has_its_interval_in_words() -> None:
+    share = ClearedShare("mine", cleared=5, left=0.1, share=0.983, low=0.8333, high=1)
+    assert shown_passage.cleared_label(share) == "98.3% (95% interval 83.3% to 100%)"
 
 
 def test_the_share_of_mines_that_is_cleared_is_believed_with_an_interval() -> None:

@@ -5,30 +5,41 @@ from typing import Any
 from page_client import Page
 
 import agent_economy as ae
-from agent_economy.server.runs.economy_view import economy
+from agent_economy.server.runs.shown import subjects
+from agent_economy.server.runs.shown.subject import Request
 
-REQUEST = {"links": False, "footprints": False, "economy": True}
+LAYER, GOALS, SERVICE = "economy", "goals", "service"
+ALL = Request(layers=frozenset({LAYER}), panels=frozenset({GOALS}))
 
 
 def received(page: Page) -> list[dict[str, Any]]:
-    """Return the goals and controllers that the page has received."""
-    return [message for message in page.received if message["type"] == "economy"]
+    """Return the layers and panels that the page has received."""
+    return [message for message in page.received if message["type"] == "shown"]
+
+
+def rows(panel: Any, section: int) -> list[list[str]]:
+    """Return the cells of the table of a section, with their notes."""
+    return [
+        [f"{cell['text']} {cell['note']}".strip() for cell in row["cells"]]
+        for row in panel["sections"][section]["table"]["rows"]
+    ]
 
 
 def test_goals_are_sent_only_while_they_are_requested(page: Page) -> None:
     page.open(scenario="waypoints")
     page.step(5, to=5)
     assert not received(page)
-    page.send("layers", **REQUEST)
-    assert page.wait_for("economy", tick=5)
-    page.send("layers", links=False, footprints=False)
+    page.send("show", layers=[LAYER])
+    message = page.wait_for("shown", tick=5)
+    assert (list(message["layers"]), message["panels"]) == ([LAYER], {})
+    page.send("show", layers=["links"])
     page.step(5, to=10)
     page.step(5, to=15)
     assert {message["tick"] for message in received(page)} == {5}
 
 
-def test_runs_without_goals_and_controllers_have_no_such_message(page: Page) -> None:
-    page.send("layers", **REQUEST)
+def test_runs_without_goals_and_controllers_neither_offer_nor_send_them(page: Page) -> None:
+    page.send("show", layers=[LAYER], panels=[GOALS, SERVICE])
     for scenario in ("open-field", "classic"):
         page.open(scenario=scenario)
         page.step(5, to=5)
@@ -37,30 +48,31 @@ def test_runs_without_goals_and_controllers_have_no_such_message(page: Page) -> 
 
 
 def test_an_awarded_goal_has_the_owner_and_the_robot_that_serves_it(page: Page) -> None:
-    page.send("layers", **REQUEST)
+    page.send("show", layers=[LAYER], panels=[GOALS, SERVICE])
     page.open(scenario="waypoints", tick=200)
     page.send("select", robot="rover/0")
-    message = page.wait_for("economy", tick=200)
-    while message["service"] is None:
-        message = page.wait_for("economy", tick=200)
-    goals = {goal["name"]: goal for goal in message["goals"]}
-    assert message["service"]["robot"] == "rover/0"
-    assert message["service"]["goals"]
-    for served in message["service"]["goals"]:
-        goal = goals[served["goal"]]
-        assert (goal["status"], goal["robot"]) == ("awarded", "rover/0")
-        assert goal["owner"] == served["owner"] == "base/0"
-        # The grantor waits at least as long as the holder holds.
-        assert 0 < served["lease_s"] <= goal["lease_s"]
-    assert {goal["status"] for goal in goals.values()} == {"open", "awarded", "served"}
+    message = page.wait_for("shown", tick=200)
+    while SERVICE not in message["panels"]:
+        message = page.wait_for("shown", tick=200)
+    goals = {name: (owner, status) for name, owner, status in rows(message["panels"][GOALS], 1)}
+    served = rows(message["panels"][SERVICE], 0)
+    assert message["panels"][SERVICE]["note"] == str(len(served))
+    assert served
+    for name, owner, _, _ in served:
+        assert goals[name][0] == owner == "base/0"
+        assert goals[name][1].startswith("awarded to rover/0, lease")
+    own = [line for line in message["layers"][LAYER]["lines"] if line["robot"] == "rover/0"]
+    assert len(own) == len(served)
+    assert {status.split()[0] for _, status in goals.values()} == {"open", "awarded", "served"}
 
 
 def test_controllers_that_are_added_during_a_run_are_sent(page: Page) -> None:
-    page.send("layers", **REQUEST)
+    page.send("show", layers=[], panels=[GOALS])
     page.open(scenario="waypoints", tick=100)
     page.change("controllers.base.count", 3)
-    message = page.wait_for("economy", tick=100)
-    assert [each["name"] for each in message["controllers"]] == ["base/0", "base/1", "base/2"]
+    message = page.wait_for("shown", tick=100)
+    names = [cells[0] for cells in rows(message["panels"][GOALS], 0)]
+    assert names == ["base/0", "base/1", "base/2"]
     page.change("controllers.base.allocation", "nearest")
     page.step(1, to=101)
 
@@ -69,6 +81,28 @@ def test_a_goal_without_an_owner_has_the_reason() -> None:
     scenario = ae.Scenario.load("waypoints").replace("controllers.base.failed", [0])
     simulation = ae.Simulation(scenario, seed=1)
     simulation.step()
-    view = economy(simulation, None)
-    assert view is not None
-    assert {goal["unserved"] for goal in view["goals"]} == {"no_controller"}
+    found = subjects.shown(simulation, ALL)
+    assert found is not None
+    statuses = {status for _, _, status in rows(found["panels"][GOALS], 1)}
+    assert statuses == {"open no controller works"}
+    crossed = {
+        tuple(glyph["shape"] for glyph in symbol) for symbol in found["layers"][LAYER]["symbols"]
+    }
+    assert ("square", "cross") in crossed
+
+
+def test_with_a_controller_chosen_only_its_goals_stand_out_and_are_listed() -> None:
+    scenario = ae.Scenario.load("waypoints").replace("controllers.base.count", 2)
+    simulation = ae.Simulation(scenario, seed=1)
+    simulation.step(300)
+    everything = subjects.shown(simulation, ALL)
+    chosen = subjects.shown(simulation, ALL._replace(choices={"controller": "base/1"}))
+    assert everything is not None
+    assert chosen is not None
+    owners = {owner for _, owner, _ in rows(everything["panels"][GOALS], 1)}
+    assert {"base/0", "base/1"} <= owners
+    assert {owner for _, owner, _ in rows(chosen["panels"][GOALS], 1)} == {"base/1"}
+    assert chosen["panels"][GOALS]["sections"][1]["heading"] == "Goals of base/1"
+    opacities = {marker["opacity"] for marker in chosen["layers"][LAYER]["markers"]}
+    assert opacities == {0.25, 1.0}
+    assert {marker["opacity"] for marker in everything["layers"][LAYER]["markers"]} == {1.0}

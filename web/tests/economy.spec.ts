@@ -10,7 +10,7 @@ test("goals and controllers are drawn and sent while their layer is on", async (
   page.on("websocket", (line) => {
     line.on("framesent", ({ payload }) => {
       const message = JSON.parse(String(payload));
-      if (message.type === "layers") requested.push(message.economy);
+      if (message.type === "show") requested.push(message.layers.includes("economy"));
     });
   });
   await openRun(page, server, run, "8 robots");

@@ -2,7 +2,7 @@ import { copyFile } from "node:fs/promises";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import type { Locator, Page } from "@playwright/test";
-import type { Lanes, Point } from "../src/api/protocol";
+import type { Point, Shown } from "../src/api/protocol";
 import { inkAt, opens, type View } from "./ink";
 import { expect, expectAccessiblePanels, openRun, openTab, type RealServer, test } from "./page";
 
@@ -38,16 +38,16 @@ async function pixelsAt(page: Page, [x, y]: Point): Promise<string> {
 }
 
 test("the lane is drawn and sent while one of its layers is on", async ({ page, server }) => {
-  const requested: boolean[] = [];
-  const received: Lanes[] = [];
+  const requested: string[][] = [];
+  const received: Shown[] = [];
   page.on("websocket", (line) => {
     line.on("framesent", ({ payload }) => {
       const message = JSON.parse(String(payload));
-      if (message.type === "layers") requested.push(message.lanes);
+      if (message.type === "show") requested.push([...message.layers, ...message.panels]);
     });
     line.on("framereceived", ({ payload }) => {
       const message = typeof payload === "string" ? JSON.parse(payload) : {};
-      if (message.type === "lanes") received.push(message);
+      if (message.type === "shown") received.push(message);
     });
   });
   await openLane(page, server, 150);
@@ -55,28 +55,30 @@ test("the lane is drawn and sent while one of its layers is on", async ({ page, 
   const others = ["Grid and scale", "Trails", "Sensor coverage", "Goals and controllers", "Items"];
   for (const name of others) await checkbox(page, name).uncheck();
   await expect.poll(() => received.at(-1)?.tick).toBe(150);
-  const marks = received.at(-1)?.lanes[0]?.marks ?? [];
-  expect(marks.length).toBeGreaterThan(2);
-  const mine = marks.find((mark) => mark.mine >= 0.5)?.at ?? [0, 0];
+  const drawn = received.at(-1)?.layers["lane-marks"];
+  expect(drawn?.markers.length).toBeGreaterThan(2);
+  const isMine = (symbol: number) => drawn?.symbols[symbol]?.[0]?.fill?.colour === "item-missed";
+  const mine = drawn?.markers.find(({ symbol }) => isMine(symbol))?.at ?? [0, 0];
   await expect.poll(() => inkAt(page, view, mine)).toBe(true);
   // A cell that has not been searched yet, and one at the outline of the cleared path.
   const places: [layer: string, at: Point][] = [
     ["Remaining risk", [43, 11]],
-    ["Cleared path", [20, 2]],
+    ["Cleared path", [12, 2]],
   ];
   for (const [layer, at] of places) {
-    const drawn = await pixelsAt(page, at);
+    const pixels = await pixelsAt(page, at);
     await checkbox(page, layer).uncheck();
-    await expect.poll(() => pixelsAt(page, at)).not.toBe(drawn);
+    await expect.poll(() => pixelsAt(page, at)).not.toBe(pixels);
     await checkbox(page, layer).check();
-    await expect.poll(() => pixelsAt(page, at)).toBe(drawn);
+    await expect.poll(() => pixelsAt(page, at)).toBe(pixels);
   }
   for (const name of layers) await checkbox(page, name).uncheck();
   await expect.poll(() => inkAt(page, view, mine)).toBe(false);
-  await expect.poll(() => requested.at(-1)).toBe(false);
+  const ofLane = () => requested.at(-1)?.filter((id) => id.startsWith("lane"));
+  await expect.poll(ofLane).toEqual([]);
   // The panel needs it, too.
   await openTab(page, "Lane");
-  await expect.poll(() => requested.at(-1)).toBe(true);
+  await expect.poll(ofLane).toEqual(["lane"]);
 });
 
 test("the panel has the belief of the chosen controller, and the truth unless it is hidden", async ({

@@ -7,24 +7,21 @@
 //!
 //! Seeds and run numbers can have 64 bits, which JavaScript numbers cannot hold: they are strings.
 
-mod economy;
-mod lane;
 mod lists;
 mod page;
 mod schema;
 mod server;
 mod setting;
+mod shown;
 mod study;
 mod study_answer;
 mod study_form;
 mod warden;
 
-pub use economy::{ControllerView, Economy, GoalStatus, GoalView, ServedGoalView, ServiceView};
-pub use lane::{LaneScale, LaneStatementView, LaneView, Lanes, MarkView, RiskView};
 pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
 pub use page::{
-    Acknowledge, Change, Empty, Json, Layers, LoggedChange, Open, PageMessage, Play, Seek, Select,
-    SeriesRequest, Step, StudyMember,
+    Acknowledge, Change, Empty, Json, LoggedChange, Open, PageMessage, Play, Seek, Select,
+    SeriesRequest, Show, Step, StudyMember,
 };
 pub use schema::{brain_schema, page_schema};
 pub use server::{
@@ -32,6 +29,7 @@ pub use server::{
     RobotView, Saved, Saving, Series, SeriesRow, ServerMessage, State,
 };
 pub use setting::{ItemView, KindView, MapView, RingView, SensorView, Setting, Unit, WorldView};
+pub use shown::{Layer, Offer, Panel, Shown};
 pub use study::{RequirementStatus, Standing, StudyProgress, StudyState};
 pub use study_answer::{
     Study, StudyAnswer, StudyList, StudyResult, StudySection, StudySource, StudySummary,

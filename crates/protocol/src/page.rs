@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A message of the page.
 ///
@@ -34,7 +35,7 @@ pub enum PageMessage {
     /// Select the robot that states and maps describe.
     Select(Select),
     /// Select what is sent with frames.
-    Layers(Layers),
+    Show(Show),
     /// Request the outcome over time.
     RequestSeries(SeriesRequest),
     /// Acknowledge that a frame has been drawn, and all before it. At most three frames are not
@@ -150,20 +151,20 @@ pub struct Select {
 }
 
 /// What is sent with frames; initially nothing.
-#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Layers {
-    /// Radio links between robots.
-    pub links: bool,
-    /// Areas that sensors cover.
-    pub footprints: bool,
-    /// Goals and controllers, of a run that has any.
+pub struct Show {
+    /// Ids of layers that the setting offers; and `links`, radio links between robots, and `footprints`, the areas that
+    /// sensors cover.
+    #[schemars(length(max = 100), inner(length(max = 100)))]
+    pub layers: Vec<String>,
+    /// Ids of panels that the setting offers.
     #[serde(default)]
-    pub economy: bool,
-    /// The mined lane, of a run whose controllers are to clear one.
+    #[schemars(length(max = 100), inner(length(max = 100)))]
+    pub panels: Vec<String>,
+    /// What has been chosen in panels and with markers, by key.
     #[serde(default)]
-    pub lanes: bool,
+    pub choices: BTreeMap<String, String>,
 }
 
 /// The part of the outcome over time that the page does not have.

@@ -1,10 +1,9 @@
 //! Messages from the server to the page of a run.
 
-use crate::economy::Economy;
-use crate::lane::Lanes;
 use crate::lists::{Engine, InputError, RecordingEntry};
 use crate::page::Json;
 use crate::setting::Setting;
+use crate::shown::Shown;
 use crate::study::StudyProgress;
 use base::geometry::Point;
 use brain::{BeliefState, Command, Percept};
@@ -24,10 +23,8 @@ pub enum ServerMessage {
     State(Box<State>),
     /// The belief map of the selected robot, with a maximum rate of 4 Hz.
     Map(MapPart),
-    /// The goals and controllers while the page requests them, with a maximum rate of 4 Hz.
-    Economy(Economy),
-    /// The mined lane while the page requests it, with a maximum rate of 4 Hz.
-    Lanes(Lanes),
+    /// The layers and panels that the page has requested, with a maximum rate of 4 Hz.
+    Shown(Shown),
     /// The progress of saving a recording.
     Saving(Saving),
     /// A recording has been saved or cancelled.

@@ -1,6 +1,7 @@
 //! The setting in which the frames of a run are drawn.
 
 use crate::page::{Json, LoggedChange};
+use crate::shown::Offer;
 use base::document::schema::Parameter;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -40,6 +41,8 @@ pub struct Setting {
     pub obstacles: Vec<ObstacleView>,
     /// Maps of obstacles.
     pub maps: Vec<MapView>,
+    /// What pages can show of the run besides.
+    pub offer: Offer,
 }
 
 /// The unit of a world.

@@ -5,7 +5,134 @@ from typing import Annotated, Any, Literal, TypeAlias, TypedDict
 
 import msgspec
 
-from agent_economy.types.brain import BeliefState, Command, MarkVerdict, Percept, Point, Verdict
+from agent_economy.types.brain import BeliefState, Command, Percept, Point
+
+
+class Circle(TypedDict):
+    """A circle in the world.
+
+    Attributes:
+        at: Its centre.
+        robot: The robot that carries the centre, between two messages; null for none.
+        radius: Its radius.
+    """
+
+    at: Point
+    robot: str | None
+    radius: float
+
+
+Colour: TypeAlias = Literal[
+    "accent",
+    "border",
+    "cleared",
+    "ground",
+    "item-found",
+    "item-missed",
+    "owner-1",
+    "owner-2",
+    "owner-3",
+    "owner-4",
+    "owner-5",
+    "owner-6",
+    "risk-1",
+    "risk-2",
+    "risk-3",
+    "risk-4",
+    "risk-5",
+    "robot-broken",
+    "text",
+]
+"""A name of a colour of the page, of which each theme has its own."""
+
+
+class Fill(TypedDict):
+    """A fill.
+
+    Attributes:
+        colour: Its colour.
+        opacity: Its opacity, 0 to 1.
+    """
+
+    colour: Colour
+    opacity: float
+
+
+class Stroke(TypedDict):
+    """A stroke.
+
+    Attributes:
+        colour: Its colour.
+        width_px: Its width in pixels.
+        is_dashed: Whether it is dashed.
+    """
+
+    colour: Colour
+    width_px: float
+    is_dashed: bool
+
+
+class Area(TypedDict):
+    """An area: a polygon or a circle.
+
+    Attributes:
+        polygon: Its corners; empty for a circle.
+        circle: The circle; null for a polygon.
+        fill: The inside; null if it is not filled.
+        outline: The outline; null if it has none.
+        opacity: The opacity of all of it, 0 to 1.
+    """
+
+    polygon: Sequence[Point]
+    circle: Circle | None
+    fill: Fill | None
+    outline: Stroke | None
+    opacity: float
+
+
+class Button(TypedDict):
+    """A button that sets a switch of the scenario; runs that cannot be changed do not show it.
+
+    Attributes:
+        label: The label.
+        path: The path of the switch.
+    """
+
+    label: str
+    path: str
+
+
+class Choose(TypedDict):
+    """A value that a click chooses, or takes back if it is chosen.
+
+    Attributes:
+        key: What is chosen; the page sends it back in `choices`.
+        value: The value.
+        panel: The panel that shows the consequence.
+    """
+
+    key: str
+    value: str
+    panel: str
+
+
+class Cell(TypedDict):
+    """A cell of a table.
+
+    Attributes:
+        text: The text.
+        note: Smaller words after it; empty for none.
+        colour: The colour of a patch before it; null for none.
+        chooses: What a click on it chooses; null for nothing.
+        is_chosen: Whether that is chosen.
+    """
+
+    text: str
+    note: str
+    colour: Colour | None
+    chooses: Choose | None
+    is_chosen: bool
+
 
 Engine: TypeAlias = Literal["metric", "classic"]
 """A simulator."""
@@ -25,6 +152,22 @@ class Checked(TypedDict):
     summary: str
 
 
+class Choice(TypedDict):
+    """A choice among names.
+
+    Attributes:
+        key: What is chosen; the page sends it back in `choices`.
+        label: The label.
+        options: The names.
+        chosen: The name that is chosen.
+    """
+
+    key: str
+    label: str
+    options: Sequence[str]
+    chosen: str
+
+
 class CircleView(TypedDict):
     """A circle.
 
@@ -37,124 +180,20 @@ class CircleView(TypedDict):
     radius: float
 
 
-class ClearedView(TypedDict):
-    """The share of the mines of a kind that are cleared, as a controller believes it to be.
+class Column(TypedDict):
+    """A column of a table.
 
     Attributes:
-        kind: The kind of items.
-        cleared: Expected number of mines that have been neutralised.
-        left: Expected number of mines that are left.
-        share: Mean of the share that is cleared, 0 to 1.
-        low: Lower end of the interval that contains the share with a probability of at least
-            95%.
-        high: Its upper end.
+        label: Its head.
+        is_number: Whether it has numbers, which stand on the right.
     """
 
-    kind: str
-    cleared: float
-    left: float
-    share: float
-    low: float
-    high: float
+    label: str
+    is_number: bool
 
 
-class ControllerView(TypedDict):
-    """A controller of a run.
-
-    Attributes:
-        name: Its name, KIND/INDEX.
-        at: Its position.
-        aboard: The name of the robot that carries it; null if its position is fixed.
-        range_m: Range of its radio.
-        is_working: Whether it sends and receives.
-        refused: Number of goals that it refused.
-        orphans: Names of goals that it owned until their lease ended.
-    """
-
-    name: str
-    at: Point
-    aboard: str | None
-    range_m: float
-    is_working: bool
-    refused: int
-    orphans: Sequence[str]
-
-
-GoalStatus: TypeAlias = Literal["pending", "open", "awarded", "served", "expired"]
-"""The status of a goal of a run."""
-
-
-class GoalView(TypedDict):
-    """A goal of a run.
-
-    Attributes:
-        name: Its name, KIND/INDEX.
-        at: Its position.
-        status: Its status.
-        owner: The name of the controller that owns it; null if none does.
-        heir: The name of the controller that inherits it; null if none does.
-        robot: The name of the robot that it is awarded to, or that served it.
-        lease_s: Remaining time of that robot's lease, on the owner's clock; null if it has
-            none.
-        unserved: Why no robot can serve it at present; null if one can.
-    """
-
-    name: str
-    at: Point
-    status: GoalStatus
-    owner: str | None
-    heir: str | None
-    robot: str | None
-    lease_s: float | None
-    unserved: str | None
-
-
-class ServedGoalView(TypedDict):
-    """A goal that a robot serves.
-
-    Attributes:
-        goal: Its name, KIND/INDEX; null if it is not of the scenario.
-        at: Its position.
-        owner: The name of the controller that awarded it.
-        lease_s: Remaining time of the lease, on the robot's clock.
-        verdict: Its state, as the robot knows it.
-    """
-
-    goal: str | None
-    at: Point
-    owner: str
-    lease_s: float
-    verdict: Verdict
-
-
-class ServiceView(TypedDict):
-    """A robot and the goals of controllers that it serves.
-
-    Attributes:
-        robot: The name of the robot, KIND/INDEX.
-        goals: The goals, in the order in which it serves them.
-    """
-
-    robot: str
-    goals: Sequence[ServedGoalView]
-
-
-class Economy(TypedDict):
-    """The goals and controllers while the page requests them, with a maximum rate of 4 Hz.
-
-    Attributes:
-        tick: The current tick.
-        goals: All goals, in the order of their kinds and indices.
-        controllers: All controllers, in the order of their kinds and indices.
-        service: The selected robot, and the goals that it serves; null if there is no such
-            robot.
-    """
-
-    type: Literal["economy"]
-    tick: int
-    goals: Sequence[GoalView]
-    controllers: Sequence[ControllerView]
-    service: ServiceView | None
+Emphasis: TypeAlias = Literal["plain", "strong", "muted"]
+"""How words stand out."""
 
 
 class Ended(TypedDict):
@@ -265,6 +304,30 @@ class Factors(TypedDict):
     where: str | None
 
 
+Shape: TypeAlias = Literal["circle", "triangle", "diamond", "square", "hexagon", "cross", "tick"]
+"""The shape of a glyph."""
+
+
+class Glyph(TypedDict):
+    """A shape around a place.
+
+    Attributes:
+        shape: The shape.
+        radius_px: Its radius in pixels.
+        radius: Its radius in units of the world, if that is larger; null for none.
+        fill: The inside; null if it is not filled.
+        outline: The outline; null if it has none.
+        has_rim: Whether the outline has a rim in the colour of the ground, to stand out.
+    """
+
+    shape: Shape
+    radius_px: float
+    radius: float | None
+    fill: Fill | None
+    outline: Stroke | None
+    has_rim: bool
+
+
 Guarantee: TypeAlias = Literal["indifference", "pgs"]
 """The guarantee of a study of the best by merit."""
 
@@ -335,6 +398,24 @@ Json: TypeAlias = Any
 """Any value of JSON."""
 
 
+class Key(TypedDict):
+    """An entry of the legend: a sample, drawn as on the canvas, and its meaning.
+
+    Attributes:
+        label: The meaning.
+        glyphs: Glyphs, from back to front.
+        line: A line.
+        area: An area.
+        outline: The outline of that area.
+    """
+
+    label: str
+    glyphs: Sequence[Glyph]
+    line: Stroke | None
+    area: Fill | None
+    outline: Stroke | None
+
+
 class SensorView(TypedDict):
     """The sector that a sensor covers.
 
@@ -387,164 +468,140 @@ class KindView(TypedDict):
     rings: Sequence[RingView]
 
 
-class LaneScale(TypedDict):
-    """A logarithmic scale of bytes: byte `b` stands for up to `min x (max / min)^(b / 255)`, and
-    more than a byte less.
-
-    0 also stands for less than `min`, and 255 for more than `max`.
+class ScaleTick(TypedDict):
+    """A label of a scale.
 
     Attributes:
-        min: The value of byte 0.
-        max: The value of byte 255.
-        cleared: Cells with up to this byte are cleared: if all cells were like them, the lane
-            would be declared clear.
+        label: The label.
+        place: Its place, 0 for the first colour to 1 for the last.
     """
 
-    min: float
-    max: float
-    cleared: int
+    label: str
+    place: float
 
 
-class LaneStatementView(TypedDict):
-    """What a controller has stated about a lane.
+class Scale(TypedDict):
+    """The colours of the bytes of a raster.
 
     Attributes:
-        is_clear: Whether it has declared the lane clear; otherwise it has given it up.
-        risk: The probability that at least one mine is left, at that time.
-        at_s: That time, on its clock.
+        label: What the bytes are, with the unit.
+        first: The byte with the first colour; lower ones have it, too.
+        last: The byte with the last colour; higher ones have it, too.
+        colours: The colours, evenly distributed between these bytes.
+        ticks: Labels of places on the scale.
     """
 
-    is_clear: bool
-    risk: float
-    at_s: float
+    label: str
+    first: int
+    last: int
+    colours: Sequence[Colour]
+    ticks: Sequence[ScaleTick]
 
 
-class MarkView(TypedDict):
-    """A place that robots have marked, as a controller believes it to be.
+class Raster(TypedDict):
+    """A raster of square cells.
 
     Attributes:
-        number: Its number, which never changes.
-        at: Its position.
-        deviation_m: Standard deviation of the position along each axis.
-        mine: Probability that it holds a mine that has not been neutralised.
-        verdict: The last statement about it; null if there is none.
-        failed_charges: Number of charges that have gone off there and destroyed nothing.
+        corner: Its lower left corner.
+        cell: The side of a cell.
+        columns: Columns.
+        rows: Rows.
+        cells: Base64 of one byte per cell, the lowest row first.
+        scale: The colours of the bytes.
     """
 
-    number: int
-    at: Point
-    deviation_m: float
-    mine: float
-    verdict: MarkVerdict | None
-    failed_charges: int
-
-
-class RiskView(TypedDict):
-    """The remaining risk of a lane, as a controller believes it to be.
-
-    Attributes:
-        unmarked: Expected number of mines without a mark.
-        marked: Expected number of mines at marks.
-        probability: Probability that at least one mine is left in the lane.
-    """
-
-    unmarked: float
-    marked: float
-    probability: float
-
-
-class PassageView(TypedDict):
-    """A path through a lane, and the risk of the vehicles that drive on it.
-
-    Attributes:
-        path: The corners of its middle line, from one short side of the lane to the other.
-        width_m: Its width.
-        length_m: Its length.
-        mines: Expected number of mines within its width.
-        risks: The probability that each vehicle is destroyed, in their order.
-    """
-
-    path: Sequence[Point]
-    width_m: float
-    length_m: float
-    mines: float
-    risks: Sequence[float]
-
-
-class LaneView(TypedDict):
-    """What a controller believes of a lane.
-
-    Attributes:
-        controller: The name of the controller, KIND/INDEX.
-        corners: The lower left and the upper right corner of the lane.
-        cell_m: The side of a cell.
-        columns: Columns of cells.
-        rows: Rows of cells.
-        expected: Base64 of one byte per cell, the lowest row first: expected mines per full
-            cell, on the scale below. Cells that reach beyond the lane are scaled by their area.
-        scale: The scale of these bytes.
-        marks: The places that robots have marked.
-        risk: The remaining risk.
-        declare_below: The lane is declared clear when the probability that at least one mine is
-            left is below this.
-        statement: What the controller has stated about the lane; null until then.
-        cleared: The share of the mines that are cleared, for each kind that makes the lane
-            unsafe.
-        passage: The path on which vehicles are to pass; null until the controller has stated
-            one.
-    """
-
-    controller: str
-    corners: Sequence[Point]
-    cell_m: float
+    corner: Point
+    cell: float
     columns: int
     rows: int
-    expected: str
-    scale: LaneScale
-    marks: Sequence[MarkView]
-    risk: RiskView
-    declare_below: float
-    statement: LaneStatementView | None
-    cleared: Sequence[ClearedView]
-    passage: PassageView | None
+    cells: str
+    scale: Scale
 
 
-VehicleStatus: TypeAlias = Literal["driving", "passed", "lost"]
-"""What has become of a vehicle that passes a lane."""
-
-
-class VehicleView(TypedDict):
-    """A vehicle that passes a lane.
+class Line(TypedDict):
+    """A line.
 
     Attributes:
-        name: Its name, vehicle/INDEX.
-        at: Its position; the beginning of the path before it has entered the lane.
-        has_entered: Whether it has entered the lane.
-        status: What has become of it.
+        points: Its points; only the last one, if it begins at a robot.
+        robot: The robot at which it begins, which stands out while that is selected; null for
+            none. In a periodic world, the line is the shortest to the end.
+        stroke: The stroke.
+        band: A band of this width below the stroke, in units of the world, of the same colour;
+            null for none.
+        opacity: The opacity, 0 to 1.
     """
 
-    name: str
+    points: Sequence[Point]
+    robot: str | None
+    stroke: Stroke
+    band: float | None
+    opacity: float
+
+
+class Marker(TypedDict):
+    """A marker at a place, as large at every zoom.
+
+    Attributes:
+        at: The place.
+        robot: The robot that carries it, between two messages; null for none.
+        symbol: The index of its symbol.
+        label: A label on the right; null for none.
+        opacity: The opacity, 0 to 1.
+        chooses: What a click on it chooses; null for nothing.
+    """
+
     at: Point
-    has_entered: bool
-    status: VehicleStatus
+    robot: str | None
+    symbol: int
+    label: str | None
+    opacity: float
+    chooses: Choose | None
 
 
-class Lanes(TypedDict):
-    """The mined lane while the page requests it, with a maximum rate of 4 Hz.
+class Layer(TypedDict):
+    """A layer: its parts are drawn in this order.
 
     Attributes:
-        tick: The current tick.
-        mines_left: The truth: number of mines in the lane that are not destroyed.
-        vehicles: The truth: the vehicles that pass the lane; none before it is declared clear.
-        lanes: What each controller believes of the lane, in the order of their kinds and
-            indices.
+        clip: The lower left and the upper right corner of the box to which raster and lines are
+            clipped; null for none.
+        raster: A raster.
+        areas: Areas.
+        lines: Lines.
+        symbols: The symbols of markers: each has glyphs, from back to front.
+        markers: Markers.
     """
 
-    type: Literal["lanes"]
-    tick: int
-    mines_left: int
-    vehicles: Sequence[VehicleView]
-    lanes: Sequence[LaneView]
+    clip: Sequence[Point] | None
+    raster: Raster | None
+    areas: Sequence[Area]
+    lines: Sequence[Line]
+    symbols: Sequence[Sequence[Glyph]]
+    markers: Sequence[Marker]
+
+
+LayerPlace: TypeAlias = Literal["ground", "below", "above"]
+"""Where a layer is drawn."""
+
+
+class LayerOffer(TypedDict):
+    """A layer that pages can show.
+
+    Attributes:
+        id: Its name in messages.
+        label: The label of its switch.
+        is_on: Whether it is shown at first.
+        place: Where it is drawn.
+        heading: The heading of its keys in the legend; layers with the same heading are under
+            it together.
+        keys: The keys of the legend.
+    """
+
+    id: str
+    label: str
+    is_on: bool
+    place: LayerPlace
+    heading: str
+    keys: Sequence[Key]
 
 
 LoggedChange: TypeAlias = tuple[int, str, Any]
@@ -613,6 +670,33 @@ class ObstacleView(TypedDict):
     circle: CircleView | None
 
 
+class PanelOffer(TypedDict):
+    """A panel that pages can show.
+
+    Attributes:
+        id: Its name in messages.
+        label: The label of its tab, or its heading.
+        is_of_robot: Whether it is about the selected robot, and stands with what else is known
+            of that.
+    """
+
+    id: str
+    label: str
+    is_of_robot: bool
+
+
+class Offer(TypedDict):
+    """What pages can show of a run; part of its setting.
+
+    Attributes:
+        layers: Layers of the view, from bottom to top.
+        panels: Panels, in the order of their tabs.
+    """
+
+    layers: Sequence[LayerOffer]
+    panels: Sequence[PanelOffer]
+
+
 class OpenedScenario(TypedDict):
     """The scenario of an opened run.
 
@@ -666,6 +750,91 @@ class Opened(TypedDict):
 
 Origin: TypeAlias = Literal["bundled", "folder"]
 """Where a scenario is."""
+
+
+class Switch(TypedDict):
+    """The switch of a layer in a panel.
+
+    Attributes:
+        layer: The id of the layer.
+        label: Its label.
+    """
+
+    layer: str
+    label: str
+
+
+class Paragraph(TypedDict):
+    """A paragraph.
+
+    Attributes:
+        text: The text.
+        emphasis: How it stands out.
+    """
+
+    text: str
+    emphasis: Emphasis
+
+
+class Row(TypedDict):
+    """A row of a table.
+
+    Attributes:
+        cells: A cell per column.
+        note: A line below it; null for none.
+    """
+
+    cells: Sequence[Cell]
+    note: str | None
+
+
+class Table(TypedDict):
+    """A table.
+
+    Attributes:
+        columns: The columns; empty for a table without a head, of labels and numbers.
+        rows: The rows that are shown.
+        total: The number of all rows.
+    """
+
+    columns: Sequence[Column]
+    rows: Sequence[Row]
+    total: int
+
+
+class Section(TypedDict):
+    """A section of a panel.
+
+    Attributes:
+        heading: Its heading; null for none.
+        choice: A choice before everything else.
+        switch: The switch of a layer without which the rest of the section is hidden; null for
+            none.
+        paragraphs: Paragraphs.
+        button: A button that changes the scenario; null for none.
+        table: A table; null for none.
+        legend: The heading of the part of the legend at its end; null for none.
+    """
+
+    heading: str | None
+    choice: Choice | None
+    switch: Switch | None
+    paragraphs: Sequence[Paragraph]
+    button: Button | None
+    table: Table | None
+    legend: str | None
+
+
+class Panel(TypedDict):
+    """A panel: its sections.
+
+    Attributes:
+        note: What its heading counts; null for nothing.
+        sections: The sections.
+    """
+
+    note: str | None
+    sections: Sequence[Section]
 
 
 PathStep: TypeAlias = str | int
@@ -911,6 +1080,7 @@ class Setting(TypedDict):
         item_kinds: The item kinds, in the order of the indices in percepts.
         obstacles: Obstacles other than maps, with all copies.
         maps: Maps of obstacles.
+        offer: What pages can show of the run besides.
     """
 
     type: Literal["setting"]
@@ -928,6 +1098,22 @@ class Setting(TypedDict):
     item_kinds: Sequence[str]
     obstacles: Sequence[ObstacleView]
     maps: Sequence[MapView]
+    offer: Offer
+
+
+class Shown(TypedDict):
+    """The layers and panels that the page has requested, with a maximum rate of 4 Hz.
+
+    Attributes:
+        tick: The current tick.
+        layers: The layers by id.
+        panels: The panels by id.
+    """
+
+    type: Literal["shown"]
+    tick: int
+    layers: Mapping[str, Layer]
+    panels: Mapping[str, Panel]
 
 
 Standing: TypeAlias = tuple[
@@ -1297,8 +1483,7 @@ ServerMessage = (
     | Setting
     | State
     | MapPart
-    | Economy
-    | Lanes
+    | Shown
     | Saving
     | Saved
     | Exported
@@ -1425,20 +1610,19 @@ class Select(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="selec
     robot: str | None = None
 
 
-class Layers(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="layers"):
+class Show(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="show"):
     """Select what is sent with frames.
 
     Attributes:
-        links: Radio links between robots.
-        footprints: Areas that sensors cover.
-        economy: Goals and controllers, of a run that has any.
-        lanes: The mined lane, of a run whose controllers are to clear one.
+        layers: Ids of layers that the setting offers; and `links`, radio links between robots,
+            and `footprints`, the areas that sensors cover.
+        panels: Ids of panels that the setting offers.
+        choices: What has been chosen in panels and with markers, by key.
     """
 
-    links: bool
-    footprints: bool
-    economy: bool = False
-    lanes: bool = False
+    layers: Sequence[str]
+    panels: Sequence[str] = []
+    choices: Mapping[str, str] = {}
 
 
 class RequestSeries(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="request_series"):
@@ -1475,7 +1659,7 @@ PageMessage = (
     | CancelSave
     | Export
     | Select
-    | Layers
+    | Show
     | RequestSeries
     | Acknowledge
 )

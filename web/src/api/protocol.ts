@@ -1,5 +1,5 @@
 /** The messages between page and server, and what brains exchange: generated from the Rust types. */
-import type { Json, Layers, State } from "./generated/page";
+import type { Json, Show, State } from "./generated/page";
 
 export type * from "./generated/brain";
 export type * from "./generated/page";
@@ -9,12 +9,13 @@ export type {
   LoggedChange as Change,
   Series as SeriesAnswer,
   StudyMember as StudyConfiguration,
+  Table as TableData,
 } from "./generated/page";
 
 export type Table = { [key: string]: Json };
 
-/** What frames are sent with. */
-export type OverlayRequest = Omit<Layers, "type">;
+/** What is sent with frames. */
+export type ShowRequest = Required<Omit<Show, "type">>;
 
 export type Speed = number | null;
 

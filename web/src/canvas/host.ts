@@ -1,4 +1,4 @@
-import type { Economy, Json, Lanes, Setting, State } from "../api/protocol";
+import type { Choose, Json, Setting, State, Shown as ShownData } from "../api/protocol";
 import type { BelievedMap } from "../shared/believed_map";
 import type { Link } from "../shared/link";
 import type { Camera } from "./camera";
@@ -14,12 +14,8 @@ export interface Host {
   readonly tool: ToolId;
   /** The kind of item that the item tool places. */
   readonly itemKind: string;
-  /** The controller that is chosen in the panel; null for none. */
-  readonly controller: string | null;
-  /** The controller whose belief of the mined lane is drawn; null for the first. */
-  readonly laneController: string | null;
-  /** Chooses a controller, which shows its goals. */
-  chooseController(name: string): void;
+  /** Chooses a value, or takes it back, and opens the panel that shows the consequence. */
+  choose(choose: Choose): void;
   /** Whether the selected robot stays in the centre. */
   follows: boolean;
   camera: Camera | null;
@@ -30,8 +26,7 @@ export interface DrawnRun {
   readonly setting: Setting | null;
   readonly state: Pick<State, "is_playing" | "inspection" | "robot"> | null;
   readonly map: BelievedMap | null;
-  readonly economy: Economy | null;
-  readonly lanes: Lanes | null;
+  readonly shown: ShownData | null;
   readonly selected: string | null;
   readonly frames: FrameQueue;
   /** Called when there is something new to draw. */

@@ -1,6 +1,4 @@
-import type { Point } from "../api/protocol";
-import { controllerAt } from "../shared/economy";
-import { laneOf } from "../shared/lane";
+import type { Choose, Point, Shown } from "../api/protocol";
 import { robotAt } from "../shared/robots";
 import { type World, worldOf } from "../shared/world";
 import { type Camera, fitTo, pan, resize, toWorld, zoomAt } from "./camera";
@@ -95,16 +93,15 @@ export class Stage {
     return { at: toWorld(this.camera, ...at), tolerance: tapTolerance_px / this.camera.scale };
   }
 
-  /** Selects the robot at a pixel, or the controller if it is drawn, or none. */
+  /** Selects the robot at a pixel, or chooses what a marker there chooses, or selects none. */
   private tap(at: Point): void {
-    const { session, layers } = this.host;
-    const { shown } = session.frames;
-    if (!session.setting || !shown) return;
+    const { session } = this.host;
+    const frame = session.frames.shown;
+    if (!session.setting || !frame) return;
     const { at: place, tolerance } = this.place(at);
-    const robot = session.setting.robots[robotAt(shown, session.setting, ...place, tolerance)] ?? null;
-    const controllers = layers.economy === true ? (session.economy?.controllers ?? []) : [];
-    const controller = controllerAt(controllers, place, tolerance);
-    if (robot === null && controller !== null) this.host.chooseController(controller);
+    const robot = session.setting.robots[robotAt(frame, session.setting, ...place, tolerance)] ?? null;
+    const choice = choiceAt(session.shown, place, tolerance);
+    if (robot === null && choice !== null) this.host.choose(choice);
     else session.select(robot);
   }
 
@@ -172,7 +169,7 @@ export class Stage {
   }
 
   private scene(): Scene | null {
-    const { setting, state, map, economy, lanes, selected } = this.host.session;
+    const { setting, state, map, shown, selected } = this.host.session;
     if (!setting) return null;
     const frame = this.interpolation.at(
       performance.now(),
@@ -189,10 +186,7 @@ export class Stage {
       frame: frame?.generation === setting.generation ? frame : null,
       inspection: state?.inspection ?? null,
       map,
-      economy,
-      lane: laneOf(lanes, this.host.laneController),
-      vehicles: lanes?.vehicles ?? [],
-      controller: this.host.controller,
+      shown,
       robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),
       trails: this.trails,
@@ -211,4 +205,16 @@ export class Stage {
       : fitTo(size, width, height);
     this.host.camera = this.camera;
   }
+}
+
+/** What the nearest marker within a distance chooses; null if there is none. */
+function choiceAt(shown: Shown | null, [x, y]: Point, within: number): Choose | null {
+  const markers = Object.values(shown?.layers ?? {}).flatMap((layer) => layer.markers);
+  const distances = markers.map(({ at, chooses }) => ({
+    chooses,
+    distance: Math.hypot(at[0] - x, at[1] - y),
+  }));
+  const near = distances.filter(({ chooses, distance }) => chooses !== null && distance <= within);
+  near.sort((a, b) => a.distance - b.distance);
+  return near[0]?.chooses ?? null;
 }

@@ -187,8 +187,8 @@ class PageConnection:
                 self.post(await host.in_thread(lambda: host.run.series.since(since)))
             case page.Select(robot=robot):
                 self._display.select(robot)
-            case page.Layers():
-                self._display.set_layers(message)
+            case page.Show():
+                self._display.show(message)
             case _:
                 await host.in_thread(lambda: host.player.handle(message, time.monotonic()))
 

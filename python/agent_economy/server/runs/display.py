@@ -1,9 +1,10 @@
-"""What the page of a run is sent, and when: settings, frames, overlays, states, maps and goals.
+"""What the page of a run is sent, and when: settings, frames, overlays, states, maps and layers.
 
 A page that draws slowly is sent fewer frames: at most `MAX_IN_FLIGHT` are not acknowledged.
 """
 
 from collections import deque
+from typing import Any
 
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.belief_view import Selected
@@ -12,11 +13,12 @@ from agent_economy.server.runs.frames import frame, setting
 from agent_economy.server.runs.overlay import Overlay
 from agent_economy.server.runs.player import Player
 from agent_economy.server.runs.run import Run
-from agent_economy.types.page import Layers, ServerMessage, State
+from agent_economy.server.runs.shown import subjects
+from agent_economy.types.page import ServerMessage, Show, State
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
-"""Minimum time between two frames, two states, and two maps of a robot, which goals, controllers
-and lanes come with. Steps of 1/30 s get a frame each."""
+"""Minimum time between two frames, two states, and two maps of a robot, which layers and
+panels come with. Steps of 1/30 s get a frame each."""
 
 MAX_IN_FLIGHT = 3
 """Frames that the page has not acknowledged."""
@@ -41,17 +43,24 @@ class Display:
         """Show another run, with no robot selected."""
         self._sent_setting = None
         self._selected = engines.of(run.simulation).selected()
-        self._overlay.choose(None)
+        self._request(robot=None)
 
     def select(self, robot: str | None) -> None:
         """Show what a robot perceives and believes, or none."""
         self._selected.choose(robot)
-        self._overlay.choose(robot)
-        self._map_at_s = 0.0
+        self._request(robot=robot)
 
-    def set_layers(self, layers: Layers) -> None:
-        """Send frames with these overlays from now on."""
-        self._overlay.set_layers(layers)
+    def show(self, message: Show) -> None:
+        """Send these layers and panels from now on."""
+        self._request(
+            layers=frozenset(message.layers),
+            panels=frozenset(message.panels),
+            choices=message.choices,
+        )
+
+    def _request(self, **changed: Any) -> None:
+        self._overlay.request = self._overlay.request._replace(**changed)
+        self._map_at_s = 0.0
 
     def acknowledge(self, number: int) -> None:
         """Note that the page has drawn a frame, and all before it."""
@@ -90,10 +99,8 @@ class Display:
             self._map_at_s, self._owes_map = now_s, False
             if part := self._selected.map(run.simulation):
                 outputs.append(part)
-            if economy := self._overlay.economy(run.simulation):
-                outputs.append(economy)
-            if lanes := self._overlay.lanes(run.simulation):
-                outputs.append(lanes)
+            if shown := subjects.shown(run.simulation, self._overlay.request):
+                outputs.append(shown)
         return outputs
 
     def _setting(self, run: Run) -> list[Output]:

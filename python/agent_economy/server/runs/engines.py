@@ -7,12 +7,10 @@ from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import (
     belief_view,
     classic_view,
-    economy_view,
-    lane_view,
     metric_overlay,
     metric_view,
 )
-from agent_economy.types.page import Economy, Inspection, Lanes, MapPart, RobotView
+from agent_economy.types.page import Inspection, MapPart, RobotView
 
 
 class Selection(Protocol):
@@ -44,10 +42,6 @@ class Engine(NamedTuple):
         selected: Returns the selection of a new run.
         links: Draws the radio links, encoded as in `overlay`; None if robots have no radios.
         footprints: Draws the areas that sensors cover; None if robots have no sensors.
-        economy: Returns the goals and controllers, with a robot selected or None; None if runs of
-            the engine have neither.
-        lanes: Returns the mined lane as each controller believes it to be; None if runs of the
-            engine have none.
     """
 
     drawn: Callable[[Any], bytes]
@@ -55,8 +49,6 @@ class Engine(NamedTuple):
     selected: Callable[[], Selection]
     links: DrawOverlay | None
     footprints: DrawOverlay | None
-    economy: Callable[[Any, str | None], Economy | None] | None
-    lanes: Callable[[Any], Lanes | None] | None
 
 
 ENGINES = {
@@ -66,12 +58,8 @@ ENGINES = {
         belief_view.Selected,
         metric_overlay.links,
         metric_overlay.footprints,
-        economy_view.economy,
-        lane_view.lanes,
     ),
-    "classic": Engine(
-        classic_view.drawn, classic_view.still, classic_view.Selected, None, None, None, None
-    ),
+    "classic": Engine(classic_view.drawn, classic_view.still, classic_view.Selected, None, None),
 }
 
 

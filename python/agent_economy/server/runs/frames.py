@@ -13,6 +13,7 @@ from agent_economy.runs.stepped import Stepped
 from agent_economy.server.parameters import parameters
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.run import Run
+from agent_economy.server.runs.shown import subjects
 from agent_economy.types.page import Setting
 
 KIND = 1
@@ -46,6 +47,7 @@ def setting(run: Run, generation: int) -> Setting:
         "external": simulation.declared_external,
         "changes": simulation.changes,
         "log": None if run.is_recorded else log,
+        "offer": subjects.offer(simulation),
     }
     whole: Setting = own | engines.of(simulation).still(simulation)
     return whole

@@ -9,7 +9,7 @@ import struct
 
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import engines
-from agent_economy.types.page import Economy, Lanes, Layers
+from agent_economy.server.runs.shown.subject import FOOTPRINTS, LINKS, Request
 
 KIND = 2
 """The first number of an overlay, which distinguishes it from a frame."""
@@ -21,20 +21,15 @@ LINK_BYTES = 12
 
 
 class Overlay:
-    """The layers that a page has turned on, and the robot that it has selected."""
+    """The layers that a page has turned on, and the robot that it has selected.
+
+    Attributes:
+        request: What the page has requested. A robot that does not exist has no overlay of its own.
+    """
 
     def __init__(self) -> None:
         """Begin without layers."""
-        self._layers = Layers(links=False, footprints=False, economy=False, lanes=False)
-        self._robot: str | None = None
-
-    def set_layers(self, layers: Layers) -> None:
-        """Turn layers on or off."""
-        self._layers = layers
-
-    def choose(self, robot: str | None) -> None:
-        """Select a robot, or none; a robot that does not exist has no overlay of its own."""
-        self._robot = robot
+        self.request = Request()
 
     def is_shown(self, simulation: Stepped) -> bool:
         """Return whether frames of a run have an overlay."""
@@ -43,23 +38,14 @@ class Overlay:
     def over(self, simulation: Stepped, frame: int) -> bytes:
         """Return the overlay of the frame of the current moment."""
         links, footprints = (
-            draw(simulation, self._robot) if draw else b"" for draw in self._layers_of(simulation)
+            draw(simulation, self.request.robot) if draw else b""
+            for draw in self._layers_of(simulation)
         )
         return HEADER.pack(KIND, frame, len(links) // LINK_BYTES) + links + footprints
 
-    def economy(self, simulation: Stepped) -> Economy | None:
-        """Return goals and controllers; None if they are not requested, or there are none."""
-        draw = engines.of(simulation).economy
-        return draw(simulation, self._robot) if draw and self._layers.economy else None
-
-    def lanes(self, simulation: Stepped) -> Lanes | None:
-        """Return the mined lane; None if it is not requested, or there is none."""
-        draw = engines.of(simulation).lanes
-        return draw(simulation) if draw and self._layers.lanes else None
-
     def _layers_of(self, simulation: Stepped) -> list[engines.DrawOverlay | None]:
-        engine, layers = engines.of(simulation), self._layers
+        engine, layers = engines.of(simulation), self.request.layers
         return [
-            engine.links if layers.links else None,
-            engine.footprints if layers.footprints else None,
+            engine.links if LINKS in layers else None,
+            engine.footprints if FOOTPRINTS in layers else None,
         ]

@@ -1,15 +1,5 @@
 import type { Frame } from "../../api/frames";
-import type {
-  Economy,
-  Engine,
-  Inspection,
-  LaneView,
-  ObstacleView,
-  Point,
-  RobotView,
-  Setting,
-  VehicleView,
-} from "../../api/protocol";
+import type { Engine, Inspection, ObstacleView, Point, RobotView, Setting, Shown } from "../../api/protocol";
 import type { BelievedMap } from "../../shared/believed_map";
 import type { World } from "../../shared/world";
 import type { Camera } from "../camera";
@@ -24,14 +14,8 @@ export interface Scene {
   inspection: Inspection | null;
   /** The believed map of the selected robot. */
   map: BelievedMap | null;
-  /** Goals and controllers; null if they are not requested, or there are none. */
-  economy: Economy | null;
-  /** The mined lane as the chosen controller believes it to be; null if it is not requested, or there is none. */
-  lane: LaneView | null;
-  /** The vehicles that pass that lane. */
-  vehicles: VehicleView[];
-  /** The controller that is chosen in the panel; null for none. */
-  controller: string | null;
+  /** The layers that the server has sent; null if there are none. */
+  shown: Shown | null;
   /** The engine's report about the selected robot. */
   robot: RobotView | null;
   /** Number of the selected robot; -1 for none. */
@@ -58,8 +42,6 @@ export interface Layer {
   place: "still" | "over";
   /** The only engine that has this layer; left out: both. */
   only?: Engine;
-  /** Whether users have the switch in a run; left out: in all. */
-  offered?(setting: Setting): boolean;
   /** Whether there is anything to draw; an empty canvas is hidden, which costs nothing. */
   active(scene: Scene): boolean;
   draw(pen: Pen, scene: Scene): void;

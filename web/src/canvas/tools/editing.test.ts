@@ -49,6 +49,7 @@ const setting: Setting = {
     { entry: 1, polygon: null, circle: { at: [15, 5], radius: 2 } },
   ],
   maps: [],
+  offer: { layers: [], panels: [] },
   item_kinds: ["mine"],
   parameters: [],
   external: [],

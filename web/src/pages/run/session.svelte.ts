@@ -4,18 +4,17 @@ import type { ServerMessage } from "../../api/protocol";
 import type {
   Change,
   PageMessage,
-  Economy,
   Ended,
   Json,
-  Lanes,
   MapPart,
   Opened,
-  OverlayRequest,
   RecordingEntry,
   Refused,
   Saving,
   SeriesAnswer,
   Setting,
+  Shown,
+  ShowRequest,
   Speed,
   State,
 } from "../../api/protocol";
@@ -54,12 +53,10 @@ export class Session implements Listener {
   selected = $state.raw<string | null>(null);
   /** The believed map of the selected robot. */
   map = $state.raw<BelievedMap | null>(null);
-  /** Goals and controllers while they are requested. */
-  economy = $state.raw<Economy | null>(null);
-  /** The mined lane while it is requested. */
-  lanes = $state.raw<Lanes | null>(null);
-  /** The overlays that frames come with. */
-  overlays = $state.raw<OverlayRequest | null>(null);
+  /** The layers and panels that are requested, once they have arrived. */
+  shown = $state.raw<Shown | null>(null);
+  /** What is sent with frames. */
+  request = $state.raw<ShowRequest | null>(null);
   /** Progress of the recording that is being saved. */
   saving = $state.raw<Pick<Saving, "done" | "steps"> | null>(null);
   /** The recording that was saved last, and the changes in it. */
@@ -216,19 +213,18 @@ export class Session implements Listener {
     this.send({ type: "select", robot });
   }
 
-  /** Requests the overlays that frames come with from now on. */
-  requestOverlays(overlays: OverlayRequest): void {
-    this.overlays = overlays;
-    if (!overlays.economy) this.economy = null;
-    if (!overlays.lanes) this.lanes = null;
-    this.send({ type: "layers", ...overlays });
+  /** Requests what is sent with frames from now on. */
+  show(request: ShowRequest): void {
+    this.request = request;
+    this.shown = this.shown && requested(this.shown, request);
+    this.send({ type: "show", ...request });
   }
 
   // Events of the connection.
 
   ready(): void {
     this.frames.clear();
-    if (this.overlays) this.requestOverlays(this.overlays);
+    if (this.request) this.show(this.request);
     this.send(this.opening());
   }
 
@@ -255,8 +251,7 @@ export class Session implements Listener {
     else if (message.type === "setting") this.receiveSetting(message);
     else if (message.type === "state") this.receiveState(message);
     else if (message.type === "map") this.receiveMap(message);
-    else if (message.type === "economy") this.receiveEconomy(message);
-    else if (message.type === "lanes") this.receiveLanes(message);
+    else if (message.type === "shown") this.receiveShown(message);
     else if (message.type === "refused") this.receiveRefusal(message);
     else if (message.type === "saving") this.saving = message;
     else if (message.type === "saved") this.receiveSaved(message.recording);
@@ -278,8 +273,7 @@ export class Session implements Listener {
     this.opened = opened;
     this.phase = { name: "open" };
     this.map = null;
-    this.economy = null;
-    this.lanes = null;
+    this.shown = null;
     this.awaitsSeries = false;
     if (this.selected !== null) this.send({ type: "select", robot: this.selected });
     const unsent = Object.entries(this.unsent);
@@ -324,15 +318,10 @@ export class Session implements Listener {
     this.onFrame();
   }
 
-  private receiveEconomy(economy: Economy): void {
-    // Sent before the server had received that they are no longer requested.
-    if (!this.overlays?.economy) return;
-    this.economy = economy;
+  private receiveShown(shown: Shown): void {
+    // It may have been sent before the server had received what is requested now.
+    if (this.request) this.shown = requested(shown, this.request);
     this.onFrame();
-  }
-
-  private receiveLanes(lanes: Lanes): void {
-    if (this.overlays?.lanes) this.lanes = lanes;
   }
 
   private receiveSaved(recording: RecordingEntry | null): void {
@@ -389,4 +378,11 @@ export class Session implements Listener {
   private send(command: PageMessage): boolean {
     return this.connection.send(command);
   }
+}
+
+/** The layers and panels that are requested. */
+function requested(shown: Shown, { layers, panels }: ShowRequest): Shown {
+  const of = <T>(all: Record<string, T>, names: string[]) =>
+    Object.fromEntries(Object.entries(all).filter(([name]) => names.includes(name)));
+  return { ...shown, layers: of(shown.layers, layers), panels: of(shown.panels, panels) };
 }

@@ -184,27 +184,19 @@ test("one request for the series is under way at a time", () => {
   expect(session.series.rows.map(({ tick }) => tick)).toEqual([4, 11]);
 });
 
-test("goals and controllers are kept only while they are requested", () => {
+test("layers and panels are kept only while they are requested", () => {
   connect();
-  const economy = { type: "economy", tick: 9, goals: [], controllers: [], service: null };
-  session.requestOverlays({ links: false, footprints: false, economy: true });
-  receive(economy);
-  expect(session.economy?.tick).toBe(9);
-  session.requestOverlays({ links: false, footprints: false, economy: false });
-  expect(session.economy).toBeNull();
+  const shown = { type: "shown", tick: 9, layers: { economy: {}, "lane-risk": {} }, panels: { lane: {} } };
+  const names = () => [
+    ...Object.keys(session.shown?.layers ?? {}),
+    ...Object.keys(session.shown?.panels ?? {}),
+  ];
+  session.show({ layers: ["economy", "lane-risk"], panels: ["lane"], choices: {} });
+  receive(shown);
+  expect(names()).toEqual(["economy", "lane-risk", "lane"]);
+  session.show({ layers: ["economy"], panels: [], choices: {} });
+  expect(names()).toEqual(["economy"]);
   // Sent before the server had received the request.
-  receive(economy);
-  expect(session.economy).toBeNull();
-});
-
-test("the lane is kept only while it is requested", () => {
-  connect();
-  const lanes = { type: "lanes", tick: 9, mines_left: 2, vehicles: [], lanes: [] };
-  session.requestOverlays({ links: false, footprints: false, economy: false, lanes: true });
-  receive(lanes);
-  expect(session.lanes?.mines_left).toBe(2);
-  session.requestOverlays({ links: false, footprints: false, economy: false, lanes: false });
-  expect(session.lanes).toBeNull();
-  receive(lanes);
-  expect(session.lanes).toBeNull();
+  receive(shown);
+  expect(names()).toEqual(["economy"]);
 });

@@ -1,4 +1,4 @@
-import type { StudyConfiguration } from "../../api/protocol";
+import type { Choose, LayerOffer, ShowRequest, StudyConfiguration } from "../../api/protocol";
 import { runsOf } from "../../api/studies";
 import type { Link } from "../../shared/link";
 import { Session } from "./session.svelte";
@@ -19,22 +19,21 @@ export class Viewer implements Host {
   tool = $state<ToolId>("select");
   /** The kind that the item tool places. */
   itemKind = $state("");
-  /** The panel that is open. */
-  panel = $state("");
-  /** The controller whose goals stand out; null for those of all. */
-  controller = $state<string | null>(null);
-  /** The controller whose belief of the mined lane is shown; null for the first. */
-  laneController = $state<string | null>(null);
+  /** The label of the panel that is open. */
+  panel = $state("Results");
+  /** What has been chosen in panels and with markers, by key. */
+  choices = $state<Record<string, string>>({});
   /** Whether each section of the robot panel is open. */
   sections = $state({
     command: true,
-    serves: true,
     percept: true,
     goals: true,
     headings: false,
     items: true,
     map: false,
   });
+  /** The same for the sections that the server offers, by id; left out: open. */
+  offeredSections = $state<Record<string, boolean>>({});
   /** Playback speed; null for the maximum. */
   speed = $state<number | null>(1);
   /** Whether the view follows the selected robot. */
@@ -61,8 +60,27 @@ export class Viewer implements Host {
     return `Run ${run} of ${name}, ${this.label || `configuration ${study.configuration}`}`;
   }
 
-  chooseController(name: string): void {
-    this.controller = name;
+  choose({ key, value, panel }: Choose): void {
+    if (this.choices[key] === value) delete this.choices[key];
+    else this.choices[key] = value;
+    this.panel = this.session.setting?.offer.panels.find(({ id }) => id === panel)?.label ?? this.panel;
+  }
+
+  /** Whether a layer that the server offers is on. */
+  isOn({ id, is_on }: LayerOffer): boolean {
+    return this.layers[id] ?? is_on;
+  }
+
+  /** What is drawn and displayed, of what the server sends on request. */
+  get request(): ShowRequest {
+    const { layers = [], panels = [] } = this.session.setting?.offer ?? {};
+    const overlays = ["links", "footprints"].filter((id) => this.layers[id]);
+    const isOpen = (label: string, isOfRobot: boolean) => this.panel === (isOfRobot ? "Robot" : label);
+    return {
+      layers: [...overlays, ...layers.filter((layer) => this.isOn(layer)).map(({ id }) => id)],
+      panels: panels.filter(({ label, is_of_robot }) => isOpen(label, is_of_robot)).map(({ id }) => id),
+      choices: this.choices,
+    };
   }
 
   toggle(): void {
