@@ -119,7 +119,8 @@ def opening(scenario: str, tick: int = 0) -> tuple[Message, int]:
 
 
 def layers(*, links: bool, footprints: bool) -> Message:
-    return {"type": "layers", "links": links, "footprints": footprints}
+    shown = {"links": links, "footprints": footprints}
+    return {"type": "show", "layers": [name for name, is_shown in shown.items() if is_shown]}
 
 
 def read(overlay: bytes) -> tuple[list[list[int]], list[tuple[int, int, float, Corners]]]:
@@ -252,7 +253,7 @@ def test_a_page_that_draws_nothing_gets_no_more_overlays_than_frames(tmp_path: P
 
 
 def test_invalid_layers_are_refused_with_a_reason(tmp_path: Path) -> None:
-    page = Page([({"type": "layers", "links": 1}, 0)])
+    page = Page([({"type": "show", "layers": 1}, 0)])
     serve_page(page, tmp_path)
     (refused,) = page.sent
     assert isinstance(refused, dict)

@@ -3,7 +3,7 @@
 use crate::brain::checked;
 use crate::error::input_error;
 use base::error::InputErrors;
-use protocol::{Acknowledge, Change, Empty, Layers, Open, Play, Seek, Select, Step};
+use protocol::{Acknowledge, Change, Empty, Open, Play, Seek, Select, Show, Step};
 use pyo3::prelude::*;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -18,7 +18,7 @@ pub(crate) fn check_page_message(kind: &str, message: &Bound<PyAny>) -> PyResult
         "seek" => check::<Seek>(kind, message),
         "change" => check::<Change>(kind, message),
         "select" => check::<Select>(kind, message),
-        "layers" => check::<Layers>(kind, message),
+        "show" => check::<Show>(kind, message),
         "acknowledge" => check::<Acknowledge>(kind, message),
         _ => check::<Empty>(kind, message),
     }
