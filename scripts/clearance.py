@@ -61,7 +61,7 @@ DIRECTION_RUNS, TEAM_RUNS = 300, 100
 SIGMAS = 2.0
 """Without an effect, a paired difference has this many standard errors in 2.3% of the cases."""
 
-CLEAR_SHARE, SLOW_M_S = 0.65, 1.5
+CLEAR_SHARE, SLOW_M_S = 0.85, 1.5
 """The cheapest team declares the bundled lane clear, rightly, in this share of the runs or more.
 
 Its air vehicles are slow: then more of them save a second search on the ground.
@@ -260,14 +260,14 @@ def directions(scale: float) -> Iterable[Direction]:
     number = max(30, round(scale * DIRECTION_RUNS))
     clutter = {"mine": 3, "clutter": 40}
     more: Changes = {"items.clutter.count": 40, **dict.fromkeys(BELIEFS, clutter)}
-    better = of_kinds([DETECTION], 0.5)
+    worse = of_kinds([DETECTION], 0.05)
     stated = of_kinds(BLIND, 0.1)
     blind = of_kinds(BLIND, 0.2) | {
         f"{each}.believed.blind_share": {"mine": 0.1} for each in SENSORS
     }
     time_s, not_clear = "declared_s", "declared_not_clear"
     changes: list[tuple[str, Changes, Changes, str, int]] = [
-        ("a better sensor of ground vehicles", {}, better, time_s, -1),
+        ("a worse sensor of ground vehicles", {}, worse, time_s, 1),
         ("a lower blind share", of_kinds(BLIND, 0.1), {}, time_s, -1),
         ("more clutter", {}, more, time_s, 1),
         ("60% of messages lost", {}, lossy(0.6), time_s, 1),
