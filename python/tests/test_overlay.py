@@ -257,7 +257,8 @@ def test_invalid_layers_are_refused_with_a_reason(tmp_path: Path) -> None:
     serve_page(page, tmp_path)
     (refused,) = page.sent
     assert isinstance(refused, dict)
-    assert "show.layers = 1: must be a list of at most 100 strings" in refused["errors"][0]["message"]
+    reason = refused["errors"][0]["message"]
+    assert "show.layers = 1: must be a list of at most 100 strings" in reason
 
 
 @pytest.mark.parametrize("name", ["open-field", "flock"])
