@@ -22,14 +22,12 @@ from agent_economy.server.runs.shown.drawing import (
     line,
     stroke,
 )
+from agent_economy.server.runs.shown.lane_choice import chosen_lane
 from agent_economy.server.runs.shown.subject import Contents, Request, Subject
 from agent_economy.types.brain import Point
 from agent_economy.types.page import Colour, Glyph, Key, Layer, LayerOffer, ScaleTick, Shape
 
 RISK, PATH, MARKS, PANEL = "lane-risk", "lane-path", "lane-marks", "lane"
-CONTROLLER = "lane"
-"""The choice of the controller whose belief is shown."""
-
 DECADES_BELOW, DECADES_ABOVE = 1, 4
 """Decades of the scale below and above the value of a cell that is just cleared. 255 steps are 51 a
 decade: that value is a step, so that the bytes decide exactly which cells are cleared."""
@@ -77,19 +75,17 @@ def is_in(document: Mapping[str, Any]) -> bool:
 
 
 def contents(simulation: Simulation, request: Request) -> Contents | None:
-    """Return what the chosen controller believes; of the first, if none has been chosen."""
-    lanes = simulation.lanes
-    if not lanes:
+    """Return what the chosen controller believes; None if there is no lane."""
+    lane = chosen_lane(simulation, request)
+    if lane is None:
         return None
-    chosen = request.choices.get(CONTROLLER)
-    lane = next((lane for lane in lanes if lane.controller == chosen), lanes[0])
     return Contents(
         layers={
             RISK: lambda: risk_layer(lane),
             PATH: lambda: path_layer(lane),
             MARKS: lambda: marks_layer(lane),
         },
-        panels={PANEL: lambda: lane_panel.panel(simulation, lane, CONTROLLER)},
+        panels={PANEL: lambda: lane_panel.panel(simulation, lane)},
     )
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from agent_economy.runs.lane import BelievedLane, LaneMark
 from agent_economy.runs.simulation import Simulation
 from agent_economy.server.runs.shown import passage
+from agent_economy.server.runs.shown.lane_choice import CONTROLLER
 from agent_economy.server.runs.shown.tables import (
     muted,
     percent,
@@ -33,14 +34,14 @@ EXPLANATION = (
 )
 
 
-def panel(simulation: Simulation, lane: BelievedLane, choice: str) -> Panel:
-    """Return the panel for the belief of a controller, which is the value of a choice."""
-    return {"note": None, "sections": list(sections(simulation, lane, choice))}
+def panel(simulation: Simulation, lane: BelievedLane) -> Panel:
+    """Return the panel for the belief of a controller."""
+    return {"note": None, "sections": list(sections(simulation, lane))}
 
 
-def sections(simulation: Simulation, lane: BelievedLane, choice: str) -> Iterator[Section]:
+def sections(simulation: Simulation, lane: BelievedLane) -> Iterator[Section]:
     """Yield the sections."""
-    yield belief(simulation, lane, choice)
+    yield belief(simulation, lane)
     if lane.passage is not None:
         yield passage.section_of(lane.passage)
     vehicles = simulation.vehicles
@@ -55,11 +56,11 @@ def sections(simulation: Simulation, lane: BelievedLane, choice: str) -> Iterato
     yield section() | {"paragraphs": [muted(EXPLANATION)]}
 
 
-def belief(simulation: Simulation, lane: BelievedLane, choice: str) -> Section:
+def belief(simulation: Simulation, lane: BelievedLane) -> Section:
     """Return what the controller believes."""
     names = [each.controller for each in simulation.lanes]
     chosen: Choice = {
-        "key": choice,
+        "key": CONTROLLER,
         "label": "Controller",
         "options": names,
         "chosen": lane.controller,

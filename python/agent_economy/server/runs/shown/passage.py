@@ -16,13 +16,12 @@ from agent_economy.server.runs.shown.drawing import (
     line,
     stroke,
 )
+from agent_economy.server.runs.shown.lane_choice import chosen_lane
 from agent_economy.server.runs.shown.subject import Contents, Request, Subject
 from agent_economy.server.runs.shown.tables import percent, plain, plural, section, strong
 from agent_economy.types.page import Glyph, Layer, Section
 
 PATH, VEHICLES = "passage", "vehicles"
-CONTROLLER = "lane"
-"""The choice of the controller whose statement is shown, which is that of the lane."""
 
 HEADING = "Passage"
 BAND = stroke("accent", 1.5, is_dashed=True)
@@ -35,9 +34,7 @@ def is_in(document: Mapping[str, Any]) -> bool:
 
 def contents(simulation: Simulation, request: Request) -> Contents | None:
     """Return the path that the chosen controller states, and the vehicles."""
-    lanes = simulation.lanes
-    chosen = request.choices.get(CONTROLLER)
-    lane = next((lane for lane in lanes if lane.controller == chosen), lanes[0] if lanes else None)
+    lane = chosen_lane(simulation, request)
     if lane is None:
         return None
     path, corners = lane.passage, lane.corners_m
