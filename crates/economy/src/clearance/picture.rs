@@ -153,8 +153,7 @@ impl LanePicture {
                 let shown = place.further();
                 let shown =
                     shown.and_then(|(further, robot)| Some((further, self.model_of(robot)?)));
-                let mines: f64 = self.clearance.hazards().map(|(_, expected)| expected).sum();
-                let mines_per_m2 = mines / self.remaining.free_m2;
+                let mines_per_m2 = self.clearance.mines() / self.remaining.free_m2;
                 self.beside
                     .push(Beside::new(cell, mines_per_m2, shown, &self.searched));
                 self.refresh(cell..cell + 1);

@@ -93,7 +93,7 @@ impl Remaining {
 
     /// Computes the numbers of some cells again.
     pub(super) fn refresh(&mut self, cells: Range<usize>, clearance: &Clearance, known: &Known) {
-        let of_all_kinds: f64 = clearance.hazards().map(|(_, expected)| expected).sum();
+        let of_all_kinds = clearance.mines();
         let cells = cells.start..cells.end.min(self.shares.len());
         let near = known.beside.iter();
         let near = near.filter(|beside| cells.contains(&beside.cell) && of_all_kinds > 0.0);

@@ -151,6 +151,11 @@ impl Clearance {
         kinds.filter(|(kind, _)| self.lane.is_hazard(*kind))
     }
 
+    /// Expected number of mines, of all kinds.
+    pub(super) fn mines(&self) -> f64 {
+        self.hazards().map(|(_, expected)| expected).sum()
+    }
+
     /// Whether items look like another kind to some sensors, however often they look.
     pub(crate) fn has_lookalikes(&self) -> bool {
         let mut robots = self.robots.iter();
