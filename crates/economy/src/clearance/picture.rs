@@ -172,6 +172,12 @@ impl LanePicture {
         self.marks.places.iter().map(|place| self.believed(place))
     }
 
+    /// The numbers of these places, and the last statement about each.
+    pub fn mark_verdicts(&self) -> impl Iterator<Item = (u32, Option<MarkVerdict>)> {
+        let places = self.marks.places.iter();
+        places.map(|place| (place.number, place.verdict))
+    }
+
     /// Expected number of mines in a cell without a mark.
     #[must_use]
     pub fn unmarked(&self, cell: usize) -> f64 {

@@ -4,11 +4,14 @@
 //! tallies decide what counts, and only that becomes an event: the first detection of an item does, a second one
 //! does not. Events are collected only while a reader exists.
 
-use crate::bodies::body_state::{BodyState, Status};
+use super::agent_events::{Held, sent};
+use crate::bodies::body_state::Status;
 use crate::clock::seconds;
+use crate::radio::channel::Outgoing;
+use crate::run::state::State;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{ActKind, RobotId};
+use brain::{ActKind, GoalId, MarkVerdict, Reason, RobotId};
 use std::mem::replace;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
@@ -92,6 +95,83 @@ pub enum EventKind {
         /// Its status now.
         status: Status,
     },
+    /// A goal has arrived.
+    Issued {
+        /// The number of its kind, and its index.
+        goal: (u8, u32),
+    },
+    /// A controller reports that no robot can serve a goal.
+    Unserved {
+        /// The number of its kind, and its index.
+        goal: (u8, u32),
+        /// Why.
+        reason: Reason,
+    },
+    /// The deadline of a goal is over, and no robot has served it.
+    Expired {
+        /// The number of its kind, and its index.
+        goal: (u8, u32),
+    },
+    /// A controller has awarded a goal to a robot.
+    Awarded {
+        /// The goal.
+        goal: GoalName,
+        /// The controller.
+        by: RobotId,
+        /// The robot.
+        to: RobotId,
+    },
+    /// A controller has lost a goal that it owned: its lease has ended.
+    Orphaned {
+        /// The goal.
+        goal: GoalName,
+        /// The controller.
+        by: RobotId,
+    },
+    /// A controller has failed, or the robot that carries it.
+    Failed {
+        /// The controller.
+        controller: RobotId,
+    },
+    /// A controller has learned of a mark in its lane, or of a verdict on one.
+    Marked {
+        /// The controller.
+        by: RobotId,
+        /// Its number of the mark.
+        number: u32,
+        /// The verdict.
+        verdict: Option<MarkVerdict>,
+    },
+    /// A controller has declared its lane clear, or given it up.
+    Stated {
+        /// The controller.
+        by: RobotId,
+        /// Whether it has declared it clear.
+        is_clear: bool,
+        /// The risk that it states; none if the decision was made elsewhere.
+        risk: Option<f64>,
+    },
+    /// A participant has sent a message about a goal or a mark that changes what its receiver does or holds. Offers,
+    /// renewals and information, which are repeated, are no events.
+    Sent {
+        /// The sender.
+        from: RobotId,
+        /// The receiver, or [`RobotId::EVERYONE`].
+        to: RobotId,
+        /// The name of its content.
+        about: &'static str,
+        /// The goal that it is about.
+        goal: Option<GoalName>,
+    },
+}
+
+/// A goal in an event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct GoalName {
+    /// Its id.
+    pub id: GoalId,
+    /// The number of its kind, and its index; none of a goal that a controller has planned.
+    pub place: Option<(u8, u32)>,
 }
 
 /// Events of a run with the scenario in which they happened, to which their numbers belong.
@@ -118,6 +198,8 @@ pub(crate) struct EventLog {
     readers: Vec<Weak<Mutex<Vec<Episode>>>>,
     /// Collisions and status of each robot before the step.
     before: Vec<(u32, Status)>,
+    /// What agents held before the step; `None` after the run was moved or changed.
+    held: Option<Held>,
 }
 
 impl Clone for EventLog {
@@ -136,12 +218,13 @@ impl EventLog {
 
     /// Notes the robots before a step, and drops readers that no longer exist.
     #[inline]
-    pub(crate) fn begin_step(&mut self, body_states: &[BodyState]) {
+    pub(crate) fn begin_step(&mut self, scenario: &Scenario, state: &State) {
         if self.readers.is_empty() {
             return;
         }
         self.readers.retain(|reader| reader.strong_count() > 0);
-        let before = body_states.iter();
+        self.held.get_or_insert_with(|| Held::of(scenario, state));
+        let before = state.body_states.iter();
         self.before.clear();
         self.before
             .extend(before.map(|body| (body.collisions, body.status)));
@@ -156,13 +239,26 @@ impl EventLog {
         }
     }
 
-    /// Notes the collisions of robots in a step, and then the changes of their status.
+    /// Notes what participants send in a step.
     #[inline]
-    pub(crate) fn end_step(&self, tick: u64, ids: &[RobotId], body_states: &[BodyState]) {
+    pub(crate) fn note_sent<'m>(&self, state: &State, outbox: impl Iterator<Item = &'m Outgoing>) {
         if self.readers.is_empty() {
             return;
         }
-        let robots = || ids.iter().zip(body_states).zip(&self.before);
+        for kind in outbox.filter_map(|outgoing| sent(state, outgoing)) {
+            self.note(state.tick, kind);
+        }
+    }
+
+    /// Notes the collisions of robots in a step, then the changes of their status, and then what has changed of goals,
+    /// controllers and lanes.
+    #[inline]
+    pub(crate) fn end_step(&mut self, scenario: &Scenario, state: &State) {
+        if self.readers.is_empty() {
+            return;
+        }
+        let tick = state.tick;
+        let robots = || state.ids.iter().zip(&state.body_states).zip(&self.before);
         for ((&robot, body), (collisions, _)) in robots() {
             let total = body.collisions;
             if total != *collisions {
@@ -175,10 +271,16 @@ impl EventLog {
                 self.note(tick, EventKind::Status { robot, status });
             }
         }
+        let held = Held::of(scenario, state);
+        for kind in self.held.iter().flat_map(|before| held.since(before)) {
+            self.note(tick, kind);
+        }
+        self.held = Some(held);
     }
 
     /// Continues from a step with a scenario, the same or another one: later events have not happened.
     pub(crate) fn continue_from(&mut self, tick: u64, scenario: &Arc<Scenario>) {
+        self.held = None;
         for reader in self.readers.iter().filter_map(Weak::upgrade) {
             let mut episodes = locked(&reader);
             for (_, events) in &mut *episodes {
@@ -221,15 +323,15 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
     fn nothing_is_collected_for_readers_that_no_longer_exist() {
         let scenario = scenario();
         let mut log = EventLog::default();
-        let bodies = [BodyState::default()];
+        let state = State::new(&scenario, 0, 0).unwrap();
         let (one, other) = (log.reader(&scenario), log.reader(&scenario));
-        log.begin_step(&bodies);
+        log.begin_step(&scenario, &state);
         assert_eq!((log.readers.len(), log.before.len()), (2, 1));
         drop(one);
-        log.begin_step(&bodies);
+        log.begin_step(&scenario, &state);
         assert_eq!(log.readers.len(), 1);
         drop(other);
-        log.begin_step(&bodies);
+        log.begin_step(&scenario, &state);
         assert_eq!(log.readers.len(), 0);
     }
 

@@ -88,7 +88,7 @@ impl StepScratch {
         state: &mut State,
         external: &ExternalInputs,
     ) {
-        self.events.begin_step(&state.body_states);
+        self.events.begin_step(scenario, state);
         let is_counted = if scenario.is_of_flocks_of_points() && external.is_empty() {
             self.flock_step(scenario, state);
             add_setpoints(scenario, state);
@@ -101,6 +101,8 @@ impl StepScratch {
             let is_stated = clearance::observe(scenario, state, &self.workers);
             let hashes = self.workers.iter().flat_map(|worker| &worker.decisions);
             add_decisions(state, hashes);
+            let sent = self.workers.iter().flat_map(|worker| &worker.outbox);
+            self.events.note_sent(state, sent);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let is_counted = self.judge_goals(scenario, state);
             let collisions = self.act(scenario, state) + self.touch_external(scenario, state);
@@ -112,8 +114,7 @@ impl StepScratch {
         if scenario.has_failures {
             state.fail(scenario);
         }
-        self.events
-            .end_step(state.tick, &state.ids, &state.body_states);
+        self.events.end_step(scenario, state);
         state.note_completion(scenario, is_counted);
         state.tick += 1;
         communicate::deliver(state);

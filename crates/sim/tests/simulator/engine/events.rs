@@ -72,13 +72,7 @@ fn events_are_the_finds_collisions_and_stops_of_a_run() {
             EventKind::Status { robot, status } => {
                 assert!(stopped.insert(robot, status).is_none());
             }
-            EventKind::Served { .. }
-            | EventKind::Acted { .. }
-            | EventKind::Destroyed { .. }
-            | EventKind::VehicleLost { .. }
-            | EventKind::VehiclePassed { .. } => {
-                unreachable!("there are no goals, tools and hazards")
-            }
+            _ => unreachable!("there are no goals, tools, hazards and controllers"),
         }
     }
     assert_eq!(found, simulation.outcome().found.iter().sum::<u32>());

@@ -1,6 +1,7 @@
 //! The engine through its public interface: properties of runs for scenarios of every kind.
 
 mod acts;
+mod agent_events;
 mod battery;
 mod believed_poses;
 mod change;

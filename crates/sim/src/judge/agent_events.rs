@@ -1,0 +1,157 @@
+//! Events of goals, controllers and lanes: what agents hold before and after a step is compared.
+
+use super::events::{EventKind, GoalName};
+use crate::radio::channel::Outgoing;
+use crate::run::state::State;
+use crate::scenario::Scenario;
+use brain::{About, Dispatch, GoalId, MarkVerdict, Reason, RobotId};
+use economy::LanePicture;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What agents hold, and what the judge has noted of goals, as far as a change of it is an event.
+#[derive(Debug, Default)]
+pub(super) struct Held {
+    /// By the kind and the index of the goal.
+    goals: BTreeMap<(u8, u32), GoalState>,
+    /// The robots to which controllers have awarded goals.
+    awarded: BTreeMap<(RobotId, GoalName), RobotId>,
+    orphaned: BTreeSet<(RobotId, GoalName)>,
+    /// By the controller and the number of the mark.
+    marks: BTreeMap<(RobotId, u32), Option<MarkVerdict>>,
+    stated: BTreeMap<RobotId, (bool, Option<f64>)>,
+    failed: BTreeSet<RobotId>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct GoalState {
+    is_issued: bool,
+    has_expired: bool,
+    unserved: Option<Reason>,
+}
+
+impl Held {
+    /// What agents hold at the current step of a run.
+    pub(super) fn of(scenario: &Scenario, state: &State) -> Self {
+        let mut held = Self::default();
+        for goal in state.each_goal(scenario) {
+            let now = GoalState {
+                is_issued: goal.issued_s.is_some(),
+                has_expired: goal.has_expired,
+                unserved: goal.unserved,
+            };
+            held.goals.insert((goal.kind, goal.index), now);
+        }
+        for agent in &state.controllers {
+            let (by, controller) = (agent.participant.id, &agent.controller);
+            if !agent.participant.is_working(&state.body_states) {
+                held.failed.insert(by);
+            }
+            for goal in controller.goals() {
+                if let Some((robot, _)) = goal.assignee {
+                    let name = GoalName::of(state, goal.task.id);
+                    held.awarded.insert((by, name), robot);
+                }
+            }
+            let orphans = controller.orphans();
+            held.orphaned
+                .extend(orphans.map(|task| (by, GoalName::of(state, task.id))));
+            let marks = controller.lane().into_iter();
+            let marks = marks.flat_map(LanePicture::mark_verdicts);
+            held.marks
+                .extend(marks.map(|(number, verdict)| ((by, number), verdict)));
+            if let Some(is_clear) = agent.stated {
+                let risk = controller.lane_statement().map(|stated| stated.risk);
+                held.stated.insert(by, (is_clear, risk));
+            }
+        }
+        held
+    }
+
+    /// What has happened since an earlier step.
+    pub(super) fn since(&self, before: &Self) -> Vec<EventKind> {
+        let mut events = Vec::new();
+        for (goal, now) in &self.goals {
+            if let Some(was) = before.goals.get(goal) {
+                events.extend(now.since(*was, *goal));
+            }
+        }
+        let awarded = self.awarded.iter();
+        let new = awarded.filter(|(key, to)| before.awarded.get(key) != Some(to));
+        events.extend(new.map(|(&(by, goal), &to)| EventKind::Awarded { goal, by, to }));
+        let orphaned = self.orphaned.difference(&before.orphaned);
+        events.extend(orphaned.map(|&(by, goal)| EventKind::Orphaned { goal, by }));
+        let marks = self.marks.iter();
+        let new = marks.filter(|(key, verdict)| before.marks.get(key) != Some(verdict));
+        events.extend(new.map(|(&(by, number), &verdict)| EventKind::Marked {
+            by,
+            number,
+            verdict,
+        }));
+        let stated = self.stated.iter();
+        let new = stated.filter(|(by, _)| !before.stated.contains_key(by));
+        events.extend(new.map(|(&by, &(is_clear, risk))| EventKind::Stated { by, is_clear, risk }));
+        let failed = self.failed.difference(&before.failed);
+        events.extend(failed.map(|&controller| EventKind::Failed { controller }));
+        events
+    }
+}
+
+impl GoalState {
+    fn since(self, before: Self, goal: (u8, u32)) -> impl Iterator<Item = EventKind> {
+        let is_issued = self.is_issued && !before.is_issued;
+        let has_expired = self.has_expired && !before.has_expired;
+        let reason = self.unserved.filter(|_| self.unserved != before.unserved);
+        let issued = is_issued.then_some(EventKind::Issued { goal });
+        let unserved = reason.map(|reason| EventKind::Unserved { goal, reason });
+        let expired = has_expired.then_some(EventKind::Expired { goal });
+        issued.into_iter().chain(unserved).chain(expired)
+    }
+}
+
+impl GoalName {
+    fn of(state: &State, id: GoalId) -> Self {
+        let goal = state
+            .goals
+            .number(id)
+            .map(|number| &state.goals.all[number]);
+        Self {
+            id,
+            place: goal.map(|goal| (goal.kind, goal.index)),
+        }
+    }
+}
+
+/// The event that a participant sends a message that changes what another agent does or holds; `None` for offers,
+/// renewals and information, which are repeated.
+pub(super) fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
+    let message = &outgoing.message;
+    let About::Dispatch(dispatch) = &message.about else {
+        return None;
+    };
+    let (about, goal) = match dispatch {
+        Dispatch::Award(award) => ("award", Some(award.goal)),
+        Dispatch::Commit(claim) => ("commitment", Some(claim.goal)),
+        Dispatch::Refuse(refusal) => ("refusal", Some(refusal.goal)),
+        Dispatch::Done(claim) => ("completion", Some(claim.goal)),
+        Dispatch::Stuck(refusal) => ("failure", Some(refusal.goal)),
+        Dispatch::Release(claim) => ("release", Some(claim.goal)),
+        Dispatch::Withdraw(claim) => ("withdrawal", Some(claim.goal)),
+        Dispatch::Entrusted(award) => ("acceptance as heir", Some(award.goal)),
+        Dispatch::Bind(award) => ("owner lease", Some(award.goal)),
+        Dispatch::Relieve(claim) => ("end as heir", Some(claim.goal)),
+        Dispatch::Relieved(claim) => ("confirmed end as heir", Some(claim.goal)),
+        Dispatch::Restore(task) => ("return", Some(task.id)),
+        Dispatch::Mark(_) => ("mark", None),
+        Dispatch::Statement(_) => ("statement on a mark", None),
+        _ => return None,
+    };
+    let from = outgoing.from as usize;
+    let controller = || state.controllers.get(from.checked_sub(state.ids.len())?);
+    let robot = state.ids.get(from).copied();
+    Some(EventKind::Sent {
+        from: robot.or_else(|| Some(controller()?.participant.id))?,
+        to: message.to,
+        about,
+        goal: goal.map(|id| GoalName::of(state, id)),
+    })
+}
