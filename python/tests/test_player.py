@@ -6,7 +6,17 @@ import pytest
 
 from agent_economy import InputError
 from agent_economy.server.runs.player import Idle, Paused, Player, Playing, Seeking
-from agent_economy.types.page import Change, PageMessage, Pause, Play, Seek, Step, Undo
+from agent_economy.types.page import (
+    Change,
+    ChooseVersion,
+    PageMessage,
+    Pause,
+    Play,
+    Redo,
+    Seek,
+    Step,
+    Undo,
+)
 
 STEP_S = 0.1
 SLICE_STEPS = 40
@@ -22,16 +32,12 @@ class FakeRun:
     latest_tick: int = 0
     step_s: float = STEP_S
     changes: list[int] = field(default_factory=list)
+    undone: list[int] = field(default_factory=list)
 
     @property
     def is_finished(self) -> bool:
         """Whether it is over."""
         return self.tick >= self.last_tick
-
-    @property
-    def has_changes_ahead(self) -> bool:
-        """Whether there are changes after the current tick."""
-        return any(tick > self.tick for tick in self.changes)
 
     def change(self, path: str, value: object, *, replaces_last: bool = False) -> None:
         """Note the tick; 'refused' is not allowed."""
@@ -44,7 +50,16 @@ class FakeRun:
 
     def undo(self) -> None:
         """Forget the last change, at its tick."""
-        self.tick = self.latest_tick = self.changes.pop()
+        self.undone.append(self.changes.pop())
+        self.tick = self.latest_tick = self.undone[-1]
+
+    def redo(self) -> None:
+        """Make the change again that was undone last."""
+        self.changes.append(self.undone.pop())
+
+    def choose_version(self, number: int) -> None:
+        """Keep only the first changes."""
+        del self.changes[number:]
 
     def seek(self, tick: int) -> bool:
         """Move towards a tick; return whether it has arrived."""
@@ -103,7 +118,14 @@ def test_a_player_without_a_run_can_be_paused_and_nothing_else() -> None:
     player.handle(Pause(), 0.0)
     assert player.state == Idle()
     assert player.wait_s(0.0) is player.target(0.0) is None
-    for message in (Play(1.0), Step(1), Seek(1), Change("a", 1, replaces_last=False), Undo()):
+    for message in (
+        Play(1.0),
+        Step(1),
+        Seek(1),
+        Change("a", 1, replaces_last=False),
+        Undo(),
+        Redo(),
+    ):
         with pytest.raises(InputError, match="after an open"):
             player.handle(message, 0.0)
     assert player.state == Idle()
@@ -231,15 +253,17 @@ def test_undoing_returns_to_the_tick_and_continues_playback() -> None:
     assert story.run.tick >= tick
 
 
-def test_undoing_during_a_seek_is_immediate_unless_changes_are_ahead() -> None:
+def test_undoing_and_redoing_during_a_seek_is_immediate_unless_a_message_waits() -> None:
     story = Story(tick=200)
     story.say(Change("a", 1, replaces_last=False), Step(100), Undo())
     assert (story.run.changes, story.at()) == ([], (200, Seeking(300)))
+    story.say(Redo())
+    assert story.run.changes == [200]
+    story.say(ChooseVersion(0))
+    assert story.run.changes == []
     story.settle()
-    story.say(Change("a", 1, replaces_last=False), Seek(0))
-    story.settle()
-    story.say(Step(1000), Undo())
-    assert story.run.changes == [300]
+    story.say(Step(1000), Change("b", 1, replaces_last=False), Undo())
+    assert story.run.changes == []
     story.settle()
     story.settle()
     assert (story.run.changes, story.at()) == ([], (1000, Paused()))

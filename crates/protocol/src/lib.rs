@@ -16,12 +16,13 @@ mod shown;
 mod study;
 mod study_answer;
 mod study_form;
+mod timeline;
 mod warden;
 
 pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
 pub use page::{
-    Acknowledge, Change, Empty, Json, LoggedChange, Open, PageMessage, Play, Seek, Select,
-    SeriesRequest, Show, Step, StudyMember,
+    Acknowledge, Change, Chart, ChooseVersion, Empty, Json, LoggedChange, Open, PageMessage, Play,
+    Seek, Select, SeriesRequest, Show, Step, StudyMember,
 };
 pub use schema::{brain_schema, page_schema};
 pub use server::{

@@ -24,8 +24,13 @@ pub enum PageMessage {
     Seek(Seek),
     /// Set a value of the scenario from now on.
     Change(Change),
-    /// Remove the last change: the run is at the same tick as if the change had not been made.
+    /// Return to the version in which the last change was made: the run is at the same tick as if the change had not
+    /// been made.
     Undo {},
+    /// Return to the version that was left by the last `undo`.
+    Redo {},
+    /// Display a version of the run, at the same tick.
+    ChooseVersion(ChooseVersion),
     /// Save the run up to its latest tick as a recording.
     Save {},
     /// Cancel the recording that is being saved.
@@ -38,6 +43,8 @@ pub enum PageMessage {
     Show(Show),
     /// Request the outcome over time.
     RequestSeries(SeriesRequest),
+    /// Select the signals that are sampled.
+    Chart(Chart),
     /// Acknowledge that a frame has been drawn, and all before it. At most three frames are not
     /// acknowledged.
     Acknowledge(Acknowledge),
@@ -140,6 +147,24 @@ pub struct Change {
     /// when a slider is dragged.
     #[serde(default)]
     pub replaces_last: bool,
+}
+
+/// The version to display.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChooseVersion {
+    /// Its number.
+    #[schemars(range(min = 0, max = 9_007_199_254_740_992_u64))]
+    pub version: u64,
+}
+
+/// The signals that are sampled; initially none.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Chart {
+    /// Their ids: those that the setting offers, and `robot/NAME/PATH`, a number in the inspection of a robot.
+    #[schemars(length(max = 16), inner(length(max = 200)))]
+    pub signals: Vec<String>,
 }
 
 /// The selected robot.

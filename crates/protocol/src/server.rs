@@ -5,6 +5,7 @@ use crate::page::Json;
 use crate::setting::Setting;
 use crate::shown::Shown;
 use crate::study::StudyProgress;
+use crate::timeline::{Events, Signals};
 use base::geometry::Point;
 use brain::{BeliefState, Command, Percept};
 use schemars::JsonSchema;
@@ -33,6 +34,10 @@ pub enum ServerMessage {
     Exported(Exported),
     /// The outcome over time.
     Series(Series),
+    /// What has happened.
+    Events(Events),
+    /// The requested signals.
+    Signals(Signals),
     /// A message was refused; it changed nothing.
     Refused(Refused),
     /// The server is about to disconnect.

@@ -2,6 +2,7 @@
 
 use crate::page::{Json, LoggedChange};
 use crate::shown::Offer;
+use crate::timeline::VersionView;
 use base::document::schema::Parameter;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -29,6 +30,12 @@ pub struct Setting {
     pub changes: Vec<LoggedChange>,
     /// The changes up to the latest tick; null if they are those of the recording.
     pub log: Option<Vec<LoggedChange>>,
+    /// The versions of the run, in the order of their numbers.
+    pub versions: Vec<VersionView>,
+    /// The number of the version that is displayed.
+    pub version: u64,
+    /// Whether an undo can be redone.
+    pub can_redo: bool,
     /// The world.
     pub world: WorldView,
     /// The robot kinds.

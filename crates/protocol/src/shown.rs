@@ -3,6 +3,7 @@
 //! The server makes them, each subject in a file of its own. The page draws every layer with one painter, every key of a legend
 //! with one component and every panel with another, and knows no subject.
 
+use crate::timeline::{EventKind, SignalOffer};
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,6 +16,12 @@ pub struct Offer {
     pub layers: Vec<LayerOffer>,
     /// Panels, in the order of their tabs.
     pub panels: Vec<PanelOffer>,
+    /// Kinds of events.
+    pub events: Vec<EventKind>,
+    /// Numbers that can be drawn over time.
+    pub signals: Vec<SignalOffer>,
+    /// The same of each robot: in their ids, `{robot}` stands for its name.
+    pub robot_signals: Vec<SignalOffer>,
 }
 
 /// A layer that pages can show.
@@ -93,6 +100,7 @@ pub enum Colour {
     Ground,
     ItemFound,
     ItemMissed,
+    Muted,
     #[serde(rename = "owner-1")]
     Owner1,
     #[serde(rename = "owner-2")]
@@ -116,6 +124,8 @@ pub enum Colour {
     #[serde(rename = "risk-5")]
     Risk5,
     RobotBroken,
+    RobotCollided,
+    RobotWarning,
     Text,
 }
 

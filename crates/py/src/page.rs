@@ -3,7 +3,10 @@
 use crate::brain::checked;
 use crate::error::input_error;
 use base::error::InputErrors;
-use protocol::{Acknowledge, Change, Empty, Open, Play, Seek, Select, Show, Step};
+use protocol::{
+    Acknowledge, Change, Chart, ChooseVersion, Empty, Open, Play, Seek, Select, SeriesRequest,
+    Show, Step,
+};
 use pyo3::prelude::*;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -17,6 +20,9 @@ pub(crate) fn check_page_message(kind: &str, message: &Bound<PyAny>) -> PyResult
         "step" => check::<Step>(kind, message),
         "seek" => check::<Seek>(kind, message),
         "change" => check::<Change>(kind, message),
+        "choose_version" => check::<ChooseVersion>(kind, message),
+        "chart" => check::<Chart>(kind, message),
+        "request_series" => check::<SeriesRequest>(kind, message),
         "select" => check::<Select>(kind, message),
         "show" => check::<Show>(kind, message),
         "acknowledge" => check::<Acknowledge>(kind, message),

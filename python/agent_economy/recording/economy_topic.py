@@ -10,11 +10,10 @@ from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log
+from agent_economy.runs.events import ORPHANED
 from agent_economy.runs.simulation import Simulation
 
 TOPIC = "/economy"
-
-ORPHANED = "orphaned: its owner's lease has ended"
 
 Content = Mapping[str, Mapping[str, Any]]
 

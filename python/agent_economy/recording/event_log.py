@@ -10,17 +10,22 @@ from agent_economy.recording.clock import Clock
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log
 from agent_economy.recording.item_scene import Items
-from agent_economy.runs.simulation import STATUSES, Simulation
+from agent_economy.recording.logged import Logged
+from agent_economy.runs.events import BROKEN, FAILED_ACT, Event, in_words
+from agent_economy.runs.simulation import Simulation
 
-LEVELS = {"empty": Log.WARNING, "broken": Log.ERROR}
+WARNINGS = ("unserved", "orphaned", "failed")
+"""Events that `EconomyTopic` logs too, if they were before the first step of a recording."""
 
 
 class EventLog:
-    """Writes finds, services, acts, losses, collisions and changes of status to the log."""
+    """Writes the events of a run to the log."""
 
-    def __init__(self, file: File, simulation: Simulation, clock: Clock, items: Items) -> None:
-        """Begin with the events of the next step."""
-        self._file, self._clock, self._items = file, clock, items
+    def __init__(
+        self, file: File, simulation: Simulation, clock: Clock, items: Items, logged: Logged
+    ) -> None:
+        """Begin with the events of the next step; `logged` is in the log."""
+        self._file, self._clock, self._items, self._logged = file, clock, items, logged.warnings
         self._reader: _core.EventReader | None = _core.EventReader(simulation._run)  # noqa: SLF001  (ours)
         self._waiting: deque[tuple[int, str, str, Any]] = deque()
 
@@ -39,37 +44,27 @@ class EventLog:
         """Collect no more events: a run keeps those of its readers until they are read."""
         self._reader = None
 
-    def _write(self, tick: int, kind: str, name: str, value: Any) -> None:
+    def _write(self, tick: int, kind: str, of: str, value: Any) -> None:
         # A step is recorded when it has been taken.
-        time_ns = self._clock.time_ns(tick + 1)
-        if kind == "detected":
-            self._items.log_find(name, value, time_ns)
-            return
-        level, message = in_words(kind, value)
-        self._file.write("/log", log(time_ns, level, name, message), time_ns)
+        event, time_ns = in_words(tick, kind, of, value), self._clock.time_ns(tick + 1)
+        if event.kind == "found":
+            self._items.log_find(of, value[0], time_ns)
+        elif kind not in WARNINGS or self._is_new(f"{of}: {event.text}"):
+            line = log(time_ns, level_of(kind, event), of, event.text)
+            self._file.write("/log", line, time_ns)
+
+    def _is_new(self, warning: str) -> bool:
+        is_new = warning not in self._logged
+        self._logged.add(warning)
+        return is_new
 
 
-def in_words(kind: str, value: Any) -> tuple["Log.Level.ValueType", str]:
-    """Return the level and the message of an event."""
-    if kind == "served":
-        return Log.INFO, f"served by {value}"
-    if kind == "acted":
-        return act_in_words(value)
-    if kind == "destroyed":
-        return Log.ERROR, f"destroyed by {value}"
-    if kind == "passed":
-        return Log.INFO, "passed the lane"
-    if kind == "collided":
-        return Log.WARNING, f"collision, {value} in total"
-    status = str(STATUSES[value])
-    return LEVELS.get(status, Log.INFO), status
-
-
-def act_in_words(
-    value: tuple[str, str | None, tuple[float, float], bool],
-) -> tuple["Log.Level.ValueType", str]:
-    """Return the level and the message of an act on an item or a place."""
-    act, item, at, is_success = value
-    result = "" if is_success else ", failed"
-    place = f"at ({at[0]:.1f}, {at[1]:.1f})"
-    return Log.INFO if is_success else Log.WARNING, f"{act} {item or 'nothing'} {place}{result}"
+def level_of(kind: str, event: Event) -> "Log.Level.ValueType":
+    """Return the level of an event in the log."""
+    if kind == "sent":
+        return Log.DEBUG
+    if kind == "destroyed" or event.text == BROKEN:
+        return Log.ERROR
+    if event.kind in ("collided", "stopped", "failed") or event.text.endswith(FAILED_ACT):
+        return Log.WARNING
+    return Log.INFO

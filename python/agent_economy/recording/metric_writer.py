@@ -79,7 +79,7 @@ class MetricMoments:
         kinds = document.get("items", {})
         target = {name: kind.get("target", True) for name, kind in kinds.items()}
         self._items = Items(file, simulation.items, target, logged.finds)
-        self._events = EventLog(file, simulation, clock, self._items)
+        self._events = EventLog(file, simulation, clock, self._items, logged)
         self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document, setting["shapes"]), time_ns), time_ns)

@@ -29,6 +29,7 @@ Colour: TypeAlias = Literal[
     "ground",
     "item-found",
     "item-missed",
+    "muted",
     "owner-1",
     "owner-2",
     "owner-3",
@@ -41,6 +42,8 @@ Colour: TypeAlias = Literal[
     "risk-4",
     "risk-5",
     "robot-broken",
+    "robot-collided",
+    "robot-warning",
     "text",
 ]
 """A name of a colour of the page, of which each theme has its own."""
@@ -207,6 +210,55 @@ class Ended(TypedDict):
     type: Literal["ended"]
     reason: str
     message: str
+
+
+class EventKind(TypedDict):
+    """A kind of events that can happen in a run.
+
+    Attributes:
+        id: Its name in messages.
+        label: Its label.
+        colour: The colour of its marks.
+        is_on: Whether it is shown at first.
+    """
+
+    id: str
+    label: str
+    colour: Colour
+    is_on: bool
+
+
+class EventRow(TypedDict):
+    """Something that happened.
+
+    Attributes:
+        tick: The number of steps before the step in which it happened.
+        kind: The id of its kind.
+        of: The name of the item, goal, robot, controller or vehicle that it happened to.
+        text: What happened.
+        agent: The name of the robot or controller that did it; empty if there is none.
+    """
+
+    tick: int
+    kind: str
+    of: str
+    text: str
+    agent: str
+
+
+class Events(TypedDict):
+    """What has happened.
+
+    Attributes:
+        since: The first tick that the rows are about: they replace all rows from here on.
+        rows: The events.
+        one_of: Kinds with very many events: of how many one is listed.
+    """
+
+    type: Literal["events"]
+    since: int
+    rows: Sequence[EventRow]
+    one_of: Mapping[str, int]
 
 
 class Exported(TypedDict):
@@ -685,16 +737,38 @@ class PanelOffer(TypedDict):
     is_of_robot: bool
 
 
+class SignalOffer(TypedDict):
+    """A number that can be drawn over time.
+
+    Attributes:
+        id: Its name in messages.
+        label: What it is.
+        unit: Its unit; empty without one.
+        of: What it is a number of, such as the name of a controller.
+    """
+
+    id: str
+    label: str
+    unit: str
+    of: str
+
+
 class Offer(TypedDict):
     """What pages can show of a run; part of its setting.
 
     Attributes:
         layers: Layers of the view, from bottom to top.
         panels: Panels, in the order of their tabs.
+        events: Kinds of events.
+        signals: Numbers that can be drawn over time.
+        robot_signals: The same of each robot: in their ids, `{robot}` stands for its name.
     """
 
     layers: Sequence[LayerOffer]
     panels: Sequence[PanelOffer]
+    events: Sequence[EventKind]
+    signals: Sequence[SignalOffer]
+    robot_signals: Sequence[SignalOffer]
 
 
 class OpenedScenario(TypedDict):
@@ -1041,6 +1115,28 @@ class Series(TypedDict):
     rows: Sequence[SeriesRow]
 
 
+class VersionView(TypedDict):
+    """A run with some changes.
+
+    The versions of a run are a tree, through which undo and redo move.
+
+    Attributes:
+        number: Its number.
+        parent: The version in which its last change was made; null of the first.
+        tick: The tick of that change.
+        path: The path of that change; empty of the first version.
+        value: The value of that change, as in JSON, at most 60 characters.
+        latest_tick: The last tick that was reached or recorded.
+    """
+
+    number: int
+    parent: int | None
+    tick: int
+    path: str
+    value: str
+    latest_tick: int
+
+
 Unit: TypeAlias = Literal["m", "px"]
 """The unit of a world."""
 
@@ -1074,6 +1170,9 @@ class Setting(TypedDict):
             robots.
         changes: The changes up to now.
         log: The changes up to the latest tick; null if they are those of the recording.
+        versions: The versions of the run, in the order of their numbers.
+        version: The number of the version that is displayed.
+        can_redo: Whether an undo can be redone.
         world: The world.
         kinds: The robot kinds.
         items: The items.
@@ -1092,6 +1191,9 @@ class Setting(TypedDict):
     external: Sequence[str]
     changes: Sequence[LoggedChange]
     log: Sequence[LoggedChange] | None
+    versions: Sequence[VersionView]
+    version: int
+    can_redo: bool
     world: WorldView
     kinds: Sequence[KindView]
     items: Sequence[ItemView]
@@ -1114,6 +1216,25 @@ class Shown(TypedDict):
     tick: int
     layers: Mapping[str, Layer]
     panels: Mapping[str, Panel]
+
+
+class Signals(TypedDict):
+    """The requested signals.
+
+    Attributes:
+        signals: Their ids, in the order of the values.
+        since: The first tick that the rows are about: they replace all rows from here on.
+        until: The tick up to which the run was sampled.
+        every: Ticks from one sample to the next.
+        rows: The samples; a value is null where there is none.
+    """
+
+    type: Literal["signals"]
+    signals: Sequence[str]
+    since: int
+    until: int
+    every: int
+    rows: Sequence[SeriesRow]
 
 
 Standing: TypeAlias = tuple[
@@ -1488,6 +1609,8 @@ ServerMessage = (
     | Saved
     | Exported
     | Series
+    | Events
+    | Signals
     | Refused
     | Ended
     | StudyProgress
@@ -1585,7 +1708,23 @@ class Change(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="chang
 
 
 class Undo(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="undo"):
-    """Remove the last change: the run is at the same tick as if the change had not been made."""
+    """Return to the version in which the last change was made: the run is at the same tick as if
+    the change had not been made.
+    """
+
+
+class Redo(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="redo"):
+    """Return to the version that was left by the last `undo`."""
+
+
+class ChooseVersion(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="choose_version"):
+    """Display a version of the run, at the same tick.
+
+    Attributes:
+        version: Its number.
+    """
+
+    version: Annotated[int, msgspec.Meta(ge=0, le=9007199254740992)]
 
 
 class Save(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="save"):
@@ -1635,6 +1774,17 @@ class RequestSeries(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag
     since: Annotated[int, msgspec.Meta(ge=0, le=9007199254740992)]
 
 
+class Chart(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="chart"):
+    """Select the signals that are sampled.
+
+    Attributes:
+        signals: Their ids: those that the setting offers, and `robot/NAME/PATH`, a number in
+            the inspection of a robot.
+    """
+
+    signals: Sequence[str]
+
+
 class Acknowledge(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="acknowledge"):
     """Acknowledge that a frame has been drawn, and all before it.
 
@@ -1655,11 +1805,14 @@ PageMessage = (
     | Seek
     | Change
     | Undo
+    | Redo
+    | ChooseVersion
     | Save
     | CancelSave
     | Export
     | Select
     | Show
     | RequestSeries
+    | Chart
     | Acknowledge
 )

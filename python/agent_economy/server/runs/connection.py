@@ -21,6 +21,7 @@ from agent_economy.server.runs.export import as_toml
 from agent_economy.server.runs.host import RunHost
 from agent_economy.server.runs.opening import open_timeline
 from agent_economy.server.runs.run import Run
+from agent_economy.server.runs.signals.sampling import Sampling
 from agent_economy.server.transport import ConnectionClosedError, Page
 from agent_economy.server.workspace import Workspace
 from agent_economy.types import page
@@ -53,6 +54,7 @@ class PageConnection:
         self._saver = Saver(self._send_later, RecordingStore(workspace), threads)
         self._own = self._host = RunHost(threads)
         self._display = Display()
+        self._sampling = Sampling(threads, self.post, self._has_room)
         self._received_s = time.monotonic()
         # An `open` that the own host carries out before all other messages.
         self._opening: page.Open | None = None
@@ -60,7 +62,8 @@ class PageConnection:
     async def run(self) -> None:
         """Serve the page until it disconnects."""
         self._own.join(self)
-        work = self._receive(), self._send(), self._end_when_idle(), self._own.drive()
+        messages = self._receive(), self._send(), self._end_when_idle()
+        work = *messages, self._own.drive(), self._sampling.drive()
         tasks = {asyncio.create_task(each) for each in work}
         try:
             await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -114,8 +117,7 @@ class PageConnection:
     def has_messages(self) -> bool:
         """Return whether a message can be carried out now."""
         has_any = self._opening is not None or not self._received.empty()
-        has_room = self._posted.qsize() < MAX_POSTED
-        return has_any and has_room and self._host.player.accepts_messages
+        return has_any and self._has_room() and self._host.player.accepts_messages
 
     async def carry_out_messages(self, host: RunHost) -> None:
         """Carry out the messages that have arrived, as long as the page stays at the host."""
@@ -132,7 +134,7 @@ class PageConnection:
             self.post(messages.refused(messages.type_of(message), error, path))
         else:
             # The page requests the series after each state: another state would follow without end.
-            if not isinstance(message, page.RequestSeries):
+            if not isinstance(message, page.RequestSeries | page.Chart):
                 self._display.refresh()
 
     def post(self, message: ServerMessage) -> None:
@@ -145,7 +147,7 @@ class PageConnection:
 
     def wait_s(self, host: RunHost, now_s: float) -> float | None:
         """Return the time until the page is due to be sent something; None if it is not."""
-        if not host.has_run or self._posted.qsize() >= MAX_POSTED:
+        if not host.has_run or not self._has_room():
             return None
         return self._display.wait_s(now_s, is_moving=host.player.is_moving)
 
@@ -158,6 +160,9 @@ class PageConnection:
         outputs = await host.in_thread(lambda: self._display.outputs(run, player, now_s))
         for output in outputs:
             self._posted.put_nowait(output)
+
+    def _has_room(self) -> bool:
+        return self._posted.qsize() < MAX_POSTED
 
     # Messages.
 
@@ -189,6 +194,8 @@ class PageConnection:
                 self._display.select(robot)
             case page.Show():
                 self._display.show(message)
+            case page.Chart(signals=signals):
+                self._sampling.select(signals)
             case _:
                 await host.in_thread(lambda: host.player.handle(message, time.monotonic()))
 
@@ -220,6 +227,7 @@ class PageConnection:
 
     def _show_opened(self, run: Run, message: page.Open, build: Build | None) -> None:
         self._display.open(run)
+        self._sampling.open(run)
         self.post(opened(run, message, build))
 
     async def _send_later(self, message: ServerMessage) -> None:

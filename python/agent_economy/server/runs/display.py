@@ -13,6 +13,7 @@ from agent_economy.server.runs.frames import frame, setting
 from agent_economy.server.runs.overlay import Overlay
 from agent_economy.server.runs.player import Player
 from agent_economy.server.runs.run import Run
+from agent_economy.server.runs.sent_events import SentEvents
 from agent_economy.server.runs.shown import subjects
 from agent_economy.types.page import ServerMessage, Show, State
 
@@ -33,6 +34,7 @@ class Display:
         """Begin with nothing sent."""
         self._selected: engines.Selection = Selected()
         self._overlay = Overlay()
+        self._events = SentEvents()
         self._generation = self._number = 0
         self._sent_setting: object = None
         self._in_flight: deque[int] = deque()
@@ -42,6 +44,7 @@ class Display:
     def open(self, run: Run) -> None:
         """Show another run, with no robot selected."""
         self._sent_setting = None
+        self._events = SentEvents()
         self._selected = engines.of(run.simulation).selected()
         self._request(robot=None)
 
@@ -94,7 +97,7 @@ class Display:
             self._owes_state = self._owes_map = True
         if is_at_rest or now_s >= self._state_at_s + STATE_S:
             self._state_at_s, self._owes_state = now_s, False
-            outputs.append(self._state(run, player))
+            outputs += [*self._events.since_last(run.events), self._state(run, player)]
         if is_at_rest or now_s >= self._map_at_s + MAP_S:
             self._map_at_s, self._owes_map = now_s, False
             if part := self._selected.map(run.simulation):
@@ -104,7 +107,7 @@ class Display:
         return outputs
 
     def _setting(self, run: Run) -> list[Output]:
-        current = run.simulation.changes, run.log
+        current = run.simulation.changes, run.log, run.versions.current.number
         if current == self._sent_setting:
             return []
         self._generation += 1

@@ -3,7 +3,20 @@
 from agent_economy._core import InputError
 from agent_economy.server.runs.playback_clock import PlaybackClock
 from agent_economy.server.runs.run import Run
-from agent_economy.types.page import Change, PageMessage, Pause, Play, Seek, Step, Undo
+from agent_economy.types.page import (
+    Change,
+    ChooseVersion,
+    PageMessage,
+    Pause,
+    Play,
+    Redo,
+    Seek,
+    Step,
+    Undo,
+)
+
+MOVES = (Play, Pause, Step, Seek, Change, Undo, Redo, ChooseVersion)
+"""Messages that move or change a run."""
 
 REASON = (
     "This run is live: all pages display the present of the real robots. It cannot be played, "
@@ -58,7 +71,7 @@ class Follower:
         Raises:
             InputError: If the message moves or changes the run.
         """
-        if isinstance(message, Play | Pause | Step | Seek | Change | Undo):
+        if isinstance(message, MOVES):
             raise InputError(REASON)
 
     def target(self, now_s: float) -> int | None:  # noqa: ARG002  (as `Player`)

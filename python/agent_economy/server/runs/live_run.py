@@ -10,6 +10,8 @@ from agent_economy.scenario import Scenario, validation
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.recordings.input_log import InputLog, InputReader
 from agent_economy.server.runs.outcome_series import OutcomeSeries
+from agent_economy.server.runs.run_events import RunEvents, reader_of
+from agent_economy.server.runs.versions import Versions
 
 
 class LiveRun:
@@ -21,11 +23,11 @@ class LiveRun:
 
     Attributes:
         simulation: The run at its current tick.
-        series: The outcome over time.
+        versions: One version: a live run has no changes.
     """
 
     simulation: Simulation
-    series: OutcomeSeries
+    versions: Versions
 
     def __init__(self, scenario: Scenario, seed: int = 0, external: Iterable[str] = ()) -> None:
         """Begin a run without inputs.
@@ -39,7 +41,8 @@ class LiveRun:
             InputError: As `Simulation`.
         """
         self.simulation = Simulation(scenario, seed=seed, external=external)
-        self.series = OutcomeSeries()
+        self.versions = Versions((), 0)
+        self._reader = reader_of(self.simulation)
         self.series.note(self.simulation)
         self._first = scenario
         # A drive lasts for hours: its inputs do not fit into memory.
@@ -80,6 +83,16 @@ class LiveRun:
     def is_finished(self) -> bool:
         """Whether all inputs that will ever arrive have been simulated."""
         return self._is_ended and self.tick >= self._latest_tick
+
+    @property
+    def series(self) -> OutcomeSeries:
+        """The outcome over time."""
+        return self.versions.current.series
+
+    @property
+    def events(self) -> RunEvents:
+        """What has happened."""
+        return self.versions.current.events
 
     @property
     def log(self) -> tuple[Change, ...]:
@@ -140,6 +153,7 @@ class LiveRun:
             self._is_ended, self._latest_tick = True, self.tick
             raise
         self.series.note(self.simulation)
+        self.events.note(self._reader.read(), self.tick)
 
 
 def do_nothing() -> None:

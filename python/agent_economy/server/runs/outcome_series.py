@@ -57,6 +57,13 @@ class OutcomeSeries:
         self._spacing, self._interval = 1, FIRST_INTERVAL
         self._left = 0
 
+    def copy(self) -> "OutcomeSeries":
+        """Return a copy."""
+        copy = OutcomeSeries()
+        copy.until, copy._rows, copy._counts = self.until, list(self._rows), self._counts
+        copy._spacing, copy._interval, copy._left = self._spacing, self._interval, self._left
+        return copy
+
     def note(self, simulation: Stepped) -> None:
         """Keep the current outcome, if it is of interest; called after each step.
 

@@ -4,7 +4,16 @@ from collections import deque
 
 from msgspec.structs import replace
 
-from agent_economy.types.page import Change, PageMessage, Play, Seek, Step, Undo
+from agent_economy.types.page import (
+    Change,
+    ChooseVersion,
+    PageMessage,
+    Play,
+    Redo,
+    Seek,
+    Step,
+    Undo,
+)
 
 MAX_PENDING = 256
 """The number of messages that can wait; a page that sends more is not read until there is room."""
@@ -26,18 +35,15 @@ class PendingQueue:
         """Whether no other message can wait."""
         return len(self._messages) >= MAX_PENDING
 
-    def waits(self, message: PageMessage, *, has_changes_ahead: bool) -> bool:
+    def waits(self, message: PageMessage) -> bool:
         """Return whether a message has to wait while the run is seeking.
 
         A change is made, and playback continues, at the tick that the run is seeking. Another seek
-        replaces the current one, and the last change is undone at once, unless a message is already
-        waiting.
+        replaces the current one, and another version is displayed at once, unless a message is
+        already waiting.
         """
-        if isinstance(message, Undo):
-            return has_changes_ahead or bool(self)
-        return isinstance(message, Change | Play) or (
-            isinstance(message, Step | Seek) and bool(self)
-        )
+        moves = isinstance(message, Step | Seek | Undo | Redo | ChooseVersion)
+        return isinstance(message, Change | Play) or (moves and bool(self))
 
     def put(self, message: PageMessage) -> None:
         """Add a message; of changes that replace each other only the last is kept."""

@@ -4,9 +4,10 @@ It has no clock, thread or socket: time is an argument, and its caller advances 
 run between `target` and `advanced`.
 
     Idle --open--> Seeking --arrived--> Paused --play--> Playing --pause, end of run--> Paused
-    Paused, Playing, Seeking --step, seek, undo--> Seeking --pause--> Paused
+    Paused, Playing, Seeking --step, seek, undo, redo--> Seeking --pause--> Paused
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,7 +15,17 @@ from agent_economy.scenario import TomlValue, validation
 from agent_economy.server.runs.pending import PendingQueue
 from agent_economy.server.runs.playback_clock import PlaybackClock
 from agent_economy.server.runs.run import Progress
-from agent_economy.types.page import Change, PageMessage, Pause, Play, Seek, Step, Undo
+from agent_economy.types.page import (
+    Change,
+    ChooseVersion,
+    PageMessage,
+    Pause,
+    Play,
+    Redo,
+    Seek,
+    Step,
+    Undo,
+)
 
 FOREVER = 2**53
 """A tick that no run reaches."""
@@ -23,15 +34,17 @@ FOREVER = 2**53
 class ReversibleRun(Progress, Protocol):
     """What a player needs of a run that can be moved back and forth; see `Timeline`."""
 
-    @property
-    def has_changes_ahead(self) -> bool:
-        """Whether the log contains changes that are made after the current tick."""
-
     def change(self, path: str, value: TomlValue, *, replaces_last: bool = False) -> None:
         """Set a value of the scenario from now on."""
 
     def undo(self) -> None:
-        """Remove the last change, and go back to its tick."""
+        """Return to the version in which the last change was made."""
+
+    def redo(self) -> None:
+        """Return to the version that was left by the last `undo`."""
+
+    def choose_version(self, number: int) -> None:
+        """Display another version."""
 
 
 @dataclass(frozen=True)
@@ -117,9 +130,7 @@ class Player:
 
     def defers(self, message: PageMessage) -> bool:
         """Keep a message that has to wait until the run arrives; return whether it does."""
-        if not isinstance(self.state, Seeking) or not self._pending.waits(
-            message, has_changes_ahead=self.run.has_changes_ahead
-        ):
+        if not isinstance(self.state, Seeking) or not self._pending.waits(message):
             return False
         self._pending.put(message)
         return True
@@ -158,10 +169,17 @@ class Player:
             case Change(path=path, value=value, replaces_last=replaces_last):
                 self.run.change(path, value, replaces_last=replaces_last)
             case Undo():
-                # The run returns to its tick, but without the change.
-                target = self._destination()
-                self.run.undo()
-                self.state = Seeking(target, plays_after=self.is_playing)
+                self._move(self.run.undo)
+            case Redo():
+                self._move(self.run.redo)
+            case ChooseVersion(version=version):
+                self._move(lambda: self.run.choose_version(version))
+
+    def _move(self, move: Callable[[], None]) -> None:
+        """Display another version of the run, at the same tick."""
+        target = self._destination()
+        move()
+        self.state = Seeking(target, plays_after=self.is_playing)
 
     def target(self, now_s: float) -> int | None:
         """Return the tick that the run should be advanced towards; None if it stays."""

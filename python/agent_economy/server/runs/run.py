@@ -5,6 +5,8 @@ from typing import Protocol
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.runs.outcome_series import OutcomeSeries
+from agent_economy.server.runs.run_events import RunEvents
+from agent_economy.server.runs.versions import Versions
 
 
 class Progress(Protocol):
@@ -37,6 +39,14 @@ class Run(Progress, Protocol):
     @property
     def series(self) -> OutcomeSeries:
         """The outcome over time."""
+
+    @property
+    def events(self) -> RunEvents:
+        """What has happened."""
+
+    @property
+    def versions(self) -> Versions:
+        """The versions that changes have made."""
 
     @property
     def log(self) -> tuple[Change, ...]:

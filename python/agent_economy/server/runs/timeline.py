@@ -1,18 +1,20 @@
 """A run that can be moved back and forth in time, and changed at any tick."""
 
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any, cast
 
 from agent_economy import _core
 from agent_economy.recording.reading import Recorded
 from agent_economy.runs import factory
 from agent_economy.runs.stepped import Change
-from agent_economy.scenario import Scenario, TomlValue, validation
+from agent_economy.scenario import Scenario, TomlValue
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.runs.outcome_series import OutcomeSeries
-from agent_economy.server.runs.recorded_run import RecordedRun
+from agent_economy.server.runs.recorded_run import RecordedRun, first_difference
+from agent_economy.server.runs.run_events import RunEvents, reader_of
 from agent_economy.server.runs.snapshots import Snapshots
+from agent_economy.server.runs.versions import Versions
 
 SLICE_S = 0.004
 """Steps are taken together for this long before the clock is read again."""
@@ -24,17 +26,16 @@ class Timeline:
     """A run from its beginning to its latest tick: the last one that was reached or recorded.
 
     Between snapshots the run is replayed, with the changes of the log at their ticks: moving back
-    and forth gives the same bytes. A change in the past invalidates everything after it.
+    and forth gives the same bytes. A change makes another version of the run; the one in which it
+    was made stays as it was.
 
     Attributes:
-        latest_tick: The last tick that was reached or recorded.
         recorded: The recording that the run is compared with; empty if it has none.
-        series: The outcome over time, up to the last tick that was reached.
+        versions: The versions of the run; all of it is about the current one.
     """
 
-    latest_tick: int
     recorded: RecordedRun
-    series: OutcomeSeries
+    versions: Versions
 
     def __init__(
         self,
@@ -61,8 +62,9 @@ class Timeline:
         self._first = scenario
         self._is_recording = recorded is not None
         self.recorded = RecordedRun(recorded or Recorded())
-        self.log = tuple(sorted(self.recorded.changes if log is None else log, key=tick_of))
-        self.latest_tick = self.recorded.latest_tick
+        log = tuple(sorted(self.recorded.changes if log is None else log, key=tick_of))
+        self.recorded.follow(log)
+        self.versions = Versions(log, self.recorded.latest_tick)
         self._batch = 1
         # The tick of the last change that can be replaced, and the snapshot before it.
         self._replaceable: tuple[int, Any] | None = None
@@ -70,19 +72,29 @@ class Timeline:
         self._snapshots = Snapshots(self.simulation)
         self._apply_log()
         self.recorded.compare(self.simulation)
-        self.series = OutcomeSeries()
+        self._reader = reader_of(self.simulation)
         self.series.note(self.simulation)
         self.series.until = 0
 
     @property
     def log(self) -> tuple[Change, ...]:
         """All changes up to the latest tick, in order."""
-        return self._log
+        return self.versions.current.log
 
-    @log.setter
-    def log(self, log: tuple[Change, ...]) -> None:
-        self._log = log
-        self.recorded.follow(log)
+    @property
+    def latest_tick(self) -> int:
+        """The last tick that was reached or recorded."""
+        return self.versions.current.latest_tick
+
+    @property
+    def series(self) -> OutcomeSeries:
+        """The outcome over time, up to the last tick that was reached."""
+        return self.versions.current.series
+
+    @property
+    def events(self) -> RunEvents:
+        """What has happened up to the last tick that was reached."""
+        return self.versions.current.events
 
     @property
     def is_recorded(self) -> bool:
@@ -123,11 +135,6 @@ class Timeline:
         """Whether the run cannot go beyond the current tick."""
         return self.simulation.is_over and self.tick >= self.latest_tick
 
-    @property
-    def has_changes_ahead(self) -> bool:
-        """Whether the log contains changes that are made after the current tick."""
-        return self.simulation.changes != self.log
-
     def seek(self, tick: int, budget_s: float) -> bool:
         """Move towards a tick for about `budget_s` of wall-clock time.
 
@@ -148,7 +155,7 @@ class Timeline:
         return self.tick >= tick or self.is_finished
 
     def change(self, path: str, value: TomlValue, *, replaces_last: bool = False) -> None:
-        """Set a value of the scenario from now on; everything after the current tick is discarded.
+        """Set a value of the scenario from now on, in another version of the run.
 
         Args:
             path: Keys from the root, separated by dots.
@@ -173,10 +180,10 @@ class Timeline:
             raise
         if self.simulation.changes != now.changes:
             self._replaceable = self.tick, before
-            self._discard_future(before)
+            self._begin_version(before, is_replaced=before is not now)
 
     def undo(self) -> None:
-        """Remove the last change, and go back to its tick.
+        """Return to the version in which the last change was made.
 
         The run continues as if the change had never been made: no value has to be restored, and
         the log does not contain one.
@@ -184,13 +191,38 @@ class Timeline:
         Raises:
             InputError: If there is no change.
         """
-        made = self.simulation.changes
-        validation.check(bool(made), "undo", None, "after a change")
-        self.log, tick = made[:-1], made[-1].tick
-        self.latest_tick = max(tick, self.recorded.latest_tick)
-        self._snapshots.discard_after(tick, self.log)
-        self.series.discard_from(tick)
-        self._restore(tick)
+        self._move(self.versions.undo)
+
+    def redo(self) -> None:
+        """Return to the version that was left by the last `undo`.
+
+        Raises:
+            InputError: If there is none.
+        """
+        self._move(self.versions.redo)
+
+    def choose_version(self, number: int) -> None:
+        """Display another version; undo and redo then lead through it.
+
+        Raises:
+            InputError: If there is none with this number.
+        """
+        self._move(lambda: self.versions.choose(number))
+
+    def _move(self, move: Callable[[], None]) -> None:
+        """Display another version, at a tick at which it is as the one that is left."""
+        left = self.versions.current
+        move()
+        now, self._replaceable = self.versions.current, None
+        self.recorded.follow(now.log)
+        fork = int(min(first_difference(left.log, now.log), left.latest_tick))
+        if now.series.until < fork:
+            now.series, now.events = left.series.copy(), left.events.copy()
+            now.series.discard_from(fork)
+            now.events.discard_from(fork)
+        self._snapshots.discard_after(fork, now.log)
+        if self.tick >= fork:
+            self._restore(fork)
 
     def _before_last(self, path: str) -> Any:
         """Return the snapshot before the last change; None if that is of another path or tick."""
@@ -217,10 +249,10 @@ class Timeline:
             self._step(steps)
         took_s = time.monotonic() - start_s
         self._batch = max(1, min(10_000, round(self._batch * SLICE_S / max(took_s, SLICE_S / 4))))
+        self.events.note(self._reader.read(), self.tick)
         self._apply_log()
         self.recorded.compare(self.simulation)
-        self.latest_tick = max(self.latest_tick, self.tick)
-        self.series.until = max(self.series.until, self.tick)
+        self.versions.current.reached(self.tick)
         if self.tick >= self._snapshots.next_tick:
             self._snapshots.add(self.simulation, self.simulation.snapshot())
 
@@ -251,7 +283,7 @@ class Timeline:
                 self.series.note(self.simulation)
         if self.tick == before:
             # A classic run that is over takes no steps, whatever its recording contains.
-            self.latest_tick = before
+            self.versions.current.latest_tick = before
             self.recorded.end(before)
 
     def _apply_log(self) -> None:
@@ -263,15 +295,22 @@ class Timeline:
             try:
                 self.simulation.change(change.path, change.value)
             except ValueError:
-                self.log = self.log[:done]
+                self.versions.cut(done)
                 raise
 
-    def _discard_future(self, before: Any) -> None:
+    def _begin_version(self, before: Any, *, is_replaced: bool) -> None:
         """Continue from a change; the snapshot before it is kept for an immediate undo."""
-        self.log = self.simulation.changes
-        self.latest_tick = self.tick
+        if is_replaced:
+            self.versions.forget_current()
+        is_changed = self.simulation.changes != before.changes
+        if is_changed:
+            self.versions.begin(self.simulation.changes, self.tick)
+        self.recorded.follow(self.log)
         self._snapshots.discard_after(self.tick, self.log)
+        if not is_changed:
+            return
         self.series.discard_from(self.tick)
+        self.events.discard_from(self.tick)
         self.series.note(self.simulation)
         self.series.until = self.tick
         if self._snapshots.last_tick < self.tick:

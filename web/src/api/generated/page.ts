@@ -88,7 +88,7 @@ export interface CircleView {
 }
 
 /** A name of a colour of the page, of which each theme has its own. */
-export type Colour = "accent" | "border" | "cleared" | "ground" | "item-found" | "item-missed" | "owner-1" | "owner-2" | "owner-3" | "owner-4" | "owner-5" | "owner-6" | "risk-1" | "risk-2" | "risk-3" | "risk-4" | "risk-5" | "robot-broken" | "text";
+export type Colour = "accent" | "border" | "cleared" | "ground" | "item-found" | "item-missed" | "muted" | "owner-1" | "owner-2" | "owner-3" | "owner-4" | "owner-5" | "owner-6" | "risk-1" | "risk-2" | "risk-3" | "risk-4" | "risk-5" | "robot-broken" | "robot-collided" | "robot-warning" | "text";
 
 /** A column of a table. */
 export interface Column {
@@ -103,6 +103,32 @@ export type Emphasis = "plain" | "strong" | "muted";
 
 /** A simulator. */
 export type Engine = "metric" | "classic";
+
+/** A kind of events that can happen in a run. */
+export interface EventKind {
+  /** Its name in messages. */
+  id: string;
+  /** Its label. */
+  label: string;
+  /** The colour of its marks. */
+  colour: Colour;
+  /** Whether it is shown at first. */
+  is_on: boolean;
+}
+
+/** Something that happened. */
+export interface EventRow {
+  /** The number of steps before the step in which it happened. */
+  tick: number;
+  /** The id of its kind. */
+  kind: string;
+  /** The name of the item, goal, robot, controller or vehicle that it happened to. */
+  of: string;
+  /** What happened. */
+  text: string;
+  /** The name of the robot or controller that did it; empty if there is none. */
+  agent: string;
+}
 
 /** A number or choice of a scenario that a study can vary. */
 export interface Factor {
@@ -362,6 +388,12 @@ export interface Offer {
   layers: LayerOffer[];
   /** Panels, in the order of their tabs. */
   panels: PanelOffer[];
+  /** Kinds of events. */
+  events: EventKind[];
+  /** Numbers that can be drawn over time. */
+  signals: SignalOffer[];
+  /** The same of each robot: in their ids, `{robot}` stands for its name. */
+  robot_signals: SignalOffer[];
 }
 
 /** The recording of an opened run. */
@@ -414,6 +446,20 @@ export interface Change {
   replaces_last?: boolean;
 }
 
+/** Select the signals that are sampled. */
+export interface Chart {
+  type: "chart";
+  /** Their ids: those that the setting offers, and `robot/NAME/PATH`, a number in the inspection of a robot. */
+  signals: string[];
+}
+
+/** Display a version of the run, at the same tick. */
+export interface ChooseVersion {
+  type: "choose_version";
+  /** Its number. */
+  version: number;
+}
+
 /** Request the scenario as it is now. */
 export interface Export {
   type: "export";
@@ -452,6 +498,11 @@ export interface Play {
   type: "play";
   /** A multiple of real time; null for as fast as possible. */
   speed?: number | null;
+}
+
+/** Return to the version that was left by the last `undo`. */
+export interface Redo {
+  type: "redo";
 }
 
 /** Request the outcome over time. */
@@ -498,12 +549,12 @@ export interface Step {
   steps?: number;
 }
 
-/** Remove the last change: the run is at the same tick as if the change had not been made. */
+/** Return to the version in which the last change was made: the run is at the same tick as if the change had not been made. */
 export interface Undo {
   type: "undo";
 }
 
-export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Save | CancelSave | Export | Select | Show | RequestSeries | Acknowledge;
+export type PageMessage = Open | Play | Pause | Step | Seek | Change | Undo | Redo | ChooseVersion | Save | CancelSave | Export | Select | Show | RequestSeries | Chart | Acknowledge;
 
 /** A panel: its sections. */
 export interface Panel {
@@ -760,6 +811,17 @@ export interface Ended {
   message: string;
 }
 
+/** What has happened. */
+export interface Events {
+  type: "events";
+  /** The first tick that the rows are about: they replace all rows from here on. */
+  since: number;
+  /** The events. */
+  rows: EventRow[];
+  /** Kinds with very many events: of how many one is listed. */
+  one_of: Record<string, number>;
+}
+
 /** The scenario as it is now. */
 export interface Exported {
   type: "exported";
@@ -862,6 +924,12 @@ export interface Setting {
   changes: LoggedChange[];
   /** The changes up to the latest tick; null if they are those of the recording. */
   log: LoggedChange[] | null;
+  /** The versions of the run, in the order of their numbers. */
+  versions: VersionView[];
+  /** The number of the version that is displayed. */
+  version: number;
+  /** Whether an undo can be redone. */
+  can_redo: boolean;
   /** The world. */
   world: WorldView;
   /** The robot kinds. */
@@ -887,6 +955,21 @@ export interface Shown {
   layers: Record<string, Layer>;
   /** The panels by id. */
   panels: Record<string, Panel>;
+}
+
+/** The requested signals. */
+export interface Signals {
+  type: "signals";
+  /** Their ids, in the order of the values. */
+  signals: string[];
+  /** The first tick that the rows are about: they replace all rows from here on. */
+  since: number;
+  /** The tick up to which the run was sampled. */
+  until: number;
+  /** Ticks from one sample to the next. */
+  every: number;
+  /** The samples; a value is null where there is none. */
+  rows: SeriesRow[];
 }
 
 /** The state of the run, with a maximum rate of 10 Hz. */
@@ -951,10 +1034,22 @@ export interface StudyProgress {
   labels: string[] | null;
 }
 
-export type ServerMessage = Opened | Setting | State | MapPart | Shown | Saving | Saved | Exported | Series | Refused | Ended | StudyProgress;
+export type ServerMessage = Opened | Setting | State | MapPart | Shown | Saving | Saved | Exported | Series | Events | Signals | Refused | Ended | StudyProgress;
 
 /** The shape of a glyph. */
 export type Shape = "circle" | "triangle" | "diamond" | "square" | "hexagon" | "cross" | "tick";
+
+/** A number that can be drawn over time. */
+export interface SignalOffer {
+  /** Its name in messages. */
+  id: string;
+  /** What it is. */
+  label: string;
+  /** Its unit; empty without one. */
+  unit: string;
+  /** What it is a number of, such as the name of a controller. */
+  of: string;
+}
 
 /** A configuration: index, runs, merit, the bounds of its confidence interval, null before they are computed, and its status, null without a requirement. With one, the merit is the share of runs that meet it. */
 export type Standing = [number, number, number | null, number | null, number | null, RequirementStatus | null];
@@ -1216,6 +1311,22 @@ export interface Table {
 
 /** The unit of a world. */
 export type Unit = "m" | "px";
+
+/** A run with some changes. The versions of a run are a tree, through which undo and redo move. */
+export interface VersionView {
+  /** Its number. */
+  number: number;
+  /** The version in which its last change was made; null of the first. */
+  parent: number | null;
+  /** The tick of that change. */
+  tick: number;
+  /** The path of that change; empty of the first version. */
+  path: string;
+  /** The value of that change, as in JSON, at most 60 characters. */
+  value: string;
+  /** The last tick that was reached or recorded. */
+  latest_tick: number;
+}
 
 /** The world of a run. */
 export interface WorldView {

@@ -4,7 +4,9 @@ from typing import Any
 
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs.shown import economy, lane, passage
+from agent_economy.server.runs.shown.events import EVENTS
 from agent_economy.server.runs.shown.subject import Request, Subject
+from agent_economy.server.runs.signals.sources import ENGINES as SIGNALS
 from agent_economy.types.page import Layer, Offer, Panel, Shown
 
 SUBJECTS: dict[str, tuple[Subject, ...]] = {
@@ -17,9 +19,13 @@ SUBJECTS: dict[str, tuple[Subject, ...]] = {
 def offer(simulation: Stepped) -> Offer:
     """Return what pages can show of a run."""
     subjects = subjects_of(simulation)
+    signals = SIGNALS[simulation.scenario.engine]
     return {
         "layers": [layer for subject in subjects for layer in subject.layers],
         "panels": [panel for subject in subjects for panel in subject.panels],
+        "events": list(EVENTS),
+        "signals": signals.offer(simulation),
+        "robot_signals": list(signals.robots),
     }
 
 

@@ -1,0 +1,1 @@
+"""Numbers of a run over time, sampled from the run itself."""
