@@ -75,7 +75,7 @@ test("features that the classic engine lacks are not offered", async ({ page, se
 
 test("the panels of a classic run pass axe", async ({ page, server }) => {
   await open(page, server, "&tick=60&changes=[[0,%22contact%22,%22ahead%22]]&robot=wanderer/0");
-  await expectAccessiblePanels(page, ["Results", "Robot", "Parameters", "Layers", "Changes"]);
+  await expectAccessiblePanels(page, ["Results", "Robot", "Parameters", "Layers", "Events"]);
 });
 
 test("a run is saved, listed, and opened as the same run", async ({ page, server }) => {

@@ -95,7 +95,8 @@ test("a live run continues by itself, and can be neither moved nor changed", asy
   await openTab(page, "Edit");
   await expect(page.getByRole("button", { name: "Add circle" })).toBeDisabled();
   await expect(page.getByRole("tabpanel")).toContainText(reason);
-  await expect(page.getByRole("tab", { name: "Changes" })).toHaveCount(0);
+  await openTab(page, "Events");
+  await expect(page.getByRole("heading", { name: "Changes" })).toHaveCount(0);
   await expect.poll(() => new URL(page.url()).hash).toMatch(/^#\/run\?live=1&view=[^&]*$/);
 });
 

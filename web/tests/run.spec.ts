@@ -117,10 +117,11 @@ test("each parameter of the schema can be found and changed; an invalid value is
   await box.fill("-1");
   await box.press("Enter");
   await expect.poll(() => box.evaluate((input: HTMLInputElement) => input.validity.valid)).toBe(false);
-  await openTab(page, "Changes");
-  await expect(page.getByRole("cell", { name: "robots.rover.sensors.camera.range_m" })).toHaveCount(1);
+  await openTab(page, "Events");
+  const made = page.getByRole("button", { name: "robots.rover.sensors.camera.range_m = 5.123" });
+  await expect(made).toHaveAttribute("aria-current", "true");
   await page.keyboard.press("Control+z");
-  await expect(page.getByText("No changes yet")).toBeVisible();
+  await expect(made).toHaveAttribute("aria-current", "false");
   await openTab(page, "Parameters");
   await page.getByRole("searchbox").fill("camera range_m");
   await expect(box).toHaveValue(before);
@@ -192,7 +193,7 @@ test("a full server is reported, and the run can be reopened", async ({ page, se
 
 test("the panels of a run pass axe", async ({ page, server }) => {
   await openRun(page, server, `${scenario}&changes=[[0,%22robots.rover.count%22,6]]`);
-  await expectAccessiblePanels(page, ["Layers", "Edit", "Changes"]);
+  await expectAccessiblePanels(page, ["Layers", "Edit", "Events"]);
   await openTab(page, "Parameters");
   await page.getByRole("searchbox").fill("rover");
   await expectAccessible(page, "aside");

@@ -54,8 +54,8 @@ test("dragging a slider while the run is paused is one change, which one undo re
     await expect(status(page)).toContainText(`4.0 s, ${await slider.inputValue()} robots`);
   }
   await page.mouse.up();
-  await openTab(page, "Changes");
-  await expect(page.getByRole("row")).toHaveCount(2);
+  await openTab(page, "Events");
+  await expect(page.getByRole("button", { name: /robots.rover.count = / })).toHaveCount(1);
   await page.getByRole("application").focus();
   await page.keyboard.press("Control+z");
   await expect(status(page)).toContainText("4.0 s, 4 robots");

@@ -421,6 +421,8 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// A line below it; null for none.
     pub note: Option<String>,
+    /// The ids of signals that it displays, which are drawn over time on request.
+    pub signals: Vec<String>,
 }
 
 /// A cell of a table.

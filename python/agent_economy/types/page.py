@@ -856,10 +856,12 @@ class Row(TypedDict):
     Attributes:
         cells: A cell per column.
         note: A line below it; null for none.
+        signals: The ids of signals that it displays, which are drawn over time on request.
     """
 
     cells: Sequence[Cell]
     note: str | None
+    signals: Sequence[str]
 
 
 class Table(TypedDict):

@@ -10,6 +10,8 @@ const types = [
   "saving",
   "saved",
   "exported",
+  "events",
+  "signals",
   "series",
   "ended",
   "study_progress",

@@ -7,7 +7,9 @@ export type { GoalState as Goal, Message as RobotMessage } from "./generated/bra
 export type {
   Checked as ScenarioSummary,
   LoggedChange as Change,
+  Events as EventsAnswer,
   Series as SeriesAnswer,
+  Signals as SignalsAnswer,
   StudyMember as StudyConfiguration,
   Table as TableData,
 } from "./generated/page";

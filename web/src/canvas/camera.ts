@@ -54,6 +54,13 @@ export function pan(camera: Camera, dx: number, dy: number): Camera {
   return { ...camera, x: camera.x - dx / camera.scale, y: camera.y + dy / camera.scale };
 }
 
+/** The whole world in a view of another size, if it was displayed before; otherwise the same centre. */
+export function resizeIn(world: Point, camera: Camera, width: number, height: number): Camera {
+  const { x, y, scale } = fitTo(world, camera.width, camera.height);
+  const isFitted = camera.x === x && camera.y === y && camera.scale === scale;
+  return isFitted ? fitTo(world, width, height) : resize(camera, width, height);
+}
+
 /** The same centre in a view of another size. */
 export function resize(camera: Camera, width: number, height: number): Camera {
   return { ...camera, width, height };

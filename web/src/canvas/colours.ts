@@ -40,6 +40,7 @@ const names = [
   "risk-4",
   "risk-5",
   "cleared",
+  "muted",
 ] as const;
 
 export type ColourName = (typeof names)[number];

@@ -1,7 +1,7 @@
 import type { Choose, Point, Shown } from "../api/protocol";
 import { robotAt } from "../shared/robots";
 import { type World, worldOf } from "../shared/world";
-import { type Camera, fitTo, pan, resize, toWorld, zoomAt } from "./camera";
+import { type Camera, fitTo, pan, resize, resizeIn, toWorld, zoomAt } from "./camera";
 import { onThemeChange } from "./colours";
 import { Gestures } from "./gestures";
 import type { Host } from "./host";
@@ -129,7 +129,8 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
     this.drawing.resize(width, height);
-    this.camera = resize(this.camera, width, height);
+    const size = this.host.session.setting?.world.size;
+    this.camera = size ? resizeIn(size, this.camera, width, height) : resize(this.camera, width, height);
     // Drawn at once, as resizing clears the canvas.
     this.draw();
   }

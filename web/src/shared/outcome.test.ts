@@ -24,12 +24,14 @@ test("found is given out of all, and the terms of the merit come first, with uni
 });
 
 test("energy without a battery is not counted, rather than nothing", () => {
-  expect(outcomeRows({ energy_j: null }, 4)).toEqual([{ name: "energy", value: "not counted", unit: "" }]);
+  expect(outcomeRows({ energy_j: null }, 4)).toEqual([
+    { column: "energy_j", name: "energy", value: "not counted", unit: "" },
+  ]);
 });
 
 test("unknown values are left out, and text is unchanged", () => {
   expect(outcomeRows({ merit: null, status: "running" }, 4)).toEqual([
-    { name: "status", value: "running", unit: "" },
+    { column: "status", name: "status", value: "running", unit: "" },
   ]);
 });
 
@@ -62,6 +64,8 @@ test("a flag and the time at which it was set are one row", () => {
 
 test("only the reason for which a run is over is a row", () => {
   const outcome = { ended_hopeless: true, ended_time_limit: false };
-  expect(outcomeRows(outcome, 0)).toEqual([{ name: "ended", value: "hopeless", unit: "" }]);
+  expect(outcomeRows(outcome, 0)).toEqual([
+    { column: "ended_hopeless", name: "ended", value: "hopeless", unit: "" },
+  ]);
   expect(outcomeRows({ ended_hopeless: 0, ended_time_limit: 0 }, 0)).toEqual([]);
 });

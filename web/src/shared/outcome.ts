@@ -1,6 +1,8 @@
 import type { Outcome } from "../api/protocol";
 
 export interface OutcomeRow {
+  /** The column of the value. */
+  column: string;
   name: string;
   value: string;
   unit: string;
@@ -24,7 +26,7 @@ export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
   const rows: OutcomeRow[] = [];
   if (typeof found === "number") {
     const all = typeof missed === "number" ? found + missed : target;
-    rows.push({ name: "found", value: `${found} / ${all}`, unit: "" });
+    rows.push({ column: "found", name: "found", value: `${found} / ${all}`, unit: "" });
   }
   const shown = withoutFindTimes(Object.keys(rest));
   const names = [
@@ -41,7 +43,7 @@ export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
 function reason(name: string, outcome: Partial<Outcome>): OutcomeRow[] | undefined {
   if (!name.startsWith("ended_")) return undefined;
   const words = named(name.slice("ended_".length)).words;
-  return outcome[name] ? [{ name: "ended", value: words, unit: "" }] : [];
+  return outcome[name] ? [{ column: name, name: "ended", value: words, unit: "" }] : [];
 }
 
 /**
@@ -53,7 +55,9 @@ function event(name: string, outcome: Partial<Outcome>): OutcomeRow[] | undefine
   if (happened !== undefined && happened in outcome) return [];
   const time = outcome[`${name}_s`];
   if (time === undefined) return undefined;
-  return outcome[name] ? row(`${name}_s`, time) : [{ name: named(name).words, value: "no", unit: "" }];
+  return outcome[name]
+    ? row(`${name}_s`, time)
+    : [{ column: name, name: named(name).words, value: "no", unit: "" }];
 }
 
 /**
@@ -75,12 +79,13 @@ export function named(column: string): { words: string; unit: string } {
 }
 
 function row(name: string, value: Outcome[string] | undefined): OutcomeRow[] {
-  if (name === "energy_j" && value === null) return [{ name: "energy", value: "not counted", unit: "" }];
+  if (name === "energy_j" && value === null)
+    return [{ column: name, name: "energy", value: "not counted", unit: "" }];
   if (value === null || value === undefined || typeof value === "object") return [];
   const { words, unit } = named(name);
-  if (typeof value !== "number") return [{ name: words, value: String(value), unit: "" }];
+  if (typeof value !== "number") return [{ column: name, name: words, value: String(value), unit: "" }];
   const [number, power] = unit === "J" && Math.abs(value) >= 10_000 ? [value / 1000, "k"] : [value, ""];
-  return [{ name: words, value: readable(number), unit: `${power}${unit}` }];
+  return [{ column: name, name: words, value: readable(number), unit: `${power}${unit}` }];
 }
 
 function readable(value: number): string {

@@ -80,6 +80,7 @@ class RunEvents:
         """Begin without events."""
         self.until = self.revision = 0
         self._events: list[Event] = []
+        self._has_ended = False
         # Of each kind: the number of events so far, and the distance of those that are kept.
         self._counts: Counter[str] = Counter()
         self._strides: dict[str, int] = {}
@@ -88,6 +89,7 @@ class RunEvents:
         """Return a copy."""
         copy = RunEvents()
         copy.until, copy._events = self.until, list(self._events)
+        copy._has_ended = self._has_ended
         copy._counts, copy._strides = Counter(self._counts), dict(self._strides)
         return copy
 
@@ -96,20 +98,26 @@ class RunEvents:
         """By kind: of how many events one is kept, if not each."""
         return {kind: stride for kind, stride in self._strides.items() if stride > 1}
 
-    def note(self, events: list[Event], until: int) -> None:
-        """Keep the events of steps that are not known yet, up to a tick."""
+    def note(self, events: list[Event], simulation: Stepped) -> None:
+        """Keep the events of steps that are not known yet, up to the current one."""
+        until = simulation.tick
         if until <= self.until:
             return
         for event in events:
             if event.tick >= self.until:
                 self._keep(event)
         self.until = until
+        if simulation.is_over and not self._has_ended:
+            self._has_ended = True
+            self._keep(Event(until - 1, "ended", "run", str(simulation.outcome().status), ""))
 
     def discard_from(self, tick: int) -> None:
         """Forget all events of steps from a tick on: the run will be another one."""
         self.revision += 1
-        self._events = [event for event in self._events if event.tick < tick]
-        self.until = min(self.until, tick)
+        self._events = [
+            event for event in self._events if event.tick < tick and event.kind != "ended"
+        ]
+        self.until, self._has_ended = min(self.until, tick), False
         kept = Counter(event.kind for event in self._events)
         self._counts = Counter({kind: kept[kind] * self._strides.get(kind, 1) for kind in kept})
 

@@ -724,6 +724,8 @@ export interface Row {
   cells: Cell[];
   /** A line below it; null for none. */
   note: string | null;
+  /** The ids of signals that it displays, which are drawn over time on request. */
+  signals: string[];
 }
 
 /** The colours of the bytes of a raster. */

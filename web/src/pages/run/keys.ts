@@ -14,6 +14,8 @@ export const keys: Key[] = [
   { keys: [" "], description: "Play or pause", act: (viewer) => viewer.toggle() },
   { keys: ["."], description: "Step forward", act: ({ session }) => session.step(1) },
   { keys: [","], description: "Step back", act: ({ session }) => session.step(-1) },
+  { keys: ["]"], description: "Next event", act: ({ timeline }) => timeline.step(1) },
+  { keys: ["["], description: "Previous event", act: ({ timeline }) => timeline.step(-1) },
   ...[0.1, 0.5, 1, 2, 10].map((speed, i) => ({
     keys: [String(i + 1)],
     description: `Set speed to ${speed} × real time`,
@@ -41,8 +43,10 @@ export function handleKey(event: KeyboardEvent, viewer: Viewer): void {
   if (isTyping(event.target)) return;
   const isHeld = event.ctrlKey || event.metaKey;
   const isUndo = isHeld && event.key === "z";
+  const isRedo = isHeld && (event.key === "y" || (event.shiftKey && event.key === "Z"));
   const found = isHeld || event.altKey ? null : keys.find((key) => key.keys.includes(event.key));
   if (isUndo) done(event, () => viewer.session.undo());
+  else if (isRedo) done(event, () => viewer.session.redo());
   else if (found && !(event.key === " " && isPressed(event.target))) done(event, () => found.act(viewer));
 }
 

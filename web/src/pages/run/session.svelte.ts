@@ -5,6 +5,8 @@ import type {
   Change,
   PageMessage,
   Ended,
+  EventRow,
+  EventsAnswer,
   Json,
   MapPart,
   Opened,
@@ -13,6 +15,7 @@ import type {
   Saving,
   SeriesAnswer,
   Setting,
+  SignalsAnswer,
   Shown,
   ShowRequest,
   Speed,
@@ -22,10 +25,12 @@ import { FrameQueue } from "../../canvas/frame_queue";
 import { BelievedMap } from "../../shared/believed_map";
 import type { Link } from "../../shared/link";
 import { Throttle } from "../../shared/throttle";
+import { type Samples, noSamples, withSamples } from "./charts/samples";
 import { Exports } from "./exports";
 import { lostPhase, type Phase } from "./phase";
 import { SentChanges } from "./sent_changes";
 import { Series } from "./series";
+import { withArrived } from "./timeline/events";
 
 /** The run of an address, with its text unpacked. */
 export type Source = Omit<Link, "text" | "view"> & { text: string | null };
@@ -67,11 +72,17 @@ export class Session implements Listener {
   lostChanges = $state.raw<string[]>([]);
   /** A change of a run that is over, until the user has decided about it. */
   afterEnd = $state.raw<{ path: string; value: Json } | null>(null);
+  /** What has happened in the run, in order. */
+  events = $state.raw<EventRow[]>([]);
+  /** Kinds with very many events: of how many one is listed. */
+  eventsOneOf = $state.raw<Record<string, number>>({});
   /** Incremented when `series` changes. */
   seriesVersion = $state(0);
   /** Incremented when a new frame has been drawn, at most five times per second. */
   drawnVersion = $state(0);
   series = new Series();
+  /** The signals that the server has sampled. */
+  samples = $state.raw<Samples>(noSamples);
 
   readonly frames = new FrameQueue((frame) => this.send({ type: "acknowledge", frame }));
   /** Called when there is something new to draw. */
@@ -88,6 +99,8 @@ export class Session implements Listener {
   private savedChanges = "";
   private readonly sentChanges = new SentChanges();
   private readonly exports = new Exports();
+  /** The signals that it is to sample. */
+  private charted: string[] = [];
   /** Whether the answer to a request for the series has yet to arrive. */
   private awaitsSeries = false;
 
@@ -180,6 +193,17 @@ export class Session implements Listener {
     this.control({ type: "undo" });
   }
 
+  redo(): void {
+    this.sentChanges.forget();
+    this.control({ type: "redo" });
+  }
+
+  /** Displays a version of the run that changes have made. */
+  chooseVersion(version: number): void {
+    this.sentChanges.forget();
+    this.control({ type: "choose_version", version });
+  }
+
   /** Saves a recording of the run, unless one is being saved. */
   save(): void {
     if (this.saving) return;
@@ -220,11 +244,23 @@ export class Session implements Listener {
     this.send({ type: "show", ...request });
   }
 
+  /** Samples these signals from now on. */
+  chart(signals: string[]): void {
+    this.charted = signals;
+    this.send({ type: "chart", signals });
+  }
+
+  /** Steps of the run that have not been sampled. */
+  get unsampled(): number {
+    return Math.max(0, (this.state?.latest_tick ?? 0) - Math.max(0, this.samples.until));
+  }
+
   // Events of the connection.
 
   ready(): void {
     this.frames.clear();
     if (this.request) this.show(this.request);
+    if (this.charted.length > 0) this.chart(this.charted);
     this.send(this.opening());
   }
 
@@ -257,6 +293,8 @@ export class Session implements Listener {
     else if (message.type === "saved") this.receiveSaved(message.recording);
     else if (message.type === "exported") this.exports.received(message.text);
     else if (message.type === "series") this.receiveSeries(message);
+    else if (message.type === "events") this.receiveEvents(message);
+    else if (message.type === "signals") this.receiveSignals(message);
     else if (message.type === "ended") this.receiveEnd(message);
   }
 
@@ -310,6 +348,15 @@ export class Session implements Listener {
     this.awaitsSeries = false;
     if (this.series.add(answer)) this.seriesVersion += 1;
     else this.requestSeries();
+  }
+
+  private receiveEvents(answer: EventsAnswer): void {
+    this.events = withArrived(this.events, answer);
+    this.eventsOneOf = answer.one_of;
+  }
+
+  private receiveSignals(answer: SignalsAnswer): void {
+    this.samples = withSamples(this.samples, answer);
   }
 
   private receiveMap(part: MapPart): void {

@@ -1,7 +1,9 @@
 import type { Choose, LayerOffer, ShowRequest, StudyConfiguration } from "../../api/protocol";
 import { runsOf } from "../../api/studies";
 import type { Link } from "../../shared/link";
+import { Charts } from "./charts/charts.svelte";
 import { Session } from "./session.svelte";
+import { Timeline } from "./timeline/timeline.svelte";
 import type { Camera } from "../../canvas/camera";
 import { layers } from "../../canvas/layers";
 import type { Host } from "../../canvas/host";
@@ -13,6 +15,8 @@ export const speeds = [0.1, 0.5, 1, 2, 10, 100, null] as const;
 /** A run on the page, and how it is displayed. */
 export class Viewer implements Host {
   readonly session: Session;
+  readonly timeline: Timeline;
+  readonly charts: Charts;
   layers = $state<Record<string, boolean>>(
     Object.fromEntries(layers.map((layer) => [layer.id, layer.switch?.on ?? true])),
   );
@@ -48,6 +52,8 @@ export class Viewer implements Host {
     text: string | null,
   ) {
     this.session = new Session({ ...link, text });
+    this.timeline = new Timeline(this.session);
+    this.charts = new Charts(this.session);
     if (link.study) void this.loadLabel(link.study);
   }
 

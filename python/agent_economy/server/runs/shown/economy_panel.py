@@ -44,7 +44,8 @@ def controller(picture: Picture, of: Row, choice: tuple[str, str]) -> TableRow:
         is_chosen=name == picture.chosen,
     )
     numbers = (len(own), awarded, len(orphans), of["refused"])
-    return row((button, *map(str, numbers)), details_of_controller(of, orphans))
+    signals = [f"controller/{name}/{key}" for key in ("goals", "awarded", "orphans")]
+    return row((button, *map(str, numbers)), details_of_controller(of, orphans), signals)
 
 
 def details_of_controller(of: Row, orphans: list[str]) -> str:

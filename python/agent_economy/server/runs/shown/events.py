@@ -21,6 +21,7 @@ EVENTS = (
     kind("collided", "Collided", "robot-collided"),
     kind("stopped", "Stopped", "robot-broken"),
     kind("failed", "Failed", "owner-4"),
+    kind("ended", "Ended", "text"),
     kind("changed", "Changed by hand", "robot-warning"),
 )
 """The kinds of events, in the order of their filters: those of runs, and the changes of a page."""

@@ -77,12 +77,15 @@ def belief(simulation: Simulation, lane: BelievedLane) -> Section:
         found["button"] = {"label": "Call off the mission", "path": path}
     shares = [row((f"Clearance of {of.kind}", passage.cleared_label(of))) for of in lane.clearance]
     mines = sum(is_believed_mine(mark.mine) for mark in lane.marks)
-    rest = {
-        "Cleared path": f"{percent(float(lane.cleared.mean()))} of the lane",
-        "Believed mines": str(mines),
-        "Marks": mark_counts(lane.marks),
-    }
-    found["table"] = table((), [*shares, *map(row, rest.items())])
+    signals = [f"controller/{lane.controller}/{key}" for key in ("risk", "marked", "marks")]
+    path = f"{percent(float(lane.cleared.mean()))} of the lane"
+    rest = [
+        row(("Remaining risk", percent(lane.risk.probability)), signals=signals[:1]),
+        row(("Cleared path", path)),
+        row(("Believed mines", str(mines)), signals=signals[1:2]),
+        row(("Marks", mark_counts(lane.marks)), signals=signals[2:]),
+    ]
+    found["table"] = table((), [*shares, *rest])
     return found
 
 

@@ -48,11 +48,12 @@ def table(columns: Sequence[str], rows: Sequence[Row], *, total: int | None = No
     }
 
 
-def row(cells: Iterable[str | Cell], note: str | None = None) -> Row:
-    """Return a row."""
+def row(cells: Iterable[str | Cell], note: str | None = None, signals: Sequence[str] = ()) -> Row:
+    """Return a row; `signals` are the ids of those that it displays."""
     return {
         "cells": [cell(each) if isinstance(each, str) else each for each in cells],
         "note": note,
+        "signals": signals,
     }
 
 

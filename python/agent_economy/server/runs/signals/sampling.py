@@ -4,6 +4,7 @@ import asyncio
 import time
 from collections.abc import Awaitable, Callable, Sequence
 from concurrent.futures import Executor
+from functools import partial
 from typing import TypeVar
 
 from agent_economy._core import InputError
@@ -79,9 +80,12 @@ class Sampling:
     async def _sample_until(self, end_s: float, run: Run) -> None:
         """Sample until a time, or until nothing is left to sample, and send the samples."""
         signals = self._signals
-        sampler = self._sampler or await self._in_thread(lambda: Sampler(run, signals))
+        sampler = self._sampler
+        if sampler is None:
+            sampler = await self._in_thread(lambda: Sampler(run, signals))
+        advance = partial(sampler.advance, SLICE_S)
         while time.monotonic() < end_s:
-            await self._in_thread(lambda: sampler.advance(SLICE_S))
+            await self._in_thread(advance)
             if not sampler.is_behind:
                 break
         # Other signals or another run may have been selected meanwhile.
