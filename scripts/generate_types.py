@@ -270,14 +270,25 @@ def python_of_kind(kind: str, schema: Schema, *, is_checked: bool) -> str:
         case "array" if "prefixItems" in schema:
             return f"tuple[{', '.join(map(python, schema['prefixItems']))}]"
         case "array":
-            return f"Sequence[{python(schema['items'])}]"
+            items = f"Sequence[{python(schema['items'], is_checked=is_checked)}]"
+            return bounded(items, schema) if is_checked else items
         case "object":
             return f"Mapping[str, {python(schema['additionalProperties'])}]"
     name = {"boolean": "bool", "integer": "int", "number": "float", "string": "str"}[kind]
-    words = {"minimum": "ge", "maximum": "le", "pattern": "pattern"}
+    return bounded(name, schema) if is_checked else name
+
+
+def bounded(name: str, schema: Schema) -> str:
+    """Return a type of Python with the bounds that msgspec checks."""
+    words = {
+        "minimum": "ge",
+        "maximum": "le",
+        "pattern": "pattern",
+        "maxLength": "max_length",
+        "maxItems": "max_length",
+    }
     bounds = [f"{words[key]}={schema[key]!r}" for key in words if key in schema]
-    is_bounded = is_checked and bounds
-    return f"Annotated[{name}, msgspec.Meta({', '.join(bounds)})]" if is_bounded else name
+    return f"Annotated[{name}, msgspec.Meta({', '.join(bounds)})]" if bounds else name
 
 
 # TypeScript.

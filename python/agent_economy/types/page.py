@@ -1761,8 +1761,12 @@ class Show(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="show"):
         choices: What has been chosen in panels and with markers, by key.
     """
 
-    layers: Sequence[str]
-    panels: Sequence[str] = []
+    layers: Annotated[
+        Sequence[Annotated[str, msgspec.Meta(max_length=100)]], msgspec.Meta(max_length=100)
+    ]
+    panels: Annotated[
+        Sequence[Annotated[str, msgspec.Meta(max_length=100)]], msgspec.Meta(max_length=100)
+    ] = []
     choices: Mapping[str, str] = {}
 
 
@@ -1784,7 +1788,9 @@ class Chart(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="chart"
             the inspection of a robot.
     """
 
-    signals: Sequence[str]
+    signals: Annotated[
+        Sequence[Annotated[str, msgspec.Meta(max_length=200)]], msgspec.Meta(max_length=16)
+    ]
 
 
 class Acknowledge(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="acknowledge"):
