@@ -18,7 +18,10 @@ mod study_answer;
 mod study_form;
 mod warden;
 
-pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
+pub use lists::{
+    Checked, Deleted, Engine, InputError, LibraryEntry, LibraryList, Origin, RecordedRun,
+    RecordingEntry, ScenarioEntry,
+};
 pub use page::{
     Acknowledge, Change, Empty, Json, LoggedChange, Open, PageMessage, Play, Seek, Select,
     SeriesRequest, Show, Step, StudyMember,
@@ -36,6 +39,6 @@ pub use study_answer::{
     StudyTable, StudyVerdict,
 };
 pub use study_form::{
-    Factor, Factors, Guarantee, PlannedFactor, PlannedRequirement, Requirement, StudyPlan,
-    StudyQuestion, StudyRequest,
+    ChangedScenario, ChangedValue, Factor, Factors, Guarantee, PlannedFactor, PlannedRequirement,
+    Requirement, StudyPlan, StudyQuestion, StudyRequest,
 };
