@@ -131,10 +131,3 @@ function sharePlaces(share: number): number {
 export function percent(share: number): string {
   return `${Number((100 * share).toFixed(6))}%`;
 }
-
-/** The message of an error, for display. */
-export function errorText(error: unknown): string {
-  // Without a server, `fetch` throws a TypeError with a message of the browser's.
-  if (error instanceof TypeError || !(error instanceof Error)) return "The server is not responding.";
-  return error.message;
-}
