@@ -5,6 +5,9 @@ import { errorText } from "../error_text";
 import { deletion } from "./deleted.svelte";
 import { type Filter, readFilter, type Row, type Sort, writeFilter } from "./filter";
 
+/** Entries that are drawn at first: those of a thousand would delay each key press. */
+const firstRows = 200;
+
 /** What is edited in a dialog. */
 export type Edited = "title" | "note";
 
@@ -12,6 +15,8 @@ export type Edited = "title" | "note";
 export class Library {
   entries = $state.raw<ReadonlyMap<string, LibraryEntry>>(new Map());
   filter = $state.raw<Filter>() as Filter;
+  /** Entries that are drawn at most. */
+  limit = $state(firstRows);
   /** The entry in a dialog. */
   edited = $state.raw<{ row: Row; what: Edited } | null>(null);
   /** What is being done, such as "Duplicating search". */
@@ -34,6 +39,7 @@ export class Library {
   /** Changes the filter, also in the address, so that it survives a reload and going back. */
   show(changed: Partial<Filter>): void {
     this.filter = { ...this.filter, ...changed };
+    this.limit = firstRows;
     history.replaceState(history.state, "", writeFilter(location.hash, this.filter, this.usual));
   }
 
@@ -64,7 +70,7 @@ export class Library {
   close(): void {
     const id = this.edited?.row.id;
     this.edited = null;
-    if (id !== undefined) void focusActions(id);
+    if (id !== undefined) void this.focusActions(id);
   }
 
   /** Sets the label of the entry in the dialog; returns the error, or an empty string. */
@@ -85,7 +91,7 @@ export class Library {
     await this.do(`Duplicating ${name}…`, async () => {
       const copy = await api.duplicate(this.kind, id);
       await this.reloadAll();
-      await focusActions(copy.id);
+      await this.focusActions(copy.id);
     });
   }
 
@@ -105,7 +111,7 @@ export class Library {
       const { id } = await api.restore(last.token);
       deletion.set(null);
       await this.reloadAll();
-      await focusActions(id);
+      await this.focusActions(id);
     });
   }
 
@@ -127,15 +133,22 @@ export class Library {
     }
   }
 
+  /** Focuses the actions of an entry, or the filter if it does not let the entry through. */
+  private async focusActions(id: string): Promise<void> {
+    await tick();
+    if (actionsOf(id) === null) {
+      this.limit = Infinity;
+      await tick();
+    }
+    (actionsOf(id) ?? document.getElementById("filter"))?.focus();
+  }
+
   private async reloadAll(): Promise<void> {
     await Promise.all([this.reload(), this.refresh()]);
     await tick();
   }
 }
 
-/** Focuses the actions of an entry, or the filter if it is not shown. */
-async function focusActions(id: string): Promise<void> {
-  await tick();
-  const button = document.querySelector<HTMLElement>(`[data-actions="${CSS.escape(id)}"]`);
-  (button ?? document.getElementById("filter"))?.focus();
+function actionsOf(id: string): HTMLElement | null {
+  return document.querySelector(`[data-actions="${CSS.escape(id)}"]`);
 }
