@@ -1,4 +1,4 @@
-"""The form of a study says what was changed in the scenario of a run."""
+"""The form of a study shows what was changed in the scenario of a run."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -26,7 +26,7 @@ def exported(changes: Changes, scenario: str | ae.Scenario = "search") -> str:
 
 
 def form(client: TestClient, text: str) -> Any:
-    """Return what the form of a study of a text shows of its origin."""
+    """Return what the form of a study of a file shows of its origin."""
     body = {"scenario": None, "text": text}
     return client.post("/api/factors", json=body).raise_for_status().json()["exported_from"]
 

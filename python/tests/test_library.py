@@ -358,7 +358,7 @@ def test_requests_that_are_no_objects_are_refused(client: TestClient) -> None:
         assert odd_request(client, "studies/delete", content) == 422
         assert odd_request(client, "undo", content) == 422
     assert odd_request(client, "studies/label", b"x" * 2_000_000) == 413
-    assert client.post("/api/library/wishes/delete", json={}).status_code in (404, 405)
+    assert client.post("/api/library/robots/delete", json={}).status_code in (404, 405)
     for token in (None, 7, "", "..", "../../x", "0" * 32, "\ud800", ["a"]):
         assert refused(client, "undo", token=token)
 

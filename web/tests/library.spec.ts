@@ -233,13 +233,17 @@ test("a thousand studies are filtered within the time of a key press", async ({ 
   await filter(page).fill("s99");
   await expect(page.getByText("11 of 1,000 studies")).toBeVisible();
   const took_ms = await filter(page).evaluate(async (input: HTMLInputElement) => {
-    const begin = performance.now();
-    input.value = "";
-    input.dispatchEvent(new Event("input", { bubbles: true }));
-    await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
-    return performance.now() - begin;
+    const times_ms = [];
+    for (const text of ["", "s99", "", "s99", "", "s9", ""]) {
+      const begin = performance.now();
+      input.value = text;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+      await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
+      times_ms.push(performance.now() - begin);
+    }
+    return times_ms.sort((a, b) => a - b)[3] ?? 0;
   });
-  console.log(`1,000 studies shown again in ${took_ms.toFixed(0)} ms`);
+  console.log(`1,000 studies filtered in ${took_ms.toFixed(0)} ms`);
   // It takes a tenth of a second; the limit is for busy machines.
   expect(took_ms).toBeLessThan(5000);
   expect(await page.locator("[data-actions]").count()).toBe(200);

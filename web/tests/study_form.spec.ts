@@ -180,7 +180,7 @@ test("studies are usable on a phone", async ({ page, server, answered }) => {
   await expectAccessible(page);
 });
 
-test("the form of a study of a changed run says what was changed, also after a reload", async ({
+test("the form of a study of a changed run lists what was changed, also after a reload", async ({
   page,
   server,
 }) => {

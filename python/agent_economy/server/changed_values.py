@@ -1,6 +1,6 @@
 """What was changed in the scenario of a run, in the first comments of its exported file.
 
-So the form of a study can say it, wherever the text comes from: an address, a file, a recording.
+So the form of a study can show it, wherever the file comes from: an address, a disk, a recording.
 """
 
 import json
@@ -27,7 +27,7 @@ BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 @dataclass(frozen=True)
 class Change:
-    """A changed value: its path, and its texts before and now; None where there is none."""
+    """A changed value: its path, and what it was and is in one line; None where there is none."""
 
     path: str
     old: str | None
@@ -44,14 +44,14 @@ def comments(changes: list[Change]) -> list[str]:
 
 
 def exported_from(text: str, document: Mapping[str, Any]) -> page.ChangedScenario | None:
-    """Return the scenario that a text was exported from, with what was changed in it.
+    """Return the scenario that a file was exported from, with what was changed in it.
 
     Args:
-        text: The text of a scenario.
+        text: The file's content.
         document: The scenario as nested dicts: its values now, also if the file was edited since.
 
     Returns:
-        None if the text was not exported.
+        None if the file was not exported.
     """
     declared = declared_in(text)
     if declared is None:
@@ -72,7 +72,7 @@ def exported_from(text: str, document: Mapping[str, Any]) -> page.ChangedScenari
 
 
 def declared_in(text: str) -> tuple[str, int] | None:
-    """Return the name of the scenario of an exported text, and how many values were changed."""
+    """Return the name of the scenario of an exported file, and how many values were changed."""
     lines = head(text)
     origin = ORIGIN.fullmatch(next(lines, ""))
     if origin is None:
@@ -82,7 +82,7 @@ def declared_in(text: str) -> tuple[str, int] | None:
 
 
 def head(text: str) -> Iterator[str]:
-    """Yield the comments at the beginning of a text."""
+    """Yield the comments at the beginning of a file."""
     for line in text.split("\n", 2 * MAX_LISTED + 100):
         if not line.startswith("#"):
             return

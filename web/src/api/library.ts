@@ -4,7 +4,7 @@ import { postJson, request } from "./http";
 /** The kinds of entries of the library, as in its addresses. */
 export type LibraryKind = "studies" | "recordings" | "scenarios";
 
-/** What the user says of an entry. */
+/** What the user calls and notes of an entry. */
 export type Label = Pick<LibraryEntry, "title" | "note" | "tags">;
 
 /** Titles, notes, tags and sizes of all entries of a kind. */

@@ -30,7 +30,7 @@ IN_NOTES = "\n\t"
 
 @dataclass(frozen=True)
 class Label:
-    """What a user says of an entry."""
+    """What a user calls and notes of an entry."""
 
     title: str = ""
     note: str = ""
@@ -126,7 +126,7 @@ def document(file: Path) -> dict[str, Any]:
 
 
 def checked_text(name: str, value: object, longest: int, allowed: str = "") -> str:
-    """Return a text of a label without spaces around it.
+    """Return a string of a label without spaces around it.
 
     Raises:
         InputError: If it is not a string, too long, or contains control characters.
@@ -144,7 +144,7 @@ def checked_tags(value: object) -> tuple[str, ...]:
     """Return tags, each once, in their order.
 
     Raises:
-        InputError: If they are not a list of short texts without commas, or too many.
+        InputError: If they are not a list of short strings without commas, or too many.
     """
     check(isinstance(value, list), "tags", type(value).__name__, "a list of strings")
     given = list(value) if isinstance(value, list) else []

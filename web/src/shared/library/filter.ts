@@ -66,7 +66,7 @@ export function tagsOf(rows: Row[]): string[] {
   return found.map(([tag]) => tag);
 }
 
-/** The tags in a text, in which commas separate them. */
+/** The tags in a string, in which commas separate them. */
 export function readTags(text: string): string[] {
   const tags = text.split(",").map((tag) => tag.trim());
   return [...new Set(tags.filter((tag) => tag !== ""))];
