@@ -3,6 +3,7 @@
 import fcntl
 import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -577,3 +578,37 @@ def test_a_damaged_study_can_be_renamed_and_deleted_but_not_duplicated(
     assert "study.toml" in refused(client, "studies/duplicate", id=IDS["studies"])
     assert post(client, "studies/label", id=IDS["studies"], title="Bad")["title"] == "Bad"
     post(client, "undo", token=post(client, "studies/delete", id=IDS["studies"])["token"])
+
+
+def test_a_day_of_renaming_copying_deleting_and_restoring_loses_nothing(folder: Path) -> None:
+    """Two servers, hundreds of random changes of scenarios and recordings, and a model of them."""
+    clients = [TestClient(app(Workspace(folder), "127.0.0.1"), OWN) for _ in range(2)]
+    choose = random.Random(7)  # noqa: S311
+    for kind in ("scenarios", "recordings"):
+        titles, deleted = {IDS[kind]: ""}, dict[str, tuple[str, str]]()
+        for i in range(200):
+            client = choose.choice(clients)
+            action = choose.choice(["label", "duplicate", "delete", "undo"])
+            if action == "undo" and deleted:
+                token = choose.choice(list(deleted))
+                name, title = deleted[token]
+                if name in titles:
+                    assert "exists again" in refused(client, "undo", token=token)
+                else:
+                    titles[post(client, "undo", token=token)["id"]] = title
+                    del deleted[token]
+            elif action == "delete" and len(titles) > 1:
+                name = choose.choice(list(titles))
+                token = post(client, f"{kind}/delete", id=name)["token"]
+                deleted[token] = name, titles.pop(name)
+            elif action == "label":
+                name = choose.choice(list(titles))
+                titles[name] = post(client, f"{kind}/label", id=name, title=f"Title {i}")["title"]
+            elif len(titles) < 12:
+                copy = post(client, f"{kind}/duplicate", id=choose.choice(list(titles)))
+                titles[copy["id"]] = copy["title"]
+        rows = listed(clients[0], kind)
+        assert {name: row["title"] for name, row in rows.items()} == titles
+        assert ids_of_page(clients[1], kind) == set(titles)
+        contents = {(folder / name).read_bytes() for name in titles}
+        assert contents == {(folder / next(iter(titles))).read_bytes()}

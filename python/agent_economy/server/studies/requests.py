@@ -176,7 +176,7 @@ def scenario_of(request: Mapping[str, Any], workspace: Workspace) -> Scenario:
 
 
 def name_of(text: str) -> str:
-    """Return the file name of a scenario that is sent, which names the folder of its study: NAME-changed.toml."""
+    """Return the file name of a scenario that is sent, after which its study is named."""
     declared = declared_in(text)
     if declared is None:
         return "scenario.toml"
