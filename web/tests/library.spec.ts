@@ -186,6 +186,18 @@ test("a renamed study keeps its address, which shows the title", async ({ page, 
   await expect(page.getByRole("heading", { name: "Renamed", level: 1 })).toBeVisible();
 });
 
+test("the filter is still there after going back from a study", async ({ page, ownServer }) => {
+  await open(page, ownServer, "studies");
+  await filter(page).fill("second");
+  await page.getByRole("link", { name: /studies\/second/ }).click();
+  await expect(page.getByRole("heading", { name: "classic", level: 1 })).toBeVisible();
+  await page.goBack();
+  await expect(filter(page)).toHaveValue("second");
+  await expect.poll(() => shown(page, "studies")).toEqual(["studies/second"]);
+  await page.getByRole("navigation").getByRole("link", { name: "Studies" }).click();
+  await expect(filter(page)).toHaveValue("");
+});
+
 test("an undo whose name is taken is refused with words, and can be repeated", async ({
   page,
   ownServer,
