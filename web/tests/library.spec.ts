@@ -35,6 +35,14 @@ function makeEntries({ folder }: RealServer, kind: Kind): void {
 
 const actions = (page: Page, id: string) => page.locator(`[data-actions="${id}"]`);
 const filter = (page: Page) => page.getByRole("searchbox", { name: "Filter" });
+/** Waits for the code of charts, which would fail to load after the server of a test has ended. */
+const chartsAreDrawn = (page: Page) =>
+  expect(
+    page
+      .getByRole("img", { name: /^Figure of merit/ })
+      .locator("svg")
+      .first(),
+  ).toBeVisible();
 const saved = (page: Page) => expect(page.getByRole("dialog")).toBeHidden();
 
 /** The ids of a kind's own entries on the page, in their order. */
@@ -184,6 +192,7 @@ test("a renamed study keeps its address, which shows the title", async ({ page, 
   await saved(page);
   await page.goto(`${ownServer.url}/#/study?id=studies/first`);
   await expect(page.getByRole("heading", { name: "Renamed", level: 1 })).toBeVisible();
+  await chartsAreDrawn(page);
 });
 
 test("the filter is still there after going back from a study", async ({ page, ownServer }) => {
@@ -191,6 +200,7 @@ test("the filter is still there after going back from a study", async ({ page, o
   await filter(page).fill("second");
   await page.getByRole("link", { name: /studies\/second/ }).click();
   await expect(page.getByRole("heading", { name: "classic", level: 1 })).toBeVisible();
+  await chartsAreDrawn(page);
   await page.goBack();
   await expect(filter(page)).toHaveValue("second");
   await expect.poll(() => shown(page, "studies")).toEqual(["studies/second"]);
