@@ -29,6 +29,7 @@ from page_client import OWN
 from starlette.testclient import TestClient
 
 from agent_economy.server import Workspace, app
+from agent_economy.server.library.kinds import KINDS, Kind
 
 
 @pytest.fixture(scope="module")
@@ -282,3 +283,21 @@ def test_a_day_of_renaming_copying_deleting_and_restoring_loses_nothing(folder: 
         assert ids_of_page(clients[1], kind) == set(titles)
         contents = {(folder / name).read_bytes() for name in titles}
         assert contents == {(folder / next(iter(titles))).read_bytes()}
+
+
+@pytest.mark.parametrize("change", ["delete", "duplicate", "label"])
+@pytest.mark.parametrize("kind", KIND_NAMES)
+def test_an_entry_that_is_removed_meanwhile_is_refused_with_words(
+    client: TestClient, folder: Path, monkeypatch: pytest.MonkeyPatch, kind: str, change: str
+) -> None:
+    found = next(each for each in KINDS if each.name == kind)
+    own = type(found).find
+
+    def find_and_lose(self: Kind, workspace: Workspace, name: str) -> Path:
+        path = own(self, workspace, name)
+        shutil.move(path, folder / ".lost")
+        return path
+
+    monkeypatch.setattr(type(found), "find", find_and_lose)
+    message = refused(client, f"{kind}/{change}", id=IDS[kind], title="x")
+    assert "/" in message or "one" in message

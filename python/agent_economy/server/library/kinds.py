@@ -112,7 +112,7 @@ class Recordings:
     @contextmanager
     def unused(self, path: Path) -> Iterator[None]:
         """Hold the lock of a recording."""
-        with open_regular(path) as stream:
+        with disk_errors(path.name), open_regular(path) as stream:
             if not has_lock(stream.fileno()):
                 message = f"{path.name}: is being written: wait until it is complete"
                 raise InputError(message)

@@ -123,7 +123,7 @@ class Library:
             path = self.own(kind, name, "deleted")
             check_inside(path, self.workspace, "deleted")
             label, _ = self.label(path)
-            with kind.unused(path), disk_errors(str(name)):
+            with disk_errors(str(name)), kind.unused(path):
                 token = self.trash(own).put(path, kind.name, str(name), label.title)
         return {"token": token, "kind": kind.name, "id": str(name), "title": label.title}
 

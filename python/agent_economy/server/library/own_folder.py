@@ -45,11 +45,12 @@ def locked(workspace: Workspace) -> Iterator[Path]:
     check(workspace.has(folder / LOCK), "lock", f"{NAME}/{LOCK}", f"a file here, and {OUTSIDE}")
     with disk_errors(f"{NAME}/{LOCK}"):
         descriptor = descriptor_of(folder / LOCK, os.O_RDWR | os.O_CREAT)
-        try:
+    try:
+        with disk_errors(f"{NAME}/{LOCK}"):
             wait_for(descriptor)
-            yield folder
-        finally:
-            os.close(descriptor)
+        yield folder
+    finally:
+        os.close(descriptor)
 
 
 def wait_for(descriptor: int) -> None:
