@@ -179,3 +179,26 @@ test("studies are usable on a phone", async ({ page, server, answered }) => {
   await expectToFit(page);
   await expectAccessible(page);
 });
+
+test("the form of a study of a changed run lists what was changed, also after a reload", async ({
+  page,
+  server,
+}) => {
+  const changes = '[[3,"robots.rover.count",6],[4,"clock.time_limit_s",60]]';
+  await openRun(page, server, `scenario=search&seed=3&changes=${changes}&tick=10`, "6 robots");
+  await page.getByRole("button", { name: "Study this scenario with your 2 changes" }).click();
+  const expectChanges = async () => {
+    await expect(page.getByRole("heading", { name: "New study of search, changed" })).toBeVisible();
+    const listed = page.getByRole("region", { name: "Changed values" });
+    await expect(listed.getByRole("heading")).toHaveText("2 values changed since search");
+    await expect(listed.getByRole("listitem")).toHaveText([
+      /clock\.time_limit_s\s*120.*60/,
+      /robots\.rover\.count\s*4.*6/,
+    ]);
+  };
+  await expectChanges();
+  await page.reload();
+  await expectChanges();
+  await expectAccessible(page);
+  await expect(page.getByText("studies/search-changed")).toBeVisible();
+});

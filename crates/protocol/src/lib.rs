@@ -19,7 +19,10 @@ mod study_form;
 mod timeline;
 mod warden;
 
-pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
+pub use lists::{
+    Checked, Deleted, Engine, InputError, LibraryEntry, LibraryList, Origin, RecordedRun,
+    RecordingEntry, ScenarioEntry,
+};
 pub use page::{
     Acknowledge, Change, Chart, ChooseVersion, Empty, Json, LoggedChange, Open, PageMessage, Play,
     Seek, Select, SeriesRequest, Show, Step, StudyMember,
@@ -37,6 +40,6 @@ pub use study_answer::{
     StudyTable, StudyVerdict,
 };
 pub use study_form::{
-    Factor, Factors, Guarantee, PlannedFactor, PlannedRequirement, Requirement, StudyPlan,
-    StudyQuestion, StudyRequest,
+    ChangedScenario, ChangedValue, Factor, Factors, Guarantee, PlannedFactor, PlannedRequirement,
+    Requirement, StudyPlan, StudyQuestion, StudyRequest,
 };

@@ -102,3 +102,44 @@ pub struct RecordedRun {
     /// Its simulated time; null if the file is truncated.
     pub length_s: Option<f64>,
 }
+
+/// What the library of the page knows of an entry of a list, beside the list itself.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LibraryEntry {
+    /// Its id, as in the list of its kind.
+    pub id: String,
+    /// Its title; empty if it has none.
+    pub title: String,
+    /// Its note, of any number of lines.
+    pub note: String,
+    /// Its tags.
+    pub tags: Vec<String>,
+    /// The size of its files.
+    pub bytes: u64,
+    /// When its files were last written, in seconds since 1970.
+    pub changed_s: f64,
+    /// Whether it is part of the program: it can only be duplicated.
+    pub is_bundled: bool,
+    /// Why its title, note and tags cannot be read.
+    pub error: Option<String>,
+}
+
+/// All entries of a kind.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LibraryList {
+    /// In the order of their ids.
+    pub entries: Vec<LibraryEntry>,
+}
+
+/// An entry that was deleted, and can be restored.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Deleted {
+    /// What restores it.
+    pub token: String,
+    /// Its kind, as in the addresses of the library.
+    pub kind: String,
+    /// Its id.
+    pub id: String,
+    /// Its title; empty if it has none.
+    pub title: String,
+}

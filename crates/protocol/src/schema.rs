@@ -1,6 +1,6 @@
 //! The JSON Schemas of the types.
 
-use crate::lists::{Checked, ScenarioEntry};
+use crate::lists::{Checked, Deleted, LibraryList, ScenarioEntry};
 use crate::page::PageMessage;
 use crate::server::ServerMessage;
 use crate::study_answer::{Study, StudyList};
@@ -37,6 +37,8 @@ pub fn page_schema() -> Json {
     from_server.subschema_for::<ServerMessage>();
     from_server.subschema_for::<ScenarioEntry>();
     from_server.subschema_for::<Checked>();
+    from_server.subschema_for::<LibraryList>();
+    from_server.subschema_for::<Deleted>();
     from_server.subschema_for::<Factors>();
     from_server.subschema_for::<StudyRequest>();
     from_server.subschema_for::<StudyList>();

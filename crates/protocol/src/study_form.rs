@@ -73,6 +73,30 @@ pub struct Factors {
     /// Limits the combinations; null if all are compared.
     #[serde(rename = "where")]
     pub only_where: Option<String>,
+    /// The scenario that a run was exported from; null for all other scenarios.
+    pub exported_from: Option<ChangedScenario>,
+}
+
+/// The scenario of a run, with what was changed in it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ChangedScenario {
+    /// Its name.
+    pub name: String,
+    /// The first changed values.
+    pub values: Vec<ChangedValue>,
+    /// The number of all changed values.
+    pub total: u32,
+}
+
+/// A value of a scenario that was changed.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ChangedValue {
+    /// Its keys from the root, separated by dots.
+    pub path: String,
+    /// The value before, as in the file; null if the scenario does not have it.
+    pub old: Option<String>,
+    /// The value now, as in the file; null if it was removed.
+    pub new: Option<String>,
 }
 
 /// What a study is about.

@@ -7,7 +7,8 @@ GET `/api/recordings`: the recordings below the server's folder, the newest firs
 `/drive`: where the page finds the warden of the server's drive, and what its map draws. Without a
 drive it is `null`, not an error: browsers report errors of requests in the console of every page.
 `/ws`: a run (see `agent_economy.types.page`), or the progress of a study with `?study=ID`.
-The addresses of studies are in `studies.routes`.
+The addresses of studies are in `studies.routes`; those of titles, notes, tags, copies and deletions
+are in `library.routes`.
 """
 
 import asyncio
@@ -34,6 +35,8 @@ from starlette.websockets import WebSocket
 
 from agent_economy._core import InputError
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
+from agent_economy.server.library.library import Library
+from agent_economy.server.library.routes import LibraryRoutes
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, errors_response, text
@@ -112,6 +115,7 @@ class Addresses:
             Route("/api/recordings/file", self.recording),
             Route("/api/check", self.check, methods=["POST"]),
             *Routes(self.studies, self.workspace).all(),
+            *LibraryRoutes(Library(self.workspace)).all(),
             WebSocketRoute("/ws", self.connect),
         ]
         if self.web.is_dir():

@@ -16,7 +16,7 @@ from agent_economy.study import load_plan
 from agent_economy.study.store.folder import QUESTION, read_bytes
 from agent_economy.study.store.kind import is_selection
 
-MAX_DEPTH, MAX_FOLDERS, MAX_FILES = 4, 1000, 200
+MAX_DEPTH, MAX_FOLDERS, MAX_FILES = 4, 5000, 2000
 """Limits of the search for files: depth of folders, number of folders, number of files."""
 
 OUTSIDE = "it is not below the folder in which the server was started"

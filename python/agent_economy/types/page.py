@@ -137,6 +137,34 @@ class Cell(TypedDict):
     is_chosen: bool
 
 
+class ChangedValue(TypedDict):
+    """A value of a scenario that was changed.
+
+    Attributes:
+        path: Its keys from the root, separated by dots.
+        old: The value before, as in the file; null if the scenario does not have it.
+        new: The value now, as in the file; null if it was removed.
+    """
+
+    path: str
+    old: str | None
+    new: str | None
+
+
+class ChangedScenario(TypedDict):
+    """The scenario of a run, with what was changed in it.
+
+    Attributes:
+        name: Its name.
+        values: The first changed values.
+        total: The number of all changed values.
+    """
+
+    name: str
+    values: Sequence[ChangedValue]
+    total: int
+
+
 Engine: TypeAlias = Literal["metric", "classic"]
 """A simulator."""
 
@@ -193,6 +221,22 @@ class Column(TypedDict):
 
     label: str
     is_number: bool
+
+
+class Deleted(TypedDict):
+    """An entry that was deleted, and can be restored.
+
+    Attributes:
+        token: What restores it.
+        kind: Its kind, as in the addresses of the library.
+        id: Its id.
+        title: Its title; empty if it has none.
+    """
+
+    token: str
+    kind: str
+    id: str
+    title: str
 
 
 Emphasis: TypeAlias = Literal["plain", "strong", "muted"]
@@ -339,6 +383,7 @@ class Factors(TypedDict):
         columns: Columns that conditions can be about.
         minimize: The quantity to be minimal in a study with a requirement.
         where: Limits the combinations; null if all are compared.
+        exported_from: The scenario that a run was exported from; null for all other scenarios.
     """
 
     name: str
@@ -354,6 +399,7 @@ class Factors(TypedDict):
     columns: Sequence[str]
     minimize: str
     where: str | None
+    exported_from: ChangedScenario | None
 
 
 Shape: TypeAlias = Literal["circle", "triangle", "diamond", "square", "hexagon", "cross", "tick"]
@@ -654,6 +700,40 @@ class LayerOffer(TypedDict):
     place: LayerPlace
     heading: str
     keys: Sequence[Key]
+
+
+class LibraryEntry(TypedDict):
+    """What the library of the page knows of an entry of a list, beside the list itself.
+
+    Attributes:
+        id: Its id, as in the list of its kind.
+        title: Its title; empty if it has none.
+        note: Its note, of any number of lines.
+        tags: Its tags.
+        bytes: The size of its files.
+        changed_s: When its files were last written, in seconds since 1970.
+        is_bundled: Whether it is part of the program: it can only be duplicated.
+        error: Why its title, note and tags cannot be read.
+    """
+
+    id: str
+    title: str
+    note: str
+    tags: Sequence[str]
+    bytes: int
+    changed_s: float
+    is_bundled: bool
+    error: str | None
+
+
+class LibraryList(TypedDict):
+    """All entries of a kind.
+
+    Attributes:
+        entries: In the order of their ids.
+    """
+
+    entries: Sequence[LibraryEntry]
 
 
 LoggedChange: TypeAlias = tuple[int, str, Any]

@@ -40,3 +40,19 @@ export async function request(path: string, options: RequestInit = {}): Promise<
   if (body?.errors) throw new RequestError(body.errors);
   throw new Error(`The server responded ${response.status} ${response.statusText}.`);
 }
+
+/** The server's response to a JSON object. Throws as `request`. */
+export async function postJson<Response>(
+  path: string,
+  body: object,
+  signal?: AbortSignal,
+): Promise<Response> {
+  const headers = { "Content-Type": "application/json" };
+  const response = await request(path, {
+    method: "POST",
+    headers,
+    body: JSON.stringify(body),
+    ...(signal ? { signal } : {}),
+  });
+  return response.json() as Promise<Response>;
+}

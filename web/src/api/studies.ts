@@ -1,4 +1,4 @@
-import { request } from "./http";
+import { postJson, request } from "./http";
 import type {
   Factors,
   ScenarioSource,
@@ -11,11 +11,11 @@ import type {
 } from "./study";
 
 export function factors(source: ScenarioSource): Promise<Factors> {
-  return post("api/factors", source);
+  return postJson("api/factors", source);
 }
 
 export function plan(study: StudyRequest, signal?: AbortSignal): Promise<StudyPlan> {
-  return post("api/plan", study, signal);
+  return postJson("api/plan", study, signal);
 }
 
 export async function studies(): Promise<StudySummary[]> {
@@ -24,16 +24,16 @@ export async function studies(): Promise<StudySummary[]> {
 }
 
 export function start(study: StudyRequest): Promise<StudySummary> {
-  return post("api/studies", study);
+  return postJson("api/studies", study);
 }
 
 export function stop(id: string): Promise<StudySummary> {
-  return post("api/studies/stop", { id });
+  return postJson("api/studies/stop", { id });
 }
 
 /** Resumes a study, with a higher confidence if given. */
 export function resume(id: string, confidence: number | null): Promise<StudySummary> {
-  return post("api/studies/resume", { id, confidence });
+  return postJson("api/studies/resume", { id, confidence });
 }
 
 export function study(id: string): Promise<Study> {
@@ -65,15 +65,4 @@ function runsAt(id: string, configuration: number, more: Record<string, number>)
 
 async function get<Response>(path: string): Promise<Response> {
   return (await request(path)).json() as Promise<Response>;
-}
-
-async function post<Response>(path: string, body: object, signal?: AbortSignal): Promise<Response> {
-  const headers = { "Content-Type": "application/json" };
-  const response = await request(path, {
-    method: "POST",
-    headers,
-    body: JSON.stringify(body),
-    ...(signal ? { signal } : {}),
-  });
-  return response.json() as Promise<Response>;
 }

@@ -18,7 +18,7 @@ from agent_economy.types.page import RecordingEntry
 FOLDER = "recordings"
 """The folder of new recordings, below the server's folder."""
 
-MAX_LISTED = 200
+MAX_LISTED = 2000
 """Maximum number of recordings in the list; the newest are listed."""
 
 MAX_BYTES = 2**30

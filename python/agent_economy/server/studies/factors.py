@@ -6,6 +6,7 @@ from typing import Any, cast
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Requirement, Scenario, Value
+from agent_economy.server.changed_values import exported_from
 from agent_economy.server.parameters import parameters, schema
 from agent_economy.study.paths import counted_kind, is_of_controllers
 from agent_economy.study.plan import WITHOUT_RUNS
@@ -28,6 +29,7 @@ def described(scenario: Scenario) -> page.Factors:
         "columns": columns(scenario),
         "minimize": scenario.cost,
         "where": scenario.where,
+        "exported_from": exported_from(scenario.source.text, scenario.to_dict()),
     }
 
 

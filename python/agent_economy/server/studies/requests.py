@@ -1,5 +1,6 @@
 """Reads the study that a page requests, and reports all errors at once."""
 
+import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, TypeVar
@@ -8,6 +9,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, validation
 from agent_economy.scenario.source import check_path
+from agent_economy.server.changed_values import declared_in
 from agent_economy.server.messages import ONE_SOURCE, Error, errors_of, number
 from agent_economy.server.studies.factors import required
 from agent_economy.server.workspace import Workspace
@@ -40,6 +42,9 @@ PATHS = {
     "where": ("study", "where"),
 }
 """Paths in a scenario of the parts of a request that replace its values."""
+
+MAX_NAME = 60
+"""Maximum length of the name of a scenario in that of a folder."""
 
 MAX_LABELS = 50
 """Maximum number of configurations of a plan that are labelled."""
@@ -165,9 +170,19 @@ def scenario_of(request: Mapping[str, Any], workspace: Workspace) -> Scenario:
     name, text = request.get("scenario"), request.get("text")
     is_one = (name is None) != (text is None)
     validation.check(is_one, "request", [name, text], ONE_SOURCE)
-    each = name if text is None else text
+    each: Any = name if text is None else text
     validation.check(validation.is_text(each), "request", each, "a string")
-    return workspace.read(str(text)) if name is None else workspace.load(name)
+    return workspace.read(each, name_of(each)) if name is None else workspace.load(name)
+
+
+def name_of(text: str) -> str:
+    """Return the file name of a scenario that is sent, after which its study is named."""
+    declared = declared_in(text)
+    if declared is None:
+        return "scenario.toml"
+    name, changes = declared
+    plain = re.sub(r"[^\w-]+", "-", name)[:MAX_NAME]
+    return f"{plain}{'-changed' if changes else ''}.toml"
 
 
 def overrides(request: Mapping[str, Any]) -> tuple[Override, ...]:

@@ -37,6 +37,26 @@ export interface Cell {
   is_chosen: boolean;
 }
 
+/** The scenario of a run, with what was changed in it. */
+export interface ChangedScenario {
+  /** Its name. */
+  name: string;
+  /** The first changed values. */
+  values: ChangedValue[];
+  /** The number of all changed values. */
+  total: number;
+}
+
+/** A value of a scenario that was changed. */
+export interface ChangedValue {
+  /** Its keys from the root, separated by dots. */
+  path: string;
+  /** The value before, as in the file; null if the scenario does not have it. */
+  old: string | null;
+  /** The value now, as in the file; null if it was removed. */
+  new: string | null;
+}
+
 /** A scenario that has no errors. */
 export interface Checked {
   /** Its name. */
@@ -96,6 +116,18 @@ export interface Column {
   label: string;
   /** Whether it has numbers, which stand on the right. */
   is_number: boolean;
+}
+
+/** An entry that was deleted, and can be restored. */
+export interface Deleted {
+  /** What restores it. */
+  token: string;
+  /** Its kind, as in the addresses of the library. */
+  kind: string;
+  /** Its id. */
+  id: string;
+  /** Its title; empty if it has none. */
+  title: string;
 }
 
 /** How words stand out. */
@@ -180,6 +212,8 @@ export interface Factors {
   minimize: string;
   /** Limits the combinations; null if all are compared. */
   where: string | null;
+  /** The scenario that a run was exported from; null for all other scenarios. */
+  exported_from: ChangedScenario | null;
 }
 
 /** A fill. */
@@ -326,6 +360,32 @@ export interface LayerOffer {
 
 /** Where a layer is drawn. */
 export type LayerPlace = "ground" | "below" | "above";
+
+/** What the library of the page knows of an entry of a list, beside the list itself. */
+export interface LibraryEntry {
+  /** Its id, as in the list of its kind. */
+  id: string;
+  /** Its title; empty if it has none. */
+  title: string;
+  /** Its note, of any number of lines. */
+  note: string;
+  /** Its tags. */
+  tags: string[];
+  /** The size of its files. */
+  bytes: number;
+  /** When its files were last written, in seconds since 1970. */
+  changed_s: number;
+  /** Whether it is part of the program: it can only be duplicated. */
+  is_bundled: boolean;
+  /** Why its title, note and tags cannot be read. */
+  error: string | null;
+}
+
+/** All entries of a kind. */
+export interface LibraryList {
+  /** In the order of their ids. */
+  entries: LibraryEntry[];
+}
 
 /** A line. */
 export interface Line {

@@ -33,6 +33,7 @@ const known: Factors = {
   columns: ["time_s", "collisions"],
   minimize: "robots",
   where: null,
+  exported_from: null,
 };
 const source: ScenarioSource = { scenario: "classic", text: null };
 const requested = (change: Partial<Draft>) =>

@@ -8,7 +8,7 @@ import {
   type StudySummary,
 } from "../../api/study";
 import { requestOf, type Draft, draftOf, type FieldErrors, fieldErrors } from "./draft";
-import { errorText } from "./labels";
+import { errorText } from "../../shared/error_text";
 
 const debounce_ms = 250;
 const retry_ms = 2000;

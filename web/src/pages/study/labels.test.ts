@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
 import { RequestError, type StudyProgress } from "../../api/study";
+import { errorText } from "../../shared/error_text";
 import {
   ago,
   bestOf,
@@ -12,7 +13,6 @@ import {
   raceFigures,
   places,
   raceSummary,
-  errorText,
 } from "./labels";
 
 const race: StudyProgress = {

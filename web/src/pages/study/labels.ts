@@ -81,14 +81,16 @@ export function durations([low_s, high_s]: [number, number]): string {
   return `${isShared ? number : low} to ${high}`;
 }
 
+/** One for all calls: a list has hundreds. */
+const relative = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
+
 /** Time since a change, such as `3 minutes ago`. */
 export function ago(changed_s: number, now_s: number): string {
-  const format = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
   const past = Math.max(0, now_s - changed_s);
   if (past < 60) return "just now";
-  if (past < 3600) return format.format(-Math.floor(past / 60), "minute");
-  if (past < 86_400) return format.format(-Math.floor(past / 3600), "hour");
-  return format.format(-Math.floor(past / 86_400), "day");
+  if (past < 3600) return relative.format(-Math.floor(past / 60), "minute");
+  if (past < 86_400) return relative.format(-Math.floor(past / 3600), "hour");
+  return relative.format(-Math.floor(past / 86_400), "day");
 }
 
 /** Decimal places of merits, so that `delta` has two significant digits. */
@@ -130,11 +132,4 @@ function sharePlaces(share: number): number {
 
 export function percent(share: number): string {
   return `${Number((100 * share).toFixed(6))}%`;
-}
-
-/** The message of an error, for display. */
-export function errorText(error: unknown): string {
-  // Without a server, `fetch` throws a TypeError with a message of the browser's.
-  if (error instanceof TypeError || !(error instanceof Error)) return "The server is not responding.";
-  return error.message;
 }

@@ -1,6 +1,6 @@
 import { studies } from "../../api/studies";
 import type { StudySummary } from "../../api/study";
-import { errorText } from "./labels";
+import { errorText } from "../../shared/error_text";
 
 const poll_ms = 2000;
 

@@ -3,7 +3,7 @@ import type { ServerMessage } from "../../api/protocol";
 import { resume, stop, study } from "../../api/studies";
 import { RequestError, type Study, type StudyState, type StudyProgress } from "../../api/study";
 import { updatedRace } from "./standings";
-import { errorText } from "./labels";
+import { errorText } from "../../shared/error_text";
 
 /** `lost` while reconnecting; `refused` if the study does not exist. */
 export type ConnectionPhase = "opening" | "open" | "lost" | "refused";
