@@ -16,6 +16,17 @@ test("the gallery lists each scenario with its picture, and opens it", async ({ 
   await expect(page.getByRole("heading", { name: "search-beliefs" })).toBeVisible();
 });
 
+test("the first picture of the gallery arrives within 100 kB", async ({ page, server }) => {
+  const network = await page.context().newCDPSession(page);
+  await network.send("Network.enable");
+  let bytes = 0;
+  network.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
+  await page.goto(server.url);
+  await page.waitForFunction(() => [...document.images].some(({ naturalWidth }) => naturalWidth > 0));
+  expect(bytes).toBeGreaterThan(1000);
+  expect(bytes).toBeLessThan(100_000);
+});
+
 test("the errors of a file are listed beside its text, with their lines marked", async ({ page, server }) => {
   await openFile(page, server, faulty.replace("summary", "sumary"));
   await expect(page.getByRole("heading", { name: /my.toml has \d errors/ })).toBeVisible();

@@ -381,6 +381,22 @@ test("a robot shows what is known of it, and no more", async ({ page, server, wa
   await expectAccessible(page);
 });
 
+test("the view of the robots opens after the page's server has been killed", async ({
+  page,
+  ownServer,
+  warden,
+}) => {
+  const loaded = page.waitForResponse(/Pages-.*\.js/);
+  await page.goto(ownServer.url);
+  await expect(page.getByRole("link", { name: "Robots", exact: true })).toBeVisible();
+  await (await loaded).finished();
+  await page.waitForLoadState("networkidle");
+  await ownServer.kill();
+  await page.getByRole("link", { name: "Robots", exact: true }).click();
+  await expect(page.getByRole("region", { name: "bender/0" })).toBeVisible();
+  expect(warden.count("/stop")).toBe(0);
+});
+
 test("a server without a drive has no view of robots and no stop", async ({ page, server }) => {
   await page.goto(server.url);
   await expect(page.getByRole("link", { name: "Studies" })).toBeVisible();

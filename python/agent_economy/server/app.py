@@ -28,7 +28,6 @@ from starlette.responses import (
     Response,
 )
 from starlette.routing import Mount, Route, WebSocketRoute
-from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
@@ -44,6 +43,7 @@ from agent_economy.server.runs.thumbnail import thumbnail
 from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.progress import send_progress
 from agent_economy.server.studies.routes import Routes
+from agent_economy.server.transfer import COMPRESSED, REVALIDATE, PageFiles
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.server.workspace import Workspace
 from agent_economy.types.warden import Drive
@@ -106,16 +106,16 @@ class Addresses:
         routes = [
             Route("/", self.page),
             Route("/drive", self.current_drive),
-            Route("/api/scenarios", self.scenarios),
-            Route("/api/pictures", self.picture),
-            Route("/api/recordings", self.recordings),
+            Route("/api/scenarios", self.scenarios, middleware=COMPRESSED),
+            Route("/api/pictures", self.picture, middleware=COMPRESSED),
+            Route("/api/recordings", self.recordings, middleware=COMPRESSED),
             Route("/api/recordings/file", self.recording),
             Route("/api/check", self.check, methods=["POST"]),
             *Routes(self.studies, self.workspace).all(),
             WebSocketRoute("/ws", self.connect),
         ]
         if self.web.is_dir():
-            routes.append(Mount("/", StaticFiles(directory=self.web)))
+            routes.append(Mount("/", PageFiles(directory=self.web)))
         return Starlette(routes=routes, lifespan=self.lifespan)
 
     @contextlib.asynccontextmanager
@@ -155,7 +155,7 @@ class Addresses:
         index = self.web / "index.html"
         if not index.is_file():
             return HTMLResponse(NOT_BUILT, 503)
-        return FileResponse(index, headers={"cache-control": "no-cache"})
+        return FileResponse(index, headers={"cache-control": REVALIDATE})
 
     async def current_drive(self, request: Request) -> Response:
         """Return the drive; the cookie is not enough, because servers on other ports get it too."""
