@@ -15,7 +15,7 @@ import contextlib
 from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from importlib.resources import files
+from html import escape
 from pathlib import Path
 
 from starlette.applications import Starlette
@@ -32,6 +32,7 @@ from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
 from agent_economy._core import InputError
+from agent_economy.built_page import PAGE, missing_page
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
@@ -54,8 +55,8 @@ MAX_SESSIONS = 16
 MAX_WATCHERS = 64
 """Maximum number of pages that follow studies; each reads its study's folder regularly."""
 
-NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
-<p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
+NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Agent Economy</title>
+<p>{}; then reload this page.</p></html>"""
 
 
 def app(
@@ -81,8 +82,7 @@ def app(
     if drive is not None and token is None:
         message = "the page of a drive needs a token"
         raise ValueError(message)
-    web = Path(str(files("agent_economy") / "web"))
-    addresses = Addresses(workspace, web, StudyManager(workspace), token or "", live, drive)
+    addresses = Addresses(workspace, PAGE, StudyManager(workspace), token or "", live, drive)
     warden = None if drive is None else f"http://127.0.0.1:{drive['warden']['port']}"
     return Guard(addresses.application(), host, token, warden)
 
@@ -113,9 +113,8 @@ class Addresses:
             Route("/api/check", self.check, methods=["POST"]),
             *Routes(self.studies, self.workspace).all(),
             WebSocketRoute("/ws", self.connect),
+            Mount("/", PageFiles(directory=self.web, check_dir=False)),
         ]
-        if self.web.is_dir():
-            routes.append(Mount("/", PageFiles(directory=self.web)))
         return Starlette(routes=routes, lifespan=self.lifespan)
 
     @contextlib.asynccontextmanager
@@ -152,10 +151,10 @@ class Addresses:
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
-        index = self.web / "index.html"
-        if not index.is_file():
-            return HTMLResponse(NOT_BUILT, 503)
-        return FileResponse(index, headers={"cache-control": REVALIDATE})
+        missing = missing_page(self.web)
+        if missing is not None:
+            return HTMLResponse(NOT_BUILT.format(escape(missing)), 503)
+        return FileResponse(self.web / "index.html", headers={"cache-control": REVALIDATE})
 
     async def current_drive(self, request: Request) -> Response:
         """Return the drive; the cookie is not enough, because servers on other ports get it too."""

@@ -28,6 +28,9 @@ ENDINGS = {"br": ".br", "gzip": ".gz"}
 class PageFiles(StaticFiles):
     """The files of the page, compressed as far as the client accepts it."""
 
+    async def check_config(self) -> None:
+        """Accept that there is no folder: the page can be built while it is served."""
+
     def file_response(
         self,
         full_path: PathLike,
