@@ -17,8 +17,10 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 import agent_economy as ae
+from agent_economy.scenario import bundled
 from agent_economy.server import Workspace, app
 from agent_economy.server.app import MAX_SESSIONS
+from agent_economy.server.gallery import GROUPS, ORDER, START, YOURS
 from agent_economy.server.request_body import MAX_BYTES
 from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.display import MAX_IN_FLIGHT
@@ -31,6 +33,25 @@ def stepped(steps: int) -> ae.Simulation:
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(steps)
     return simulation
+
+
+def test_the_gallery_begins_with_three_scenarios_and_then_those_of_the_folder(
+    client: TestClient, tmp_path: Path
+) -> None:
+    for name in ("b", "a"):
+        (tmp_path / f"{name}.toml").write_text(ae.Scenario.load("search").source.text)
+    rows = client.get("/api/scenarios").json()
+    groups = [row["group"] for row in rows]
+    assert groups[:5] == [START] * 3 + [YOURS] * 2
+    assert [row["id"] for row in rows[3:5]] == ["a.toml", "b.toml"]
+    assert groups == sorted(groups, key=ORDER.index)
+
+
+def test_each_bundled_scenario_is_in_a_group_of_the_gallery() -> None:
+    advice = "add its line to GROUPS in python/agent_economy/server/gallery.py"
+    assert set(GROUPS) == set(bundled.scenarios()), advice
+    assert list(GROUPS.values()).count(START) == 3
+    assert list(GROUPS.values()) == sorted(GROUPS.values(), key=ORDER.index)
 
 
 def test_the_gallery_lists_bundled_scenarios_and_those_of_the_folder(

@@ -1,6 +1,16 @@
 import { rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import { expect, expectAccessible, openFile, ownScenario, runAt, status, test } from "./page";
+import {
+  asOnPhone,
+  expect,
+  expectAccessible,
+  expectToFit,
+  openFile,
+  ownScenario,
+  runAt,
+  status,
+  test,
+} from "./page";
 
 const faulty = `${ownScenario}raduis_m = 0.25\n`;
 
@@ -14,6 +24,23 @@ test("the gallery lists each scenario with its picture, and opens it", async ({ 
   await expectAccessible(page);
   await card.click();
   await expect(page.getByRole("heading", { name: "search-beliefs" })).toBeVisible();
+});
+
+test("the gallery is grouped, with what to start with first and then the scenarios of the folder", async ({
+  page,
+  ownServer,
+}) => {
+  await writeFile(join(ownServer.folder, "my-field.toml"), ownScenario);
+  await page.goto(ownServer.url);
+  const groups = page.getByRole("region");
+  await expect(groups.getByRole("heading", { level: 2, name: "Start here" })).toBeVisible();
+  const titles = await page.locator("section > h2").allTextContents();
+  expect(titles.slice(0, 2)).toEqual(["Start here", "Your scenarios"]);
+  await expect(page.getByRole("region", { name: "Start here" }).getByRole("listitem")).toHaveCount(3);
+  await expect(page.getByRole("region", { name: "Your scenarios" }).getByRole("link")).toHaveCount(2);
+  await asOnPhone(page);
+  await expectToFit(page);
+  await expectAccessible(page);
 });
 
 test("the first picture of the gallery arrives within 100 kB", async ({ page, server }) => {

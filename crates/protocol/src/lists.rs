@@ -37,6 +37,8 @@ pub struct ScenarioEntry {
     /// Where it is.
     #[serde(rename = "where")]
     pub origin: Origin,
+    /// The title of its group; entries of a group follow each other.
+    pub group: String,
 }
 
 /// An error of input.

@@ -33,6 +33,7 @@ from starlette.websockets import WebSocket
 
 from agent_economy._core import InputError
 from agent_economy.built_page import PAGE, missing_page
+from agent_economy.server.gallery import grouped
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
 from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
@@ -165,7 +166,7 @@ class Addresses:
 
     async def scenarios(self, _: Request) -> Response:
         """Return the gallery."""
-        return JSONResponse(await asyncio.to_thread(self.workspace.listed))
+        return JSONResponse(grouped(await asyncio.to_thread(self.workspace.listed)))
 
     async def picture(self, request: Request) -> Response:
         """Return the thumbnail of a scenario, as SVG."""

@@ -1005,6 +1005,7 @@ class ScenarioEntry(TypedDict):
         engine: The simulator that runs it.
         summary: Its summary.
         where: Where it is.
+        group: The title of its group; entries of a group follow each other.
     """
 
     id: str
@@ -1012,6 +1013,7 @@ class ScenarioEntry(TypedDict):
     engine: Engine
     summary: str
     where: Origin
+    group: str
 
 
 class SeriesRow(TypedDict):

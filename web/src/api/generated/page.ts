@@ -709,6 +709,8 @@ export interface ScenarioEntry {
   summary: string;
   /** Where it is. */
   where: Origin;
+  /** The title of its group; entries of a group follow each other. */
+  group: string;
 }
 
 /** A section of a panel. */
