@@ -99,8 +99,10 @@ pub struct RecordedRun {
     pub program: String,
     /// The engine that recorded it; null if it is unknown.
     pub engine: Option<String>,
-    /// Its steps; null if the file is truncated.
+    /// Its steps; null if the file is truncated or being written.
     pub steps: Option<u64>,
-    /// Its simulated time; null if the file is truncated.
+    /// Its simulated time, so far if the file is being written; null if it is truncated.
     pub length_s: Option<f64>,
+    /// Whether a program is still writing it.
+    pub is_being_written: bool,
 }

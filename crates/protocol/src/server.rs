@@ -80,6 +80,8 @@ pub struct OpenedRecording {
     pub recorded_by: String,
     /// The version and the engine of the server.
     pub replayed_by: String,
+    /// Whether it was still being written when it was opened.
+    pub is_being_written: bool,
 }
 
 /// The state of a run at one step.

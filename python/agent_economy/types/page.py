@@ -722,11 +722,13 @@ class OpenedRecording(TypedDict):
         id: Its id.
         recorded_by: The version and the engine that recorded it.
         replayed_by: The version and the engine of the server.
+        is_being_written: Whether it was still being written when it was opened.
     """
 
     id: str
     recorded_by: str
     replayed_by: str
+    is_being_written: bool
 
 
 class Opened(TypedDict):
@@ -908,8 +910,10 @@ class RecordedRun(TypedDict):
         run: The number of the run as a decimal number.
         program: The version that recorded it.
         engine: The engine that recorded it; null if it is unknown.
-        steps: Its steps; null if the file is truncated.
-        length_s: Its simulated time; null if the file is truncated.
+        steps: Its steps; null if the file is truncated or being written.
+        length_s: Its simulated time, so far if the file is being written; null if it is
+            truncated.
+        is_being_written: Whether a program is still writing it.
     """
 
     scenario: str
@@ -919,6 +923,7 @@ class RecordedRun(TypedDict):
     engine: str | None
     steps: int | None
     length_s: float | None
+    is_being_written: bool
 
 
 class RecordingEntry(TypedDict):

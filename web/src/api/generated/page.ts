@@ -372,6 +372,8 @@ export interface OpenedRecording {
   recorded_by: string;
   /** The version and the engine of the server. */
   replayed_by: string;
+  /** Whether it was still being written when it was opened. */
+  is_being_written: boolean;
 }
 
 /** The scenario of an opened run. */
@@ -614,10 +616,12 @@ export interface RecordedRun {
   program: string;
   /** The engine that recorded it; null if it is unknown. */
   engine: string | null;
-  /** Its steps; null if the file is truncated. */
+  /** Its steps; null if the file is truncated or being written. */
   steps: number | null;
-  /** Its simulated time; null if the file is truncated. */
+  /** Its simulated time, so far if the file is being written; null if it is truncated. */
   length_s: number | null;
+  /** Whether a program is still writing it. */
+  is_being_written: boolean;
 }
 
 /** A recording. */
