@@ -63,6 +63,20 @@ test("the errors of a file are listed beside its text, with their lines marked",
   await expectAccessible(page);
 });
 
+test("of a file with 80,000 errors, the first 200 are listed with their number", async ({ page, server }) => {
+  const unknown = Array.from({ length: 80_000 }, (_, i) => `k${i} = 1\n`).join("");
+  await openFile(page, server, `engine = "metric"\nsummary = "x"\n${unknown}`);
+  const errors = page.getByRole("region", { name: /my.toml has 80,0\d\d errors/ });
+  await expect(errors).toBeVisible();
+  await expect(errors.getByText(/These are the first of 80,0\d\d errors/)).toBeVisible();
+  expect(await errors.getByRole("listitem").count()).toBe(201);
+  expect(await errors.locator(".line").count()).toBeLessThan(2000);
+  await errors.getByRole("button", { name: "Line 150", exact: true }).click();
+  await expect(errors.locator("#line-150")).toBeInViewport();
+  await expect(errors.getByText(/more lines$/)).toBeVisible();
+  await expectAccessible(page);
+});
+
 test("a valid file opens, and its address contains it", async ({ page, server }) => {
   await openFile(page, server, ownScenario);
   await expect(status(page)).toContainText("4 robots");

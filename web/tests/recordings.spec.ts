@@ -117,7 +117,7 @@ test("saving can be cancelled", async ({ page, server }) => {
 test("the error of a failed save is displayed", async ({ page, server }) => {
   const message = "recordings: the disk is full, and the recording was removed: free some space";
   const error = { file: null, line: null, path: "", value: null, allowed: "", suggestion: null, message };
-  const refused: Refused = { type: "refused", about: "save", path: null, errors: [error] };
+  const refused: Refused = { type: "refused", about: "save", path: null, errors: [error], total: 1 };
   await altered(page, (sent) => (sent.type === "saved" ? refused : sent));
   await page.goto(runAt(server, "scenario=flock"));
   await choose(page, "Save recording");

@@ -414,7 +414,7 @@ test("Release leaves no button that arms or confirms under the pointer", async (
   }
 });
 
-test("a hold that begins while arming is not possible says so, and counts only when it is repeated", async ({
+test("a hold that begins while arming is not possible is reported, and counts only when it is repeated", async ({
   page,
   server,
   warden,
@@ -444,7 +444,7 @@ test("a hold that begins while arming is not possible says so, and counts only w
   await expect(page.getByText("This hold did not count")).toBeHidden();
 });
 
-test("what a button's request is refused for stands beside the button", async ({ page, server, warden }) => {
+test("the reason for which a request is refused is beside its button", async ({ page, server, warden }) => {
   await open(page, server);
   await takeControl(page);
   await page.route("**/arm", (route) =>

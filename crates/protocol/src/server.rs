@@ -223,8 +223,10 @@ pub struct Refused {
     pub about: String,
     /// The path of a refused change.
     pub path: Option<String>,
-    /// The errors.
+    /// The first errors.
     pub errors: Vec<InputError>,
+    /// The number of all errors.
+    pub total: u32,
 }
 
 /// Why the server disconnects.

@@ -35,9 +35,8 @@ from agent_economy._core import InputError
 from agent_economy.built_page import PAGE, missing_page
 from agent_economy.server.gallery import grouped
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
-from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
-from agent_economy.server.request_body import RequestBodyError, errors_response, text
+from agent_economy.server.request_body import RequestBodyError, error_response, text
 from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.host import RunHost
 from agent_economy.server.runs.live_run import LiveRun
@@ -174,7 +173,7 @@ class Addresses:
         try:
             svg = await asyncio.to_thread(lambda: thumbnail(self.workspace.load(name)))
         except InputError as error:
-            return errors_response(errors_of(error), 404)
+            return error_response(error, 404)
         return Response(svg, media_type="image/svg+xml")
 
     async def recordings(self, _: Request) -> Response:
@@ -187,7 +186,7 @@ class Addresses:
         try:
             file = RecordingStore(self.workspace).find(name)
         except InputError as error:
-            return errors_response(errors_of(error), 404)
+            return error_response(error, 404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
 
     async def check(self, request: Request) -> Response:
@@ -198,7 +197,7 @@ class Addresses:
         except RequestBodyError as error:
             return error.response
         except InputError as error:
-            return errors_response(errors_of(error))
+            return error_response(error)
         checked = {"name": scenario.name, "engine": scenario.engine, "summary": scenario.summary}
         return JSONResponse(checked)
 

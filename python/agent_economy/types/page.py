@@ -950,13 +950,15 @@ class Refused(TypedDict):
     Attributes:
         about: The type of the message.
         path: The path of a refused change.
-        errors: The errors.
+        errors: The first errors.
+        total: The number of all errors.
     """
 
     type: Literal["refused"]
     about: str
     path: str | None
     errors: Sequence[InputError]
+    total: int
 
 
 RequirementStatus: TypeAlias = Literal["certified", "refuted", "may meet", "open", "not needed"]

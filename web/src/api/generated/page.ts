@@ -818,8 +818,10 @@ export interface Refused {
   about: string;
   /** The path of a refused change. */
   path: string | null;
-  /** The errors. */
+  /** The first errors. */
   errors: InputError[];
+  /** The number of all errors. */
+  total: number;
 }
 
 /** A recording has been saved or cancelled. */
