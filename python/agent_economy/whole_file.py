@@ -140,6 +140,20 @@ def has_lock(descriptor: int) -> bool:
     return True
 
 
+def is_being_written(path: Path) -> bool:
+    """Return whether a program has locked a file; for a moment, this locks it for writers too."""
+    if fcntl is None or not path.is_file():
+        return False
+    try:
+        with path.open("rb") as stream:
+            fcntl.flock(stream, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:  # It has been removed meanwhile, or the file system has no locks.
+        return False
+    return False
+
+
 def remove_abandoned(folder: Path, suffix: str = "") -> None:
     """Remove the unfinished files of programs that were killed, as far as this is allowed."""
     if fcntl is None:

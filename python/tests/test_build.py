@@ -240,4 +240,5 @@ def test_the_page_opens_a_recording_of_another_engine_and_names_both(
         "id": row["id"],
         "recorded_by": f"version {VERSION}, engine {OTHER}",
         "replayed_by": f"version {VERSION}, engine {OWN}",
+        "is_being_written": False,
     }

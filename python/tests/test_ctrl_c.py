@@ -102,7 +102,8 @@ def port_of(line: str) -> int:
 
 def started(words: list[str], folder: Path) -> subprocess.Popen[str]:
     pipe = subprocess.PIPE
-    return subprocess.Popen([*COMMAND, *words], stdout=pipe, stderr=pipe, text=True, cwd=folder)
+    program = UI_PROGRAM if words[0] == "ui" else COMMAND
+    return subprocess.Popen([*program, *words], stdout=pipe, stderr=pipe, text=True, cwd=folder)
 
 
 DESCRIPTORS = 96
@@ -128,6 +129,7 @@ def flood(stack: ExitStack, port: int, data: bytes = b"") -> None:
 
 
 UI = ["ui", "--no-browser", "--port", "0"]
+UI_PROGRAM = [sys.executable, str(Path(__file__).with_name("ui_without_page.py"))]
 EMULATOR = ["bender-emulator", "--ports", "0,0,0,0", "--robots", "2"]
 
 

@@ -35,10 +35,13 @@ def built(kind: str, folder: Path) -> Path:
 
 
 def check_page(index: str, names: set[str], inside: str) -> None:
-    """Check that all files to which the page refers are present."""
+    """Check that all files to which the page refers are present, and their compressed forms."""
     referenced = [part.split('"')[0] for part in index.split('="./')[1:]]
     assert any(name.endswith(".js") for name in referenced)
     assert {f"{inside}/{name}" for name in referenced} <= names
+    in_assets = [name for name in names if name.startswith(f"{inside}/assets/")]
+    hashed = [name for name in in_assets if name.endswith((".js", ".css"))]
+    assert {f"{name}{ending}" for name in hashed for ending in (".br", ".gz")} <= names
 
 
 def check_bundled(names: set[str], inside: str) -> None:

@@ -17,8 +17,11 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 import agent_economy as ae
+from agent_economy.scenario import bundled
 from agent_economy.server import Workspace, app
 from agent_economy.server.app import MAX_SESSIONS
+from agent_economy.server.gallery import GROUPS, ORDER, START, YOURS
+from agent_economy.server.messages import MAX_ERRORS
 from agent_economy.server.request_body import MAX_BYTES
 from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.display import MAX_IN_FLIGHT
@@ -31,6 +34,58 @@ def stepped(steps: int) -> ae.Simulation:
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(steps)
     return simulation
+
+
+def test_the_gallery_begins_with_three_scenarios_and_then_those_of_the_folder(
+    client: TestClient, tmp_path: Path
+) -> None:
+    for name in ("b", "a"):
+        (tmp_path / f"{name}.toml").write_text(ae.Scenario.load("search").source.text)
+    rows = client.get("/api/scenarios").json()
+    groups = [row["group"] for row in rows]
+    assert groups[:5] == [START] * 3 + [YOURS] * 2
+    assert [row["id"] for row in rows[3:5]] == ["a.toml", "b.toml"]
+    assert groups == sorted(groups, key=ORDER.index)
+
+
+MANY = 80_000
+
+
+def many_errors() -> str:
+    """Return a scenario of less than a megabyte with many unknown keys."""
+    keys = "".join(f"k{i} = 1\n" for i in range(MANY))
+    return f'engine = "metric"\nsummary = "x"\n{keys}'
+
+
+def test_of_many_errors_the_first_are_sent_with_their_total(client: TestClient) -> None:
+    response = client.post("/api/check", content=many_errors())
+    answer = response.json()
+    assert (response.status_code, len(answer["errors"])) == (422, MAX_ERRORS)
+    assert answer["total"] > MANY
+    lines = [row["line"] or 0 for row in answer["errors"]]
+    assert lines == sorted(lines)
+    assert {"k0", "k1", "k150"} <= {row["path"] for row in answer["errors"]}
+    assert len(response.content) < 200_000
+    few = client.post("/api/check", content="engine = 1").json()
+    assert few["total"] == len(few["errors"]) > 0
+
+
+def test_a_run_and_a_study_of_many_errors_are_refused_with_their_total(
+    client: TestClient, page: Page
+) -> None:
+    text = many_errors()
+    page.send("open", text=text, seed="0", run="0")
+    refused = page.wait_for("refused")
+    assert (len(refused["errors"]), refused["total"] > MANY) == (MAX_ERRORS, True)
+    answer = client.post("/api/plan", json={"text": text}).json()
+    assert (len(answer["errors"]), answer["total"] > MANY) == (MAX_ERRORS, True)
+
+
+def test_each_bundled_scenario_is_in_a_group_of_the_gallery() -> None:
+    advice = "add its line to GROUPS in python/agent_economy/server/gallery.py"
+    assert set(GROUPS) == set(bundled.scenarios()), advice
+    assert list(GROUPS.values()).count(START) == 3
+    assert list(GROUPS.values()) == sorted(GROUPS.values(), key=ORDER.index)
 
 
 def test_the_gallery_lists_bundled_scenarios_and_those_of_the_folder(

@@ -1,16 +1,33 @@
 """The command `ui`: hosts on which it cannot listen, and the address that it prints."""
 
 import os
+import shlex
 import socket
 from ipaddress import ip_address
+from pathlib import Path
 
 import pytest
 import typer
 from command_line import refuse
 
-from agent_economy.cli import ui
+from agent_economy.built_page import PAGE, missing_page
+from agent_economy.cli import drive, ui
 
 ANY = {socket.AF_INET: "0.0.0.0", socket.AF_INET6: "::"}  # noqa: S104  (what users type)
+
+
+@pytest.fixture(autouse=True)
+def _page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the page be built, as far as the command knows."""
+    monkeypatch.setattr(ui, "missing_page", lambda: None)
+
+
+def clone_without_page(folder: Path) -> Path:
+    """Return where the page would be in a clone with an unusual name."""
+    clone = folder / "my clone"
+    (clone / "web").mkdir(parents=True)
+    (clone / "web" / "package.json").touch()
+    return clone / "python" / "agent_economy" / "web"
 
 
 @pytest.mark.parametrize(
@@ -49,3 +66,41 @@ def test_all_addresses_are_printed_as_one_that_other_machines_can_open(
 def test_a_host_that_is_named_is_printed_as_it_is() -> None:
     with ui.bound("localhost", 0) as listening:
         assert ui.reachable("localhost", listening) == "localhost"
+
+
+def test_without_a_page_ui_prints_the_command_that_builds_it_and_listens_nowhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = clone_without_page(tmp_path)
+    monkeypatch.setattr(ui, "missing_page", lambda: missing_page(page))
+    monkeypatch.setattr(ui, "bound", pytest.fail)
+    printed = refuse("ui", "--no-browser", code=1)
+    assert printed.startswith(f"the page has not been built: {page / 'index.html'} is missing; ")
+    command = shlex.split(printed.rpartition(": ")[2])
+    assert command == ["make", "-C", str(tmp_path / "my clone"), "web"]
+
+
+def test_without_a_page_an_installed_package_is_to_be_installed_again(tmp_path: Path) -> None:
+    message = missing_page(tmp_path / "agent_economy" / "web")
+    assert message is not None
+    assert message.endswith("pip install --force-reinstall agent-economy")
+
+
+def test_a_built_page_is_not_missing(tmp_path: Path) -> None:
+    (tmp_path / "index.html").touch()
+    assert missing_page(tmp_path) is None
+    assert PAGE.parent.name == "agent_economy"
+
+
+@pytest.mark.parametrize("options", [[], ["--json"]])
+def test_without_a_page_a_drive_reports_it_unless_it_is_headless(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: list[str]
+) -> None:
+    page, printed = clone_without_page(tmp_path), list[str]()
+    monkeypatch.setattr(drive, "missing_page", lambda: missing_page(page))
+    monkeypatch.setattr(drive, "write", lambda _, line: printed.append(line))
+    refuse("drive", tmp_path / "none.toml", *options)
+    assert "the page has not been built" in printed[0]
+    printed.clear()
+    refuse("drive", tmp_path / "none.toml", "--headless", "--arm", *options)
+    assert "has not been built" not in printed[0]

@@ -88,10 +88,10 @@ async function holdForward(page: Page, drive: RealDrive): Promise<number> {
 function recordNotices(): string[] {
   const found: string[] = [];
   const look = () => {
-    const notices = [...document.querySelectorAll(".notices > *")].map(
+    const notices = [...document.querySelectorAll(".notices > *, [role=alert]")].map(
       ({ textContent }) => textContent ?? "",
     );
-    found.push(...notices.filter((text) => text.includes("Not done.") && !found.includes(text)));
+    found.push(...notices.filter((text) => text.includes("Not done:") && !found.includes(text)));
   };
   new MutationObserver(look).observe(document.body, { subtree: true, childList: true, characterData: true });
   return found;

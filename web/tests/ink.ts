@@ -21,3 +21,35 @@ export async function inkAt(page: Page, [x, y, scale]: View, at: [number, number
 export function opens(view: View): string {
   return `view=${view.join(",")}`;
 }
+
+/** Number of pixels near a colour, [red, green, blue], on the screen where the canvas is. */
+export async function pixelsOf(page: Page, colour: number[]): Promise<number> {
+  const picture = await page.locator("canvas").first().screenshot();
+  return page.evaluate(
+    async ([data, colour]) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const context = Object.assign(document.createElement("canvas"), {
+        width: image.width,
+        height: image.height,
+      }).getContext("2d");
+      context?.drawImage(image, 0, 0);
+      const pixels = context?.getImageData(0, 0, image.width, image.height).data ?? [];
+      let found = 0;
+      for (let i = 0; i < pixels.length; i += 4)
+        if (colour.every((value, part) => Math.abs((pixels[i + part] ?? 0) - value) < 32)) found += 1;
+      return found;
+    },
+    [picture.toString("base64"), colour] as const,
+  );
+}
+
+/** Makes the page draw robots with Canvas 2D. */
+export const withoutWebGl = (page: Page) =>
+  page.addInitScript(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest: []) {
+      return kind === "webgl2" ? null : getContext.call(this, kind, ...rest);
+    } as typeof getContext;
+  });

@@ -1,7 +1,7 @@
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
-import { inkAt, opens, type View } from "./ink";
+import { inkAt, opens, pixelsOf, type View, withoutWebGl } from "./ink";
 import { expect, openRun, openTab, type RealServer, test } from "./page";
 
 const view: View = [5, 5, 60];
@@ -121,3 +121,23 @@ test("radio links are requested while their layer is on, and drawn as received",
   await expect.poll(() => received.length).toBeGreaterThan(before);
   expect(received.slice(before).map((bytes) => bytes.readUInt32LE(0))).not.toContain(2);
 });
+
+const clear = [26, 95, 208];
+const small = field("[[40, 250], [150, 150], [260, 50]]")
+  .replace("size_m = [10, 10]", "size_m = [300, 300]")
+  .replace("radius_m = 0.2", "radius_m = 0.15")
+  .replace(/sensors.camera.*/, "");
+
+for (const painter of ["WebGL", "Canvas 2D"])
+  test(`robots of 0.3 m are seen in a world of 300 m: ${painter}`, async ({ page, server }) => {
+    if (painter === "Canvas 2D") await withoutWebGl(page);
+    await writeFile(join(server.folder, "small.toml"), small);
+    await openRun(page, server, "scenario=small.toml&seed=1&run=0", /3 robots/);
+    await expect.poll(() => pixelsOf(page, clear)).toBeGreaterThan(3 * 30);
+    expect(await pixelsOf(page, clear)).toBeLessThan(3 * 100);
+    const box = await page.locator("canvas").first().boundingBox();
+    if (!box) throw new Error("there is no canvas");
+    await page.mouse.click(box.x + box.width / 2 + 4, box.y + box.height / 2 + 4);
+    await openTab(page, "Robot");
+    await expect(page.getByRole("combobox", { name: "Robot" })).toHaveValue("rover/1");
+  });

@@ -1,7 +1,7 @@
 import { mkdir, readFile, rename, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Page } from "@playwright/test";
-import type { Refused, Saved } from "../src/api/protocol";
+import type { RecordingEntry, Refused, Saved } from "../src/api/protocol";
 import {
   altered,
   asOnPhone,
@@ -69,6 +69,30 @@ test("a run is saved, and its recording opens as that run, to the bit", async ({
   await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-beliefs-7-2-\w+\.mcap&tick=20/);
 });
 
+test("a recording that is still being written is listed with its length so far, and opens with a notice", async ({
+  page,
+  ownServer,
+}) => {
+  await record(page, ownServer, "drive.mcap");
+  await page.route("**/api/recordings", async (route) => {
+    const response = await route.fetch();
+    const [entry] = (await response.json()) as RecordingEntry[];
+    const run = { ...entry?.run, steps: null, length_s: 3.5, is_being_written: true };
+    await route.fulfill({ response, json: [{ ...entry, run }] });
+  });
+  await altered(page, (message) =>
+    message.type === "opened" && message.recording
+      ? { ...message, recording: { ...message.recording, is_being_written: true } }
+      : message,
+  );
+  await page.goto(`${ownServer.url}/#/recordings`);
+  await expect(page.getByText("Still being written, 3.5 s so far")).toBeVisible();
+  await expectAccessible(page);
+  await page.getByRole("link", { name: "drive.mcap", exact: true }).click();
+  await expect(page.getByText("The recording was still being written when it was opened")).toBeVisible();
+  await expectAccessible(page);
+});
+
 test("saving can be cancelled", async ({ page, server }) => {
   const cancelled: Saved = { type: "saved", recording: null };
   await page.routeWebSocket(/\/ws/, (line) => {
@@ -93,7 +117,7 @@ test("saving can be cancelled", async ({ page, server }) => {
 test("the error of a failed save is displayed", async ({ page, server }) => {
   const message = "recordings: the disk is full, and the recording was removed: free some space";
   const error = { file: null, line: null, path: "", value: null, allowed: "", suggestion: null, message };
-  const refused: Refused = { type: "refused", about: "save", path: null, errors: [error] };
+  const refused: Refused = { type: "refused", about: "save", path: null, errors: [error], total: 1 };
   await altered(page, (sent) => (sent.type === "saved" ? refused : sent));
   await page.goto(runAt(server, "scenario=flock"));
   await choose(page, "Save recording");

@@ -175,7 +175,9 @@ test.describe("autonomous control", () => {
     await expect(page.getByText("On hold.")).toBeVisible();
     await holdUntil(page, warden, "Run bender/0", "/resume");
     await expectStopBy(page, warden, () => page.keyboard.press("Escape"));
-    await expect(page.getByText("The emergency stop is latched.")).toBeVisible();
+    await expect(page.getByRole("list", { name: "Why not: Run" })).toContainText(
+      "emergency stop: not released",
+    );
     warden.state.is_stopped = false;
     warden.robot.blockers = [];
     await page.waitForTimeout(4000);
@@ -379,6 +381,123 @@ test("a robot shows what is known of it, and no more", async ({ page, server, wa
   await expectAccessible(page);
   await page.getByRole("tab", { name: "Manual" }).click();
   await expectAccessible(page);
+});
+
+test("Release leaves no button that arms or confirms under the pointer", async ({ page, server, warden }) => {
+  warden.doubt("compass", "changed by 90.0 degrees at once");
+  for (const tab of ["Autonomous", "Manual"]) {
+    warden.robot.mode = tab === "Manual" ? "manual" : "auto";
+    Object.assign(warden.state, { is_stopped: true });
+    await open(page, server);
+    await takeControl(page);
+    await page.getByRole("tab", { name: tab }).click();
+    const release = page.getByRole("button", { name: "Release" });
+    await release.scrollIntoViewIfNeeded();
+    const box = await release.boundingBox();
+    if (!box) throw new Error("Release is not visible");
+    warden.received.length = 0;
+    await holdUntil(page, warden, "Release", "/release");
+    await expect(release).toBeHidden();
+    for (const [x, y] of [
+      [4, 4],
+      [box.width / 2, box.height / 2],
+      [box.width - 4, box.height - 4],
+    ] as const) {
+      const below = await page.evaluate(
+        ([x, y]) => document.elementFromPoint(x, y)?.closest("button")?.textContent ?? "",
+        [box.x + x, box.y + y] as const,
+      );
+      expect(below).not.toMatch(/Arm|Run|Confirm|Take/);
+    }
+    await page.getByRole("button", { name: "Give up control" }).click();
+    await expect(page.getByText("No operator.")).toBeVisible();
+  }
+});
+
+test("a hold that begins while arming is not possible is reported, and counts only when it is repeated", async ({
+  page,
+  server,
+  warden,
+}) => {
+  Object.assign(warden.robot, { mode: "auto" });
+  await open(page, server);
+  await takeControl(page);
+  await page.getByRole("tab", { name: "Manual" }).click();
+  await clickUntilShown(
+    button(page, "Switch to manual mode"),
+    page.getByRole("button", { name: "Arm bender/0" }),
+  );
+  warden.robot.blockers = [{ name: "mode_changed", reason: "switched to manual mode" }];
+  const arm = page.getByRole("button", { name: "Arm bender/0" });
+  const why = page.getByRole("list", { name: "Why not: Arm bender/0" });
+  await expect(why).toHaveText("mode changed: switched to manual mode");
+  await expect(arm).toBeDisabled();
+  await arm.hover({ force: true });
+  await page.mouse.down();
+  warden.robot.blockers = [];
+  await expect(page.getByText("This hold did not count")).toBeVisible();
+  await page.waitForTimeout(1500);
+  expect(warden.count("/arm")).toBe(0);
+  await page.mouse.up();
+  await expectAccessible(page);
+  await holdUntil(page, warden, "Arm bender/0", "/arm");
+  await expect(page.getByText("This hold did not count")).toBeHidden();
+});
+
+test("the reason for which a request is refused is beside its button", async ({ page, server, warden }) => {
+  await open(page, server);
+  await takeControl(page);
+  await page.route("**/arm", (route) =>
+    route.fulfill({
+      status: 409,
+      headers: { "Access-Control-Allow-Origin": "*" },
+      json: { message: "nothing is known of it yet" },
+    }),
+  );
+  const run = pointer(page, page.getByRole("button", { name: "Run bender/0" }));
+  const refusal = page.getByRole("tabpanel").getByText("Not done: nothing is known of it yet");
+  await expect(async () => {
+    await run.end();
+    await run.begin();
+    await expect(refusal).toBeVisible({ timeout: 5000 });
+  }).toPass();
+  await run.end();
+  await expect(page.getByText("nothing is known of it yet")).toHaveCount(1);
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Dismiss" }).click();
+  await expect(refusal).toBeHidden();
+  expect(warden.robot.is_armed).toBe(false);
+});
+
+test("a fault is named once", async ({ page, server, warden }) => {
+  const stop = { name: "emergency_stop", reason: "emergency stop: not released" };
+  Object.assign(warden.robot, {
+    faults: [stop],
+    blockers: [stop],
+    latched: [{ name: "emergency_stop", reason: "emergency stop" }],
+  });
+  warden.state.is_stopped = true;
+  await open(page, server);
+  const card = page.getByRole("region", { name: "bender/0" });
+  await expect(card.getByRole("listitem")).toHaveText(["emergency stop not released · latched"]);
+  const why = page.getByRole("list", { name: "Why not: Run" });
+  await expect(why.getByRole("listitem")).toHaveText(["emergency stop: not released"]);
+});
+
+test("the view of the robots opens after the page's server has been killed", async ({
+  page,
+  ownServer,
+  warden,
+}) => {
+  const loaded = page.waitForResponse(/Pages-.*\.js/);
+  await page.goto(ownServer.url);
+  await expect(page.getByRole("link", { name: "Robots", exact: true })).toBeVisible();
+  await (await loaded).finished();
+  await page.waitForLoadState("networkidle");
+  await ownServer.kill();
+  await page.getByRole("link", { name: "Robots", exact: true }).click();
+  await expect(page.getByRole("region", { name: "bender/0" })).toBeVisible();
+  expect(warden.count("/stop")).toBe(0);
 });
 
 test("a server without a drive has no view of robots and no stop", async ({ page, server }) => {

@@ -134,7 +134,7 @@ test.describe("manual control", () => {
       await clickUntilShown(button(page, "Give up control"), page.getByText("No operator."));
       await takeControl(page);
     }
-    await expect(page.getByText("Not done.")).toBeHidden();
+    await expect(page.getByText("Not done:")).toBeHidden();
     warden.received.length = 0;
     await expect.poll(() => warden.tracks().length).toBeGreaterThan(3);
   });

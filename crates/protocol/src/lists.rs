@@ -37,6 +37,8 @@ pub struct ScenarioEntry {
     /// Where it is.
     #[serde(rename = "where")]
     pub origin: Origin,
+    /// The title of its group; entries of a group follow each other.
+    pub group: String,
 }
 
 /// An error of input.
@@ -97,10 +99,12 @@ pub struct RecordedRun {
     pub program: String,
     /// The engine that recorded it; null if it is unknown.
     pub engine: Option<String>,
-    /// Its steps; null if the file is truncated.
+    /// Its steps; null if the file is truncated or being written.
     pub steps: Option<u64>,
-    /// Its simulated time; null if the file is truncated.
+    /// Its simulated time, so far if the file is being written; null if it is truncated.
     pub length_s: Option<f64>,
+    /// Whether a program is still writing it.
+    pub is_being_written: bool,
 }
 
 /// What the library of the page knows of an entry of a list, beside the list itself.

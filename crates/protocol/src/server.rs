@@ -85,6 +85,8 @@ pub struct OpenedRecording {
     pub recorded_by: String,
     /// The version and the engine of the server.
     pub replayed_by: String,
+    /// Whether it was still being written when it was opened.
+    pub is_being_written: bool,
 }
 
 /// The state of a run at one step.
@@ -226,8 +228,10 @@ pub struct Refused {
     pub about: String,
     /// The path of a refused change.
     pub path: Option<String>,
-    /// The errors.
+    /// The first errors.
     pub errors: Vec<InputError>,
+    /// The number of all errors.
+    pub total: u32,
 }
 
 /// Why the server disconnects.

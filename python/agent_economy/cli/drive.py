@@ -10,6 +10,7 @@ from typing import Annotated, Any, TextIO
 
 import typer
 
+from agent_economy.built_page import missing_page
 from agent_economy.live.warden.endings import End
 from agent_economy.live.warden.sentences import sentence
 from agent_economy.live.warden.shell import Options, drive_fleet
@@ -71,6 +72,9 @@ def drive(  # noqa: PLR0913  (typer's options are arguments)
         raise typer.Exit(End.INVALID.exit_code)
     path = record or Path(f"{fleet.stem}-{time.strftime('%Y%m%d-%H%M%S')}.mcap")
     report = print_json if as_json else print_event
+    unbuilt = None if headless else missing_page()
+    if unbuilt is not None:
+        report({"type": "message", "message": unbuilt})
     options = Options(
         fleet, path, seed, is_headless=headless, is_numbered=record is None, every=every
     )

@@ -9,6 +9,7 @@ import typer
 
 from agent_economy.build import Build, own_build
 from agent_economy.cli.errors import BAD_INPUT, FAILED, error_exits
+from agent_economy.whole_file import is_being_written
 
 if TYPE_CHECKING:
     from agent_economy.recording import Replay
@@ -47,8 +48,8 @@ def replay(
     """Replay a recorded run from its file alone, and verify that it is reproduced exactly.
 
     Every recorded state is compared bit by bit, and so are all percepts and commands until then. A
-    truncated recording is compared up to its end, a damaged one up to the damage; the output names
-    the step.
+    truncated recording, or one that is still being written, is compared up to its end, a damaged
+    one up to the damage; the output names the step.
 
     Exit codes: 0 reproduced, as far as the file is whole; 1 not reproduced; 2 the file is damaged
     before its first state, not a recording, or of another build of this program; 130 stopped by
@@ -62,12 +63,18 @@ def replay(
     if as_2002:
         print_2002(file, steers=steering, as_json=as_json)
         return
+    # Before it is read: one that is completed meanwhile is no longer being written.
+    is_unfinished = is_being_written(file)
     # Importing the reader doubles the start-up time.
     from agent_economy.live.replay import replay as live_replay  # noqa: PLC0415
 
     with error_exits():
         result = live_replay(file, verify=verify)
-    typer.echo(json.dumps(as_dict(result), indent=2) if as_json else as_sentence(result))
+    is_unfinished &= not result.is_complete
+    if as_json:
+        typer.echo(json.dumps(as_dict(result, is_unfinished=is_unfinished), indent=2))
+    else:
+        typer.echo(as_sentence(result, is_unfinished=is_unfinished))
     if verify and not result.agrees:
         raise typer.Exit(FAILED)
 
@@ -78,9 +85,12 @@ def print_2002(file: Path, *, steers: bool, as_json: bool) -> None:
     from agent_economy.live.as_2002 import compare_2002  # noqa: PLC0415
 
     with error_exits():
+        is_unfinished = is_being_written(file)
         compared = compare_2002(file, steers=steers)
     if compared.damaged_tick is not None:
         typer.echo(f"The recording is damaged from step {compared.damaged_tick:,} on.", err=True)
+    elif is_unfinished and not compared.is_complete:
+        typer.echo("The recording is still being written.", err=True)
     elif not compared.is_complete:
         typer.echo("The recording is truncated.", err=True)
     if as_json:
@@ -90,7 +100,7 @@ def print_2002(file: Path, *, steers: bool, as_json: bool) -> None:
         print_comparison(comparison)
 
 
-def as_sentence(result: "Replay") -> str:
+def as_sentence(result: "Replay", *, is_unfinished: bool) -> str:
     """Return the result of a replay in words."""
     which = f"{result.scenario.name}, seed {result.seed}, run {result.run}"
     if result.agrees:
@@ -101,11 +111,13 @@ def as_sentence(result: "Replay") -> str:
         verdict = f"differs from the recording {from_step}"
     build = Build(result.program, result.engine)
     builds = "" if build == own_build() else f"; recorded by {build}, replayed by {own_build()}"
-    return f"{which}: {verdict}{builds}{ending(result)}"
+    return f"{which}: {verdict}{builds}{ending(result, is_unfinished=is_unfinished)}"
 
 
-def ending(result: "Replay") -> str:
-    """Return where a recording is damaged or truncated, in words; empty if it is complete."""
+def ending(result: "Replay", *, is_unfinished: bool) -> str:
+    """Return where a recording is damaged or ends early, in words; empty if it is complete."""
+    if is_unfinished:
+        return f"; the recording is still being written: it ends at step {result.tick:,} so far"
     if result.damaged_tick is not None:
         return f"; the recording is damaged from step {result.damaged_tick:,} on"
     if not result.is_complete:
@@ -113,7 +125,7 @@ def ending(result: "Replay") -> str:
     return ""
 
 
-def as_dict(result: "Replay") -> dict[str, object]:
+def as_dict(result: "Replay", *, is_unfinished: bool) -> dict[str, object]:
     """Return the result of a replay for programs."""
     first = ("seed", "run", "program", "engine")
     last = ("mismatch_tick", "mismatch", "lines", "damaged_tick")
@@ -121,4 +133,5 @@ def as_dict(result: "Replay") -> dict[str, object]:
     return {
         "scenario": result.scenario.name,
         **{name: getattr(result, name) for name in names},
+        "is_being_written": is_unfinished,
     }

@@ -12,7 +12,8 @@ from typing import Annotated
 import typer
 
 from agent_economy._core import InputError
-from agent_economy.cli.errors import BAD_INPUT, error_exits, print_stopped
+from agent_economy.built_page import missing_page
+from agent_economy.cli.errors import BAD_INPUT, FAILED, error_exits, print_stopped
 from agent_economy.listening import listening_socket
 from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
@@ -38,11 +39,12 @@ def ui(
     printed address. It offers the bundled scenarios and those in and below the current folder.
     Press Ctrl-C to stop; running studies are interrupted, and keep their runs.
 
-    Exit codes: 0 stopped; 2 an argument is invalid.
+    Exit codes: 0 stopped; 1 the page has not been built; 2 an argument is invalid.
 
     Example: agent-economy ui --no-browser
     """
     with error_exits():
+        check_page()
         listening = bound(host, port)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
         address = address_of(reachable(host, listening), listening.getsockname()[1], token)
@@ -53,6 +55,14 @@ def ui(
             served = app(Workspace(Path.cwd()), host, token)
             http_server(served, stop_at_once).run(sockets=[listening])
         print_stopped()
+
+
+def check_page() -> None:
+    """Exit with a code and the command that builds the page, if it has not been built."""
+    missing = missing_page()
+    if missing is not None:
+        typer.echo(missing, err=True)
+        raise typer.Exit(FAILED)
 
 
 def stop_at_once() -> None:

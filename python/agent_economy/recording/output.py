@@ -5,6 +5,7 @@ A run can be computed again, a drive of a real robot cannot.
 
 import os
 import stat
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
@@ -20,6 +21,9 @@ MARK = len(LIVE).to_bytes(4, "little") + LIVE.encode()
 """The name of the metadata of a drive as in a file: MCAP never compresses metadata."""
 
 BLOCK_BYTES = 2**20
+
+PATIENCE_S = 0.2
+"""A program that finds out whether a file is being written locks it for a moment."""
 
 
 def create_new(path: Path, *, is_numbered: bool = False) -> Path:
@@ -97,12 +101,15 @@ def exclude_others(path: Path, descriptor: int) -> None:
     Raises:
         InputError: If it is being written.
     """
-    if not has_lock(descriptor):
-        message = (
-            f"{path}: is being written, by another program or by a recording that was not closed: "
-            "wait until it ends, or choose another name"
-        )
-        raise InputError(message)
+    end_s = time.monotonic() + PATIENCE_S
+    while not has_lock(descriptor):
+        if time.monotonic() > end_s:
+            message = (
+                f"{path}: is being written, by another program or by a recording that was not "
+                "closed: wait until it ends, or choose another name"
+            )
+            raise InputError(message)
+        time.sleep(PATIENCE_S / 10)
 
 
 def check_no_pipe(path: Path, mode: int) -> None:

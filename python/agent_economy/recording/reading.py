@@ -26,6 +26,7 @@ from agent_economy.recording.identity import (
 from agent_economy.recording.records import stream_records
 from agent_economy.regular_file import open_regular
 from agent_economy.runs.stepped import Change
+from agent_economy.whole_file import is_being_written
 
 
 @dataclass(frozen=True)
@@ -233,8 +234,8 @@ def file_errors(path: Path) -> Iterator[None]:
     try:
         with named(path):
             yield
-    except InputError:
-        raise
+    except InputError as error:
+        message = str(error)
     except OSError as error:
         message = f"{path}: cannot be read: {error.strerror or error}"
         if error.errno == EINVAL:  # an index points to before the start of the file
@@ -246,4 +247,6 @@ def file_errors(path: Path) -> Iterator[None]:
         message = f"{path}: is not an MCAP file, or is damaged: {why}"
     else:
         return
+    if is_being_written(path):
+        message += "; it is still being written: try again later"
     raise InputError(message)

@@ -16,7 +16,7 @@ import contextlib
 from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from importlib.resources import files
+from html import escape
 from pathlib import Path
 
 from starlette.applications import Starlette
@@ -29,17 +29,17 @@ from starlette.responses import (
     Response,
 )
 from starlette.routing import Mount, Route, WebSocketRoute
-from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
 from agent_economy._core import InputError
+from agent_economy.built_page import PAGE, missing_page
+from agent_economy.server.gallery import grouped
 from agent_economy.server.guard import REFUSAL, TOKEN_NAME, Guard, is_same
 from agent_economy.server.library.library import Library
 from agent_economy.server.library.routes import LibraryRoutes
-from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
-from agent_economy.server.request_body import RequestBodyError, errors_response, text
+from agent_economy.server.request_body import RequestBodyError, error_response, text
 from agent_economy.server.runs.connection import PageConnection
 from agent_economy.server.runs.host import RunHost
 from agent_economy.server.runs.live_run import LiveRun
@@ -47,6 +47,7 @@ from agent_economy.server.runs.thumbnail import thumbnail
 from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.progress import send_progress
 from agent_economy.server.studies.routes import Routes
+from agent_economy.server.transfer import COMPRESSED, REVALIDATE, PageFiles
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.server.workspace import Workspace
 from agent_economy.types.warden import Drive
@@ -57,8 +58,8 @@ MAX_SESSIONS = 16
 MAX_WATCHERS = 64
 """Maximum number of pages that follow studies; each reads its study's folder regularly."""
 
-NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
-<p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
+NOT_BUILT = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Agent Economy</title>
+<p>{}; then reload this page.</p></html>"""
 
 
 def app(
@@ -84,8 +85,7 @@ def app(
     if drive is not None and token is None:
         message = "the page of a drive needs a token"
         raise ValueError(message)
-    web = Path(str(files("agent_economy") / "web"))
-    addresses = Addresses(workspace, web, StudyManager(workspace), token or "", live, drive)
+    addresses = Addresses(workspace, PAGE, StudyManager(workspace), token or "", live, drive)
     warden = None if drive is None else f"http://127.0.0.1:{drive['warden']['port']}"
     return Guard(addresses.application(), host, token, warden)
 
@@ -109,17 +109,16 @@ class Addresses:
         routes = [
             Route("/", self.page),
             Route("/drive", self.current_drive),
-            Route("/api/scenarios", self.scenarios),
-            Route("/api/pictures", self.picture),
-            Route("/api/recordings", self.recordings),
+            Route("/api/scenarios", self.scenarios, middleware=COMPRESSED),
+            Route("/api/pictures", self.picture, middleware=COMPRESSED),
+            Route("/api/recordings", self.recordings, middleware=COMPRESSED),
             Route("/api/recordings/file", self.recording),
             Route("/api/check", self.check, methods=["POST"]),
             *Routes(self.studies, self.workspace).all(),
             *LibraryRoutes(Library(self.workspace)).all(),
             WebSocketRoute("/ws", self.connect),
+            Mount("/", PageFiles(directory=self.web, check_dir=False)),
         ]
-        if self.web.is_dir():
-            routes.append(Mount("/", StaticFiles(directory=self.web)))
         return Starlette(routes=routes, lifespan=self.lifespan)
 
     @contextlib.asynccontextmanager
@@ -156,10 +155,10 @@ class Addresses:
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
-        index = self.web / "index.html"
-        if not index.is_file():
-            return HTMLResponse(NOT_BUILT, 503)
-        return FileResponse(index, headers={"cache-control": "no-cache"})
+        missing = missing_page(self.web)
+        if missing is not None:
+            return HTMLResponse(NOT_BUILT.format(escape(missing)), 503)
+        return FileResponse(self.web / "index.html", headers={"cache-control": REVALIDATE})
 
     async def current_drive(self, request: Request) -> Response:
         """Return the drive; the cookie is not enough, because servers on other ports get it too."""
@@ -170,7 +169,7 @@ class Addresses:
 
     async def scenarios(self, _: Request) -> Response:
         """Return the gallery."""
-        return JSONResponse(await asyncio.to_thread(self.workspace.listed))
+        return JSONResponse(grouped(await asyncio.to_thread(self.workspace.listed)))
 
     async def picture(self, request: Request) -> Response:
         """Return the thumbnail of a scenario, as SVG."""
@@ -178,7 +177,7 @@ class Addresses:
         try:
             svg = await asyncio.to_thread(lambda: thumbnail(self.workspace.load(name)))
         except InputError as error:
-            return errors_response(errors_of(error), 404)
+            return error_response(error, 404)
         return Response(svg, media_type="image/svg+xml")
 
     async def recordings(self, _: Request) -> Response:
@@ -191,7 +190,7 @@ class Addresses:
         try:
             file = RecordingStore(self.workspace).find(name)
         except InputError as error:
-            return errors_response(errors_of(error), 404)
+            return error_response(error, 404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
 
     async def check(self, request: Request) -> Response:
@@ -202,7 +201,7 @@ class Addresses:
         except RequestBodyError as error:
             return error.response
         except InputError as error:
-            return errors_response(errors_of(error))
+            return error_response(error)
         checked = {"name": scenario.name, "engine": scenario.engine, "summary": scenario.summary}
         return JSONResponse(checked)
 

@@ -1,7 +1,7 @@
 """Decodes the messages of the page, and reports what is wrong with them."""
 
 import json
-from typing import Any, get_args
+from typing import Any, cast, get_args
 
 import msgspec
 
@@ -120,12 +120,25 @@ def number(name: str, text: object) -> int:
     return int(str(text))
 
 
+MAX_ERRORS = 200
+"""Maximum number of errors in an answer, which also has their total."""
+
+
 def errors_of(error: InputError) -> list[Error]:
-    """Return the errors of an exception, as the page takes them."""
+    """Return the errors of an exception for the page; of many, those of the first lines."""
     keys = page.InputError.__annotations__
-    blank: Any = dict.fromkeys(keys) | {"message": escaped(str(error)), "path": "", "allowed": ""}
-    rows: Any = [{key: value for key, value in row.items() if key in keys} for row in error.errors]
-    return list(rows) or [blank]
+    if not error.errors:
+        blank: Any = dict.fromkeys(keys) | {"path": "", "allowed": ""}
+        return [blank | {"message": escaped(str(error))}]
+    rows: Any = error.errors
+    if len(rows) > MAX_ERRORS:
+        rows = sorted(rows, key=lambda row: row.get("line") or 0)[:MAX_ERRORS]
+    return [cast("Error", {key: row[key] for key in keys if key in row}) for row in rows]
+
+
+def number_of_errors(error: InputError) -> int:
+    """Return the number of all errors of an exception."""
+    return max(1, len(error.errors))
 
 
 def escaped(message: str) -> str:
@@ -135,4 +148,10 @@ def escaped(message: str) -> str:
 
 def refused(about: str, error: InputError, path: str | None = None) -> page.Refused:
     """Return the message that a message of the page was refused."""
-    return {"type": "refused", "about": about, "path": path, "errors": errors_of(error)}
+    return {
+        "type": "refused",
+        "about": about,
+        "path": path,
+        "errors": errors_of(error),
+        "total": number_of_errors(error),
+    }

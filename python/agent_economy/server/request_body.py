@@ -7,7 +7,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse
 
 from agent_economy._core import InputError
-from agent_economy.server.messages import Error, errors_of
+from agent_economy.server.messages import MAX_ERRORS, Error, errors_of, number_of_errors
 
 MAX_BYTES = 1_000_000
 """Maximum size of a request body."""
@@ -19,7 +19,7 @@ class RequestBodyError(Exception):
     def __init__(self, status: int, message: str) -> None:
         """Set the response."""
         super().__init__(message)
-        self.response = errors_response(errors_of(InputError(message)), status)
+        self.response = error_response(InputError(message), status)
 
 
 async def text(request: Request) -> str:
@@ -54,6 +54,11 @@ async def json_object(request: Request) -> dict[str, Any]:
     return body
 
 
-def errors_response(errors: list[Error], status: int = 422) -> JSONResponse:
-    """Return the response to a request that has errors."""
-    return JSONResponse({"errors": errors}, status)
+def error_response(error: InputError, status: int = 422) -> JSONResponse:
+    """Return the response to a request that has errors: the first of them, and their total."""
+    return errors_response(errors_of(error), number_of_errors(error), status)
+
+
+def errors_response(errors: list[Error], total: int, status: int = 422) -> JSONResponse:
+    """Return the response to a request that has errors, of which some are known."""
+    return JSONResponse({"errors": errors[:MAX_ERRORS], "total": max(total, len(errors))}, status)

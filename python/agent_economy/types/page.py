@@ -876,11 +876,13 @@ class OpenedRecording(TypedDict):
         id: Its id.
         recorded_by: The version and the engine that recorded it.
         replayed_by: The version and the engine of the server.
+        is_being_written: Whether it was still being written when it was opened.
     """
 
     id: str
     recorded_by: str
     replayed_by: str
+    is_being_written: bool
 
 
 class Opened(TypedDict):
@@ -1064,8 +1066,10 @@ class RecordedRun(TypedDict):
         run: The number of the run as a decimal number.
         program: The version that recorded it.
         engine: The engine that recorded it; null if it is unknown.
-        steps: Its steps; null if the file is truncated.
-        length_s: Its simulated time; null if the file is truncated.
+        steps: Its steps; null if the file is truncated or being written.
+        length_s: Its simulated time, so far if the file is being written; null if it is
+            truncated.
+        is_being_written: Whether a program is still writing it.
     """
 
     scenario: str
@@ -1075,6 +1079,7 @@ class RecordedRun(TypedDict):
     engine: str | None
     steps: int | None
     length_s: float | None
+    is_being_written: bool
 
 
 class RecordingEntry(TypedDict):
@@ -1101,13 +1106,15 @@ class Refused(TypedDict):
     Attributes:
         about: The type of the message.
         path: The path of a refused change.
-        errors: The errors.
+        errors: The first errors.
+        total: The number of all errors.
     """
 
     type: Literal["refused"]
     about: str
     path: str | None
     errors: Sequence[InputError]
+    total: int
 
 
 RequirementStatus: TypeAlias = Literal["certified", "refuted", "may meet", "open", "not needed"]
@@ -1161,6 +1168,7 @@ class ScenarioEntry(TypedDict):
         engine: The simulator that runs it.
         summary: Its summary.
         where: Where it is.
+        group: The title of its group; entries of a group follow each other.
     """
 
     id: str
@@ -1168,6 +1176,7 @@ class ScenarioEntry(TypedDict):
     engine: Engine
     summary: str
     where: Origin
+    group: str
 
 
 class SeriesRow(TypedDict):

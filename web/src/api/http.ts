@@ -18,7 +18,13 @@ export function picture(scenario: string): string {
   return `api/pictures?scenario=${encodeURIComponent(scenario)}`;
 }
 
-export type CheckResult = { scenario: ScenarioSummary } | { errors: InputError[] };
+/** The first errors of an input, and the number of all. */
+export interface InputErrors {
+  errors: InputError[];
+  total: number;
+}
+
+export type CheckResult = { scenario: ScenarioSummary } | InputErrors;
 
 /** Checks the text of a scenario. */
 export async function check(text: string): Promise<CheckResult> {
@@ -27,7 +33,7 @@ export async function check(text: string): Promise<CheckResult> {
     headers: { "Content-Type": "application/toml" },
     body: text,
   });
-  if (response.status === 422) return (await response.json()) as { errors: InputError[] };
+  if (response.status === 422) return (await response.json()) as InputErrors;
   if (!response.ok) throw new Error(`The server responded ${response.status} ${response.statusText}.`);
   return { scenario: (await response.json()) as ScenarioSummary };
 }

@@ -15,9 +15,10 @@ export interface Painter {
   paint(frame: Frame | null, ranges: Range[], camera: Camera, fresh: boolean): void;
 }
 
-/** Minimum radius of a drawn robot in pixels: larger for few robots than for many. */
+/** Minimum radius of a drawn robot in pixels, so that it is seen at any scale: larger for few robots than for many. */
 export function minRadius_px(robots: number): number {
-  return robots <= 200 ? 5 : 3;
+  if (robots <= 200) return 7;
+  return robots <= 2000 ? 4 : 3;
 }
 
 /** The radius at which a robot is drawn, in the unit of the world. */

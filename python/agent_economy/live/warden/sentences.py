@@ -91,5 +91,14 @@ def robot_sentence(event: Mapping[str, Any]) -> str:
 
 def reasons(event: Mapping[str, Any], kind: str, word: str) -> str:
     """Return faults of an event, the gravest first, each with its reason."""
-    texts = [f"{each.replace('_', ' ')} ({event['reasons'][each]})" for each in event[kind]]
+    texts = [named(each.replace("_", " "), event["reasons"][each]) for each in event[kind]]
     return f" {word} {', '.join(texts)}" if texts else ""
+
+
+def named(name: str, reason: str) -> str:
+    """Return a fault with its reason, which may begin with its name; the name is not repeated."""
+    rest = reason.removeprefix(name)
+    if rest == reason or (rest and rest[0] not in ": "):
+        return f"{name} ({reason})"
+    detail = rest.lstrip(": ")
+    return f"{name} ({detail})" if detail else name

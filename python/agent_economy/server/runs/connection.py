@@ -26,6 +26,7 @@ from agent_economy.server.transport import ConnectionClosedError, Page
 from agent_economy.server.workspace import Workspace
 from agent_economy.types import page
 from agent_economy.types.page import PageMessage, ServerMessage
+from agent_economy.whole_file import is_being_written
 
 MAX_RECEIVED = 256
 """Messages that wait to be carried out; a page that sends more is not read until there is room."""
@@ -228,13 +229,13 @@ class PageConnection:
     def _show_opened(self, run: Run, message: page.Open, build: Build | None) -> None:
         self._display.open(run)
         self._sampling.open(run)
-        self.post(opened(run, message, build))
+        self.post(opened(run, message, build, self._workspace))
 
     async def _send_later(self, message: ServerMessage) -> None:
         self.post(message)
 
 
-def opened(run: Run, message: page.Open, build: Build | None) -> page.Opened:
+def opened(run: Run, message: page.Open, build: Build | None, workspace: Workspace) -> page.Opened:
     """Return the message that a run is open; `build` is the one that recorded it."""
     simulation = run.simulation
     scenario = simulation.scenario
@@ -242,7 +243,12 @@ def opened(run: Run, message: page.Open, build: Build | None) -> page.Opened:
     recording: Any = None
     if build is not None:
         own = str(own_build())
-        recording = {"id": message.recording, "recorded_by": str(build), "replayed_by": own}
+        recording = {
+            "id": message.recording,
+            "recorded_by": str(build),
+            "replayed_by": own,
+            "is_being_written": is_being_written(workspace.folder / str(message.recording)),
+        }
     return {
         "type": "opened",
         "scenario": {

@@ -10,7 +10,7 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, validation
 from agent_economy.scenario.source import check_path
 from agent_economy.server.changed_values import declared_in
-from agent_economy.server.messages import ONE_SOURCE, Error, errors_of, number
+from agent_economy.server.messages import ONE_SOURCE, Error, errors_of, number, number_of_errors
 from agent_economy.server.studies.factors import required
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
@@ -53,21 +53,25 @@ MAX_LABELS = 50
 class StudyRequestError(Exception):
     """The study that a page requests has errors."""
 
-    def __init__(self, errors: list[Error]) -> None:
-        """Keep all errors."""
+    def __init__(self, errors: "Errors") -> None:
+        """Keep the errors, and their total."""
         super().__init__(errors)
-        self.errors = errors
+        self.errors, self.total = errors, errors.total
 
 
 class Errors(list[Error]):
-    """The errors that several checks have found."""
+    """The first errors that each of several checks has found, and the total of all."""
+
+    total = 0
 
     def gather(self, check: Callable[[], T]) -> T | None:
         """Return the result of a check, or keep its errors."""
         try:
             return check()
         except InputError as error:
-            self.extend(each for row in errors_of(error) for each in by_line(row))
+            found = [each for row in errors_of(error) for each in by_line(row)]
+            self.extend(found)
+            self.total += max(len(found), number_of_errors(error))
             return None
 
 

@@ -23,8 +23,13 @@ from starlette.routing import Route
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario, bundled
 from agent_economy.scenario.validation import check
-from agent_economy.server.messages import errors_of, number
-from agent_economy.server.request_body import RequestBodyError, errors_response, json_object
+from agent_economy.server.messages import number
+from agent_economy.server.request_body import (
+    RequestBodyError,
+    error_response,
+    errors_response,
+    json_object,
+)
 from agent_economy.server.studies import requests, run_rows
 from agent_economy.server.studies.detail import AnswerCache
 from agent_economy.server.studies.factors import described
@@ -180,6 +185,6 @@ async def handled(handler: Handler, request: dict[str, Any]) -> Response:
     try:
         return await asyncio.to_thread(handler, request)
     except StudyRequestError as error:
-        return errors_response(error.errors)
+        return errors_response(error.errors, error.total)
     except InputError as error:
-        return errors_response(errors_of(error))
+        return error_response(error)

@@ -464,6 +464,8 @@ export interface OpenedRecording {
   recorded_by: string;
   /** The version and the engine of the server. */
   replayed_by: string;
+  /** Whether it was still being written when it was opened. */
+  is_being_written: boolean;
 }
 
 /** The scenario of an opened run. */
@@ -725,10 +727,12 @@ export interface RecordedRun {
   program: string;
   /** The engine that recorded it; null if it is unknown. */
   engine: string | null;
-  /** Its steps; null if the file is truncated. */
+  /** Its steps; null if the file is truncated or being written. */
   steps: number | null;
-  /** Its simulated time; null if the file is truncated. */
+  /** Its simulated time, so far if the file is being written; null if it is truncated. */
   length_s: number | null;
+  /** Whether a program is still writing it. */
+  is_being_written: boolean;
 }
 
 /** A recording. */
@@ -822,6 +826,8 @@ export interface ScenarioEntry {
   summary: string;
   /** Where it is. */
   where: Origin;
+  /** The title of its group; entries of a group follow each other. */
+  group: string;
 }
 
 /** A section of a panel. */
@@ -936,8 +942,10 @@ export interface Refused {
   about: string;
   /** The path of a refused change. */
   path: string | null;
-  /** The errors. */
+  /** The first errors. */
   errors: InputError[];
+  /** The number of all errors. */
+  total: number;
 }
 
 /** A recording has been saved or cancelled. */

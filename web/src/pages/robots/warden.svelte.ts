@@ -1,3 +1,4 @@
+import { SvelteMap } from "svelte/reactivity";
 import {
   type Answer,
   ask,
@@ -18,12 +19,20 @@ const manualLimit_ms = 300;
 /** A request that is the same as the last one within this time is the second half of a double click. */
 const doubleClick_ms = 500;
 
+/** Why a request had no effect. */
+export interface Refusal {
+  path: string;
+  text: string;
+}
+
 /** The page's side of the warden: its newest state, and requests. */
 export class WardenSession {
   connection = $state.raw<Connection>({ phase: "connecting" });
   events = $state.raw<WardenEvent[]>([]);
-  /** Why the last request had no effect; empty if it had. */
-  refusal = $state("");
+  /** Why the last request had no effect; null if it had one. */
+  refusal = $state.raw<Refusal | null>(null);
+  /** The requests of which a part of the view shows the refusal beside its button. */
+  private readonly places = new SvelteMap<symbol, string[]>();
   /** The robot that the controls are for. */
   selected = $state("");
   readonly deadman = new Deadman((tracks, signal) => this.sendTracks(tracks, signal));
@@ -101,8 +110,28 @@ export class WardenSession {
   private async send(path: string, body: object): Promise<boolean> {
     const signal = AbortSignal.timeout(limit_ms);
     const answer = await ask(this.drive.warden, path, { client: this.client, ...body }, signal);
-    this.refusal = refusalOf(answer);
+    this.refuse(path, refusalOf(answer));
     return answer.kind === "answered";
+  }
+
+  /** Keeps why a request had no effect, until the next one; empty if it had one. */
+  refuse(path: string, text: string): void {
+    this.refusal = text === "" ? null : { path, text };
+  }
+
+  /** Notes that the refusals of some requests are shown beside their button; returns a function that ends this. */
+  place(paths: string[]): () => void {
+    const key = Symbol();
+    this.places.set(key, paths);
+    return () => this.places.delete(key);
+  }
+
+  /** The refusal that is shown beside no button. */
+  get unplacedRefusal(): Refusal | null {
+    const { refusal } = this;
+    return refusal && ![...this.places.values()].some((paths) => paths.includes(refusal.path))
+      ? refusal
+      : null;
   }
 
   /** As `request`, for the selected robot. */
@@ -123,7 +152,7 @@ export class WardenSession {
     if (answer.kind === "answered") this.handle(eventOf(answer, sent_ms, limit.aborted));
     // No operator has requested neutral values: their answer neither shows a refusal nor hides that of a request.
     if (answer.kind === "failed" || isNeutral(tracks)) return;
-    this.refusal = refusalOf(answer);
+    this.refuse("/manual", refusalOf(answer));
     // What is refused must not begin to move the robot when the reason ends.
     if (answer.kind !== "answered") this.deadman.release();
   }
@@ -149,7 +178,7 @@ function refusalOf(answer: Answer<unknown>): string {
     case "answered":
       return "";
     case "conflict":
-      return `refused: ${answer.message}`;
+      return answer.message;
     case "refused":
       return "The warden does not accept this page.";
     case "failed":

@@ -72,27 +72,27 @@ test("a double click is one request, and shows no refusal", async () => {
   await vi.advanceTimersByTimeAsync(150);
   expect(await session.request("/operator", { take: true })).toBe(true);
   expect(taken).toHaveLength(1);
-  expect(session.refusal).toBe("");
+  expect(session.refusal).toBeNull();
   await vi.advanceTimersByTimeAsync(500);
   expect(await session.request("/operator", { take: true })).toBe(false);
-  expect(session.refusal).toContain("already");
+  expect(session.refusal?.text).toContain("already");
 });
 
 test("a refusal of a motion is shown and releases the control; one of neutral values is not shown", async () => {
   refusal = "bender/0 is not in manual mode";
   await vi.advanceTimersByTimeAsync(200);
-  expect(session.refusal).toContain(refusal);
+  expect(session.refusal).toEqual({ path: "/manual", text: refusal });
   expect(session.deadman.source).toBeNull();
-  session.refusal = "";
+  session.refusal = null;
   await vi.advanceTimersByTimeAsync(1000);
-  expect(session.refusal).toBe("");
+  expect(session.refusal).toBeNull();
 });
 
 test("the refusal of a request remains while neutral values are accepted", async () => {
   session.deadman.release();
-  session.refusal = "no";
+  session.refuse("/arm", "no");
   await vi.advanceTimersByTimeAsync(1000);
-  expect(session.refusal).toBe("no");
+  expect(session.refusal?.text).toBe("no");
 });
 
 test("after a refusal, neutral values are sent again, which a robot needs to be armed, and no motion", async () => {
@@ -103,4 +103,17 @@ test("after a refusal, neutral values are sent again, which a robot needs to be 
   await vi.advanceTimersByTimeAsync(1000);
   expect(bodies.slice(length)).toHaveLength(10);
   expect(bodies.slice(length).some(isAhead)).toBe(false);
+});
+
+test("a refusal is shown beside its button, or else above the view", () => {
+  const session = new WardenSession(drive);
+  session.refuse("/arm", "armed already");
+  expect(session.unplacedRefusal?.text).toBe("armed already");
+  const end = session.place(["/arm", "/resume"]);
+  expect(session.unplacedRefusal).toBeNull();
+  session.refuse("/hold", "the drive ends");
+  expect(session.unplacedRefusal?.text).toBe("the drive ends");
+  session.refuse("/arm", "armed already");
+  end();
+  expect(session.unplacedRefusal?.text).toBe("armed already");
 });

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { WardenRobot } from "../../api/warden";
-import { actionOf, motionOf, readable } from "./words";
+import { detailOf, faultOf, actionOf, motionOf, readable } from "./words";
 
 const robot = (speed_m_s: number, turn_rate_rad_s: number, heading_rad: number | null = null) =>
   ({ action: "move", requested: { speed_m_s, turn_rate_rad_s, heading_rad } }) as WardenRobot;
@@ -32,4 +32,12 @@ test("names of faults are words", () => {
     "controls deflected",
     "outside world",
   ]);
+});
+
+test("a fault is named once, also if its reason begins with its name", () => {
+  const fault = (name: string, reason: string) => faultOf({ name, reason });
+  expect(fault("emergency_stop", "emergency stop: not released")).toBe("emergency stop: not released");
+  expect(fault("emergency_stop", "emergency stop")).toBe("emergency stop");
+  expect(fault("jump", "jumped by 3 m")).toBe("jump: jumped by 3 m");
+  expect(detailOf({ name: "not_armed", reason: "not armed since the start" })).toBe("since the start");
 });

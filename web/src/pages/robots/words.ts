@@ -1,4 +1,4 @@
-import type { WardenLink, WardenRobot } from "../../api/warden";
+import type { FaultView, WardenLink, WardenRobot } from "../../api/warden";
 import { roundedUp, slowerThan } from "../../shared/standstill";
 import type { Connection } from "./connection";
 
@@ -66,6 +66,35 @@ export function isOld({ state, age_s, max_age_s }: WardenLink): boolean {
 /** The name of a fault or reason as people read it. */
 export function readable(name: string): string {
   return name.replaceAll("_", " ");
+}
+
+/** What the reason of a fault adds to its name, with which it may begin. */
+export function detailOf({ name, reason }: FaultView): string {
+  const title = readable(name);
+  const rest = reason.slice(title.length);
+  return reason.startsWith(title) && /^($|[ :])/.test(rest) ? rest.replace(/^[ :]+/, "") : reason;
+}
+
+/** A fault with its reason, in words. */
+export function faultOf(fault: FaultView): string {
+  return [readable(fault.name), detailOf(fault)].filter((part) => part !== "").join(": ");
+}
+
+/** The faults of a robot by title, each once: one that is also latched, or keeps it from being armed, is not repeated. */
+export function faultLists(robot: WardenRobot): { title: string; faults: FaultView[] }[] {
+  const lists = [
+    { title: "Faults", faults: robot.faults },
+    { title: "Latched", faults: robot.latched },
+    { title: "Warnings", faults: robot.warnings },
+    { title: "Cannot be armed", faults: robot.is_armed ? [] : robot.blockers },
+  ];
+  const shown = new Set<string>();
+  return lists
+    .map(({ title, faults }) => ({
+      title,
+      faults: faults.filter(({ name }) => !shown.has(name) && shown.add(name)),
+    }))
+    .filter(({ faults }) => faults.length > 0);
 }
 
 /** The state of the connection in words, and how serious it is. */

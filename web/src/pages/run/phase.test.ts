@@ -25,6 +25,6 @@ test("a run that was paused or not yet open does not resume", () => {
 });
 
 test("a run that was refused or has ended is not opened again", () => {
-  expect(lostPhase({ name: "refused", errors: [] }, null, 500)).toBeNull();
+  expect(lostPhase({ name: "refused", errors: [], total: 0 }, null, 500)).toBeNull();
   expect(lostPhase(ended, playing, 500)).toBeNull();
 });

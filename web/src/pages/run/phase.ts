@@ -8,7 +8,7 @@ export type Phase =
   /** The next attempt is in `retry_ms`; playback then continues at `resumeSpeed`, unless it is undefined. */
   | { name: "lost"; retry_ms: number; resumeSpeed: Speed | undefined }
   /** The run could not be opened. */
-  | { name: "refused"; errors: InputError[] }
+  | { name: "refused"; errors: InputError[]; total: number }
   | { name: "ended"; ended: Ended };
 
 /** The phase after the connection is lost; null if it is not to be restored. Without `state`, nothing is resumed. */

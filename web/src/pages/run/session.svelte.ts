@@ -376,13 +376,13 @@ export class Session implements Listener {
     if (recording) this.saved = { recording, changes: this.savedChanges };
   }
 
-  private receiveRefusal({ about, path, errors }: Refused): void {
+  private receiveRefusal({ about, path, errors, total }: Refused): void {
     const text = errors.map((error) => error.message).join(" ");
     if (about === "change") this.sentChanges.forget(path);
     if (about === "save") this.saving = null;
     if (about === "export") this.exports.fail(text);
     if (about === "open") {
-      this.phase = { name: "refused", errors };
+      this.phase = { name: "refused", errors, total };
       this.connection.close();
       return;
     }
