@@ -88,8 +88,8 @@ def test_of_very_many_events_of_a_kind_every_second_one_is_kept(
     complete = Timeline(ae.Scenario.load("mines"), 7)
     complete.seek(600, FOREVER_S)
     for kind, stride in kept.strides.items():
-        of_kind = [event for event in complete.events.since(0) if event.kind == kind]
-        assert [event for event in kept.since(0) if event.kind == kind] == of_kind[::stride]
+        same_kind = [event for event in complete.events.since(0) if event.kind == kind]
+        assert [event for event in kept.since(0) if event.kind == kind] == same_kind[::stride]
 
 
 def test_the_end_is_an_event_until_a_change_continues_the_run() -> None:

@@ -30,10 +30,10 @@ pub use page::{
 pub use schema::{brain_schema, page_schema};
 pub use server::{
     Ended, Exported, Inspection, MapPart, Opened, OpenedRecording, OpenedScenario, Refused,
-    RobotView, Saved, Saving, Series, SeriesRow, ServerMessage, State,
+    RobotView, Saved, Saving, ServerMessage, State,
 };
 pub use setting::{ItemView, KindView, MapView, RingView, SensorView, Setting, Unit, WorldView};
-pub use shown::{Layer, Offer, Panel, Shown};
+pub use shown::{EventKind, Layer, Offer, Panel, Shown, SignalOffer};
 pub use study::{RequirementStatus, Standing, StudyProgress, StudyState};
 pub use study_answer::{
     Study, StudyAnswer, StudyList, StudyResult, StudySection, StudySource, StudySummary,

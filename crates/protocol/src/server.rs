@@ -5,7 +5,7 @@ use crate::page::Json;
 use crate::setting::Setting;
 use crate::shown::Shown;
 use crate::study::StudyProgress;
-use crate::timeline::{Events, Signals};
+use crate::timeline::{Events, Series, Signals};
 use base::geometry::Point;
 use brain::{BeliefState, Command, Percept};
 use schemars::JsonSchema;
@@ -19,7 +19,7 @@ pub enum ServerMessage {
     /// A run is open.
     Opened(Opened),
     /// The setting in which frames are drawn; sent whenever the scenario has changed.
-    Setting(Setting),
+    Setting(Box<Setting>),
     /// The state of the run, with a maximum rate of 10 Hz.
     State(Box<State>),
     /// The belief map of the selected robot, with a maximum rate of 4 Hz.
@@ -197,28 +197,6 @@ pub struct Saved {
 pub struct Exported {
     /// Its text, TOML.
     pub text: String,
-}
-
-/// The outcome over time: a row wherever a count changed, and evenly spaced ones.
-///
-/// Of very many changes, only some are kept; items found are kept longest.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct Series {
-    /// The first tick that the rows are about: they replace all rows from here on.
-    pub since: u64,
-    /// The columns with numbers.
-    pub columns: Vec<String>,
-    /// The rows by tick.
-    pub rows: Vec<SeriesRow>,
-}
-
-/// The outcome at a tick, if the run had ended there.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct SeriesRow {
-    /// The tick.
-    pub tick: u64,
-    /// A value per column; null where there is none.
-    pub values: Vec<Option<f64>>,
 }
 
 /// A message that was refused.

@@ -3,7 +3,6 @@
 //! The server makes them, each subject in a file of its own. The page draws every layer with one painter, every key of a legend
 //! with one component and every panel with another, and knows no subject.
 
-use crate::timeline::{EventKind, SignalOffer};
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -77,6 +76,32 @@ pub struct PanelOffer {
     pub label: String,
     /// Whether it is about the selected robot, and stands with what else is known of that.
     pub is_of_robot: bool,
+}
+
+/// A kind of events that can happen in a run.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct EventKind {
+    /// Its name in messages.
+    pub id: String,
+    /// Its label.
+    pub label: String,
+    /// The colour of its marks.
+    pub colour: Colour,
+    /// Whether it is shown at first.
+    pub is_on: bool,
+}
+
+/// A number that can be drawn over time.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SignalOffer {
+    /// Its name in messages.
+    pub id: String,
+    /// What it is.
+    pub label: String,
+    /// Its unit; empty without one.
+    pub unit: String,
+    /// What it is a number of, such as the name of a controller.
+    pub of: String,
 }
 
 /// The layers and panels that a page has requested.

@@ -1,23 +1,8 @@
 //! The timeline of a run: what has happened, the versions that changes have made, and numbers over time.
 
-use crate::server::SeriesRow;
-use crate::shown::Colour;
 use schemars::JsonSchema;
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// A kind of events that can happen in a run.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct EventKind {
-    /// Its name in messages.
-    pub id: String,
-    /// Its label.
-    pub label: String,
-    /// The colour of its marks.
-    pub colour: Colour,
-    /// Whether it is shown at first.
-    pub is_on: bool,
-}
 
 /// What has happened in a run, in order. Changes are not among it: they are in the setting.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -62,21 +47,9 @@ pub struct VersionView {
     pub latest_tick: u64,
 }
 
-/// A number that can be drawn over time.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct SignalOffer {
-    /// Its name in messages.
-    pub id: String,
-    /// What it is.
-    pub label: String,
-    /// Its unit; empty without one.
-    pub unit: String,
-    /// What it is a number of, such as the name of a controller.
-    pub of: String,
-}
-
 /// The requested signals, sampled from the run.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
+#[expect(clippy::struct_field_names, reason = "the page calls them so")]
 pub struct Signals {
     /// Their ids, in the order of the values.
     pub signals: Vec<String>,
@@ -88,4 +61,26 @@ pub struct Signals {
     pub every: u64,
     /// The samples; a value is null where there is none.
     pub rows: Vec<SeriesRow>,
+}
+
+/// The outcome over time: a row wherever a count changed, and evenly spaced ones.
+///
+/// Of very many changes, only some are kept; items found are kept longest.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Series {
+    /// The first tick that the rows are about: they replace all rows from here on.
+    pub since: u64,
+    /// The columns with numbers.
+    pub columns: Vec<String>,
+    /// The rows by tick.
+    pub rows: Vec<SeriesRow>,
+}
+
+/// The outcome at a tick, if the run had ended there.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SeriesRow {
+    /// The tick.
+    pub tick: u64,
+    /// A value per column; null where there is none.
+    pub values: Vec<Option<f64>>,
 }

@@ -57,7 +57,7 @@ def detected(of: str, value: tuple[float, str]) -> Words:
     return "found", of, "found", value[1]
 
 
-def acted(of: str, value: tuple[str, str | None, tuple[float, float], bool]) -> Words:
+def acted(of: str, value: Any) -> Words:
     """Return the words for an act on an item or a place."""
     act, item, at, is_success = value
     result = "" if is_success else FAILED_ACT
@@ -91,7 +91,7 @@ def stated(of: str, value: tuple[bool, float | None]) -> Words:
     return "declared", of, f"{'declared clear' if is_clear else 'given up'}{with_risk}", of
 
 
-def sent(of: str, value: tuple[str, str | None, str | None]) -> Words:
+def sent(of: str, value: Any) -> Words:
     """Return the words for a message."""
     about, goal, receiver = value
     of_goal = "" if goal is None else f" of {goal}"

@@ -4,11 +4,8 @@
 //! tallies decide what counts, and only that becomes an event: the first detection of an item does, a second one
 //! does not. Events are collected only while a reader exists.
 
-use super::agent_events::{Held, sent};
-use crate::bodies::body_state::Status;
+use crate::bodies::body_state::{BodyState, Status};
 use crate::clock::seconds;
-use crate::radio::channel::Outgoing;
-use crate::run::state::State;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use brain::{ActKind, GoalId, MarkVerdict, Reason, RobotId};
@@ -198,8 +195,6 @@ pub(crate) struct EventLog {
     readers: Vec<Weak<Mutex<Vec<Episode>>>>,
     /// Collisions and status of each robot before the step.
     before: Vec<(u32, Status)>,
-    /// What agents held before the step; `None` after the run was moved or changed.
-    held: Option<Held>,
 }
 
 impl Clone for EventLog {
@@ -218,16 +213,21 @@ impl EventLog {
 
     /// Notes the robots before a step, and drops readers that no longer exist.
     #[inline]
-    pub(crate) fn begin_step(&mut self, scenario: &Scenario, state: &State) {
-        if self.readers.is_empty() {
+    pub(crate) fn begin_step(&mut self, body_states: &[BodyState]) {
+        if !self.has_readers() {
             return;
         }
         self.readers.retain(|reader| reader.strong_count() > 0);
-        self.held.get_or_insert_with(|| Held::of(scenario, state));
-        let before = state.body_states.iter();
+        let before = body_states.iter();
         self.before.clear();
         self.before
             .extend(before.map(|body| (body.collisions, body.status)));
+    }
+
+    /// Whether there may be readers.
+    #[inline]
+    pub(crate) fn has_readers(&self) -> bool {
+        !self.readers.is_empty()
     }
 
     /// Passes an event to all readers.
@@ -239,26 +239,13 @@ impl EventLog {
         }
     }
 
-    /// Notes what participants send in a step.
+    /// Notes the collisions of robots in a step, and then the changes of their status.
     #[inline]
-    pub(crate) fn note_sent<'m>(&self, state: &State, outbox: impl Iterator<Item = &'m Outgoing>) {
-        if self.readers.is_empty() {
+    pub(crate) fn end_step(&self, tick: u64, ids: &[RobotId], body_states: &[BodyState]) {
+        if !self.has_readers() {
             return;
         }
-        for kind in outbox.filter_map(|outgoing| sent(state, outgoing)) {
-            self.note(state.tick, kind);
-        }
-    }
-
-    /// Notes the collisions of robots in a step, then the changes of their status, and then what has changed of goals,
-    /// controllers and lanes.
-    #[inline]
-    pub(crate) fn end_step(&mut self, scenario: &Scenario, state: &State) {
-        if self.readers.is_empty() {
-            return;
-        }
-        let tick = state.tick;
-        let robots = || state.ids.iter().zip(&state.body_states).zip(&self.before);
+        let robots = || ids.iter().zip(body_states).zip(&self.before);
         for ((&robot, body), (collisions, _)) in robots() {
             let total = body.collisions;
             if total != *collisions {
@@ -271,16 +258,10 @@ impl EventLog {
                 self.note(tick, EventKind::Status { robot, status });
             }
         }
-        let held = Held::of(scenario, state);
-        for kind in self.held.iter().flat_map(|before| held.since(before)) {
-            self.note(tick, kind);
-        }
-        self.held = Some(held);
     }
 
     /// Continues from a step with a scenario, the same or another one: later events have not happened.
     pub(crate) fn continue_from(&mut self, tick: u64, scenario: &Arc<Scenario>) {
-        self.held = None;
         for reader in self.readers.iter().filter_map(Weak::upgrade) {
             let mut episodes = locked(&reader);
             for (_, events) in &mut *episodes {
@@ -323,15 +304,15 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
     fn nothing_is_collected_for_readers_that_no_longer_exist() {
         let scenario = scenario();
         let mut log = EventLog::default();
-        let state = State::new(&scenario, 0, 0).unwrap();
+        let bodies = [BodyState::default()];
         let (one, other) = (log.reader(&scenario), log.reader(&scenario));
-        log.begin_step(&scenario, &state);
+        log.begin_step(&bodies);
         assert_eq!((log.readers.len(), log.before.len()), (2, 1));
         drop(one);
-        log.begin_step(&scenario, &state);
+        log.begin_step(&bodies);
         assert_eq!(log.readers.len(), 1);
         drop(other);
-        log.begin_step(&scenario, &state);
+        log.begin_step(&bodies);
         assert_eq!(log.readers.len(), 0);
     }
 

@@ -7,7 +7,6 @@
 mod act_columns;
 pub(crate) mod act_outcome;
 pub(crate) mod act_tally;
-mod agent_events;
 mod bounds;
 mod clearance_columns;
 pub(crate) mod clearance_outcome;

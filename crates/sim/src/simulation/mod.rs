@@ -266,6 +266,7 @@ impl Simulation {
     fn keep_readers(&mut self, mut events: EventLog) {
         events.continue_from(self.state.tick, &self.scenario);
         self.scratch.events = events;
+        self.scratch.agent_events.forget();
     }
 
     /// The external inputs of a step; moves external bodies to the poses of their percepts.

@@ -2,6 +2,7 @@
 
 mod act;
 mod acts;
+mod agent_events;
 mod clearance;
 pub(crate) mod communicate;
 mod convoy;

@@ -2,6 +2,7 @@
 
 use super::act::Moves;
 use super::acts;
+use super::agent_events::{self, AgentEvents};
 use super::clearance;
 use super::communicate;
 use super::convoy;
@@ -41,6 +42,7 @@ pub(crate) struct StepScratch {
     pub(crate) external: Vec<usize>,
     /// Readers of what happens in the run.
     pub(crate) events: EventLog,
+    pub(crate) agent_events: AgentEvents,
     /// Whether threads may share the work of one step.
     may_share: bool,
     has_beliefs: bool,
@@ -60,6 +62,7 @@ impl StepScratch {
             moves: Moves::default(),
             external: Vec::new(),
             events: EventLog::default(),
+            agent_events: AgentEvents::default(),
             may_share,
             has_beliefs: scenario.kinds.iter().any(|kind| kind.brain.has_beliefs()),
         }
@@ -73,6 +76,7 @@ impl StepScratch {
     /// Drops what is cached about robots: another run begins, or this one was changed.
     pub(crate) fn invalidate(&mut self) {
         self.neighbours.forget();
+        self.agent_events.forget();
     }
 
     /// Notes that these external bodies were placed, none of them farther than this from where it was.
@@ -88,7 +92,8 @@ impl StepScratch {
         state: &mut State,
         external: &ExternalInputs,
     ) {
-        self.events.begin_step(scenario, state);
+        self.events.begin_step(&state.body_states);
+        self.agent_events.begin_step(&self.events, scenario, state);
         let is_counted = if scenario.is_of_flocks_of_points() && external.is_empty() {
             self.flock_step(scenario, state);
             add_setpoints(scenario, state);
@@ -102,7 +107,7 @@ impl StepScratch {
             let hashes = self.workers.iter().flat_map(|worker| &worker.decisions);
             add_decisions(state, hashes);
             let sent = self.workers.iter().flat_map(|worker| &worker.outbox);
-            self.events.note_sent(state, sent);
+            agent_events::note_sent(&self.events, state, sent);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let is_counted = self.judge_goals(scenario, state);
             let collisions = self.act(scenario, state) + self.touch_external(scenario, state);
@@ -114,7 +119,9 @@ impl StepScratch {
         if scenario.has_failures {
             state.fail(scenario);
         }
-        self.events.end_step(scenario, state);
+        self.events
+            .end_step(state.tick, &state.ids, &state.body_states);
+        self.agent_events.end_step(&self.events, scenario, state);
         state.note_completion(scenario, is_counted);
         state.tick += 1;
         communicate::deliver(state);

@@ -190,3 +190,23 @@ fn a_run_that_returns_reports_awards_of_its_new_future_again() {
             .any(|(_, kind)| matches!(kind, EventKind::Awarded { .. }))
     );
 }
+
+#[test]
+fn a_copy_that_stepped_without_readers_reports_only_what_happens_from_then_on() {
+    let mut simulation = start(LANE);
+    let reader = simulation.event_reader();
+    (0..100).for_each(|_| simulation.step());
+    let mut copy = simulation.clone();
+    (0..300).for_each(|_| copy.step());
+    let tick = copy.state().tick();
+    simulation.return_to(copy);
+    let _ = drained(&reader);
+    let before = awarded(&simulation);
+    simulation.step();
+    let now = awarded(&simulation);
+    let new = now.iter().filter(|(key, to)| before.get(key) != Some(to));
+    let events = drained(&reader);
+    let is_award = |(_, kind): &&(u64, EventKind)| matches!(kind, EventKind::Awarded { .. });
+    assert_eq!(events.iter().filter(is_award).count(), new.count());
+    assert!(events.iter().all(|(at, _)| *at == tick));
+}

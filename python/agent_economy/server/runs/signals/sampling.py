@@ -19,7 +19,7 @@ SLICE_S = 0.02
 """The run is sampled for this long before other work is done."""
 
 SEND_S = 0.25
-"""Time between two messages, and until it is checked whether a sampled run has gone on."""
+"""Time between two messages, and until a sampled run is checked for new steps."""
 
 
 class Sampling:

@@ -29,7 +29,7 @@ export function entriesOf(events: EventRow[], setting: Setting): Entry[] {
   return changes.length === 0 ? others : [...others, ...changes].sort((one, other) => one.at - other.at);
 }
 
-/** The entries of the kinds that are on and that contain a text, whatever its case. */
+/** The entries of the kinds that are on and that contain the search string, whatever its case. */
 export function filtered(entries: Entry[], kinds: ReadonlySet<string>, search: string): Entry[] {
   const wanted = search.trim().toLowerCase();
   const contains = ({ of, text, agent }: Entry) =>

@@ -1,6 +1,6 @@
 //! Events of goals, controllers and lanes: what agents hold before and after a step is compared.
 
-use super::events::{EventKind, GoalName};
+use crate::judge::events::{EventKind, EventLog, GoalName};
 use crate::radio::channel::Outgoing;
 use crate::run::state::State;
 use crate::scenario::Scenario;
@@ -8,9 +8,59 @@ use brain::{About, Dispatch, GoalId, MarkVerdict, Reason, RobotId};
 use economy::LanePicture;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Notes events of agents for the readers of a run, if there are any.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct AgentEvents {
+    /// What agents held before the step; `None` after the run was moved or changed.
+    before: Option<Held>,
+}
+
+impl AgentEvents {
+    /// Notes what agents hold before a step.
+    #[inline]
+    pub(super) fn begin_step(&mut self, events: &EventLog, scenario: &Scenario, state: &State) {
+        if events.has_readers() {
+            self.before.get_or_insert_with(|| Held::of(scenario, state));
+        }
+    }
+
+    /// Notes what has changed in a step of what they hold.
+    #[inline]
+    pub(super) fn end_step(&mut self, events: &EventLog, scenario: &Scenario, state: &State) {
+        if !events.has_readers() {
+            return;
+        }
+        let held = Held::of(scenario, state);
+        for kind in self.before.iter().flat_map(|before| held.since(before)) {
+            events.note(state.tick, kind);
+        }
+        self.before = Some(held);
+    }
+
+    /// Continues from another step, or with another scenario.
+    pub(crate) fn forget(&mut self) {
+        self.before = None;
+    }
+}
+
+/// Notes what participants send in a step.
+#[inline]
+pub(super) fn note_sent<'m>(
+    events: &EventLog,
+    state: &State,
+    outbox: impl Iterator<Item = &'m Outgoing>,
+) {
+    if !events.has_readers() {
+        return;
+    }
+    for kind in outbox.filter_map(|outgoing| sent(state, outgoing)) {
+        events.note(state.tick, kind);
+    }
+}
+
 /// What agents hold, and what the judge has noted of goals, as far as a change of it is an event.
-#[derive(Debug, Default)]
-pub(super) struct Held {
+#[derive(Debug, Clone, Default)]
+struct Held {
     /// By the kind and the index of the goal.
     goals: BTreeMap<(u8, u32), GoalState>,
     /// The robots to which controllers have awarded goals.
@@ -31,7 +81,7 @@ struct GoalState {
 
 impl Held {
     /// What agents hold at the current step of a run.
-    pub(super) fn of(scenario: &Scenario, state: &State) -> Self {
+    fn of(scenario: &Scenario, state: &State) -> Self {
         let mut held = Self::default();
         for goal in state.each_goal(scenario) {
             let now = GoalState {
@@ -48,13 +98,13 @@ impl Held {
             }
             for goal in controller.goals() {
                 if let Some((robot, _)) = goal.assignee {
-                    let name = GoalName::of(state, goal.task.id);
+                    let name = name_of(state, goal.task.id);
                     held.awarded.insert((by, name), robot);
                 }
             }
             let orphans = controller.orphans();
             held.orphaned
-                .extend(orphans.map(|task| (by, GoalName::of(state, task.id))));
+                .extend(orphans.map(|task| (by, name_of(state, task.id))));
             let marks = controller.lane().into_iter();
             let marks = marks.flat_map(LanePicture::mark_verdicts);
             held.marks
@@ -68,7 +118,7 @@ impl Held {
     }
 
     /// What has happened since an earlier step.
-    pub(super) fn since(&self, before: &Self) -> Vec<EventKind> {
+    fn since(&self, before: &Self) -> Vec<EventKind> {
         let mut events = Vec::new();
         for (goal, now) in &self.goals {
             if let Some(was) = before.goals.get(goal) {
@@ -108,22 +158,18 @@ impl GoalState {
     }
 }
 
-impl GoalName {
-    fn of(state: &State, id: GoalId) -> Self {
-        let goal = state
-            .goals
-            .number(id)
-            .map(|number| &state.goals.all[number]);
-        Self {
-            id,
-            place: goal.map(|goal| (goal.kind, goal.index)),
-        }
-    }
+fn name_of(state: &State, id: GoalId) -> GoalName {
+    let goal = state
+        .goals
+        .number(id)
+        .map(|number| &state.goals.all[number]);
+    let place = goal.map(|goal| (goal.kind, goal.index));
+    GoalName { id, place }
 }
 
 /// The event that a participant sends a message that changes what another agent does or holds; `None` for offers,
 /// renewals and information, which are repeated.
-pub(super) fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
+fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
     let message = &outgoing.message;
     let About::Dispatch(dispatch) = &message.about else {
         return None;
@@ -152,6 +198,6 @@ pub(super) fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
         from: robot.or_else(|| Some(controller()?.participant.id))?,
         to: message.to,
         about,
-        goal: goal.map(|id| GoalName::of(state, id)),
+        goal: goal.map(|id| name_of(state, id)),
     })
 }
