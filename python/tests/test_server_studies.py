@@ -157,6 +157,16 @@ def test_the_report_and_the_answer_can_be_downloaded(answered: Folder) -> None:
         assert "attachment" in response.headers["content-disposition"]
 
 
+def test_the_question_of_a_study_contains_all_its_values(answered: Folder) -> None:
+    question = answered.get("/api/study/question?id=studies/classic").json()
+    assert question["scenario"]["robots"]["wanderer"]["count"]
+    (factor,) = question["factors"]
+    assert factor["path"] == TEAM
+    assert (question["delta"], question["configurations"], question["seed"]) == (0.3, 5, "0")
+    refused = answered.get("/api/study/question?id=studies/none")
+    assert refused.status_code == 422
+
+
 def test_raising_the_confidence_gives_the_answer_of_a_new_study_at_that_confidence(
     answered: Folder, tmp_path: Path
 ) -> None:

@@ -1,4 +1,5 @@
 import { postJson, request } from "./http";
+import type { Json } from "./protocol";
 import type {
   Factors,
   ScenarioSource,
@@ -52,6 +53,11 @@ export function sampleOf(id: string, configuration: number, sample: number): Pro
 /** The run in the middle, from the worst to the best; of a study with a requirement, from the fastest to the slowest. */
 export function medianOf(id: string, configuration: number): Promise<StudyRuns> {
   return get(runsAt(id, configuration, { median: 1 }));
+}
+
+/** The question of a study, with all values of its scenario. */
+export function questionOf(id: string): Promise<Record<string, Json>> {
+  return get(`api/study/question?${new URLSearchParams({ id })}`);
 }
 
 export function download(id: string, what: "report" | "answer"): string {

@@ -124,6 +124,11 @@ export function studyLink(id: string, configuration?: number): string {
   return `#/study?${unescapeReadable(query.toString())}`;
 }
 
+/** The address of two studies side by side. */
+export function compareStudiesLink(one: string, other: string): string {
+  return `#/study/compare?${unescapeReadable(new URLSearchParams({ a: one, b: other }).toString())}`;
+}
+
 /** The address of the form for a new study of a link's scenario. */
 export function newStudyLink({ scenario, text }: Pick<Link, "scenario" | "text">): string {
   const query: Record<string, string> = text === null ? { scenario: scenario ?? "" } : { text };

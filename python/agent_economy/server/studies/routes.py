@@ -4,6 +4,7 @@ POST `/api/factors`: what a study of a scenario can vary. `/api/plan`: what a st
 `/api/studies`: start or resume a study. The body of these three is read by `requests`.
 POST `/api/studies/stop`: `id`. `/api/studies/resume`: `id`, and a higher `confidence` or null.
 GET `/api/studies`: all studies, the newest first. `/api/study?id=`: one with its plan and answer.
+`/api/study/question?id=`: its question, with all values of its scenario.
 `/api/study/report?id=` and `/api/study/answer?id=`: its files.
 `/api/study/runs?id=&configuration=`: its runs, `first` and `count`, or a `sample` of them from the
 worst to the best, or the `median`.
@@ -11,7 +12,7 @@ The response to a request with errors is `errors`, with status 422.
 """
 
 import asyncio
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
+from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario, bundled
 from agent_economy.scenario.validation import check
@@ -64,6 +66,7 @@ class Routes:
             Route("/api/studies/stop", post(self.stop), methods=["POST"]),
             Route("/api/studies/resume", post(self.resume), methods=["POST"]),
             Route("/api/study", get(self.study)),
+            Route("/api/study/question", get(self.question)),
             Route("/api/study/runs", get(self.runs)),
             Route("/api/study/report", get(lambda query: self.file(query, REPORT))),
             Route("/api/study/answer", get(lambda query: self.file(query, ANSWER))),
@@ -109,6 +112,23 @@ class Routes:
             "source": {"scenario": gallery_id(plan.scenario, self.workspace)},
             "answer": self.answers.of(self.studies.folder(name)),
         }
+
+    def question(self, query: dict[str, str]) -> Response:
+        """Return the question of a study with all its values, as one document that pages compare."""
+        name = id_of(query)
+        plan = self.studies.plan(name)
+        planned: Mapping[str, Any] = requests.planned(plan, name, None)
+        own = ("merit", "delta", "guarantee", "requirement", "factors", "configurations")
+        return JSONResponse(
+            {
+                **{key: planned[key] for key in own},
+                "confidence": plan.confidence,
+                "seed": str(plan.seed),
+                "runs_per_configuration": plan.runs,
+                "run_budget": plan.max_runs,
+                "scenario": _core.read_filled(plan.scenario.source),
+            }
+        )
 
     def runs(self, query: dict[str, str]) -> Response:
         """Return runs of a configuration of a study."""

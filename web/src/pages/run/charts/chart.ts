@@ -113,6 +113,7 @@ export class Chart {
     context.save();
     context.strokeStyle = stroke;
     context.lineWidth = devicePixelRatio;
+    context.setLineDash([]);
     context.beginPath();
     context.moveTo(x, top);
     context.lineTo(x, top + height);

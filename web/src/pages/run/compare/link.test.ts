@@ -20,7 +20,7 @@ test("damaged and live sides are named", () => {
   expect(damages("").length).toBe(2);
 });
 
-test("the run of a copied address is read, and other texts are not", () => {
+test("the run of a copied address is read, and other strings are not", () => {
   expect(linkIn("http://127.0.0.1:8765/#/run?scenario=search&seed=3&run=0&tick=40")).toEqual(one);
   expect(linkIn("http://127.0.0.1:8765/#/studies")).toBeNull();
   expect(linkIn("#/run?tick=x")).toBeNull();

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import type { Setting, State } from "../../../api/protocol";
 import { Pair, type Paired } from "./pair.svelte";
 
-/** A run that arrives when the test says so. */
+/** A run that arrives when the test lets it. */
 class Fake implements Paired {
   state: State | null;
   setting: Setting | null;

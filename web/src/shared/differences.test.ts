@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { State } from "../../../api/protocol";
+import type { State } from "../api/protocol";
 import { documentsOf, outcomesOf, readable } from "./differences";
 
 const state = (outcome: Record<string, number | boolean | null>) => ({ outcome }) as unknown as State;

@@ -1,5 +1,5 @@
-import type { Json, Outcome, State } from "../../../api/protocol";
-import { named, withoutFindTimes } from "../../../shared/outcome";
+import type { Json, Outcome, State } from "../api/protocol";
+import { named, withoutFindTimes } from "./outcome";
 
 /** A value that two runs have. */
 export interface Difference {
