@@ -18,7 +18,9 @@ test("events stand in a list that can be filtered and searched, and a click goes
   const found = kinds.getByRole("button", { name: /^Found/ });
   const count = Number(/\d+/.exec((await found.textContent()) ?? "")?.[0]);
   expect(count).toBeGreaterThan(0);
-  await expect(page.getByRole("status").filter({ hasText: "events" })).toContainText(`${count + 1} of ${count + 1}`);
+  await expect(page.getByRole("status").filter({ hasText: "events" })).toContainText(
+    `${count + 1} of ${count + 1}`,
+  );
   await page.getByRole("searchbox", { name: "Search events" }).fill("mine/0");
   await expect(all).toHaveCount(1);
   const label = (await all.getAttribute("aria-label")) ?? "";

@@ -114,7 +114,7 @@ class Routes:
         }
 
     def question(self, query: dict[str, str]) -> Response:
-        """Return the question of a study with all its values, as one document that pages compare."""
+        """Return the question of a study with all its values, as one document to compare."""
         name = id_of(query)
         plan = self.studies.plan(name)
         planned: Mapping[str, Any] = requests.planned(plan, name, None)
