@@ -158,12 +158,12 @@ def test_the_report_and_the_answer_can_be_downloaded(answered: Folder) -> None:
 
 
 def test_the_question_of_a_study_contains_all_its_values(answered: Folder) -> None:
-    question = answered.get("/api/study/question?id=studies/classic").json()
+    question = answered.get("/api/study/question", id="studies/classic")
     assert question["scenario"]["robots"]["wanderer"]["count"]
     (factor,) = question["factors"]
     assert factor["path"] == TEAM
     assert (question["delta"], question["configurations"], question["seed"]) == (0.3, 5, "0")
-    refused = answered.get("/api/study/question?id=studies/none")
+    refused = answered.client.get("/api/study/question", params={"id": "studies/none"})
     assert refused.status_code == 422
 
 

@@ -24,6 +24,7 @@ from agent_economy.recording.identity import (
     read_run,
 )
 from agent_economy.recording.records import stream_records
+from agent_economy.recording.stops import Stops
 from agent_economy.regular_file import open_regular
 from agent_economy.runs.stepped import Change
 from agent_economy.whole_file import is_being_written
@@ -60,6 +61,7 @@ class Recorded:
         changes: The changes of the scenario, in order.
         inputs: The external inputs, by tick.
         is_complete: Whether the whole file has been read: it is neither truncated nor damaged.
+        stops: When robots of a drive were stopped.
         damage: Why it is damaged, behind what has been read; None if it is not.
     """
 
@@ -68,6 +70,7 @@ class Recorded:
     inputs: dict[int, dict[str, Any]] = field(default_factory=dict)
     is_complete: bool = False
     damage: str | None = None
+    stops: Stops = field(default_factory=Stops)
     _run: Mapping[str, str] | None = None
     _end: Mapping[str, str] | None = None
     _attached: dict[str, bytes] = field(default_factory=dict)
@@ -148,6 +151,8 @@ class Recorded:
             self._add_point(read_point(Entries(f"topic {topic}", json.loads(data))))
         elif topic == "/input":
             self._add_input(Entries(f"topic {topic}", json.loads(data)))
+        else:
+            self.stops.add(topic, data)
 
     def _add_point(self, point: Point) -> None:
         if self.points and point.place <= self.points[-1].place:

@@ -7,6 +7,8 @@ from itertools import zip_longest
 from typing import Any
 
 from agent_economy.recording.reading import Recorded
+from agent_economy.recording.stops import MOVES, Stop
+from agent_economy.runs.events import Event
 from agent_economy.runs.stepped import Change, Stepped
 
 
@@ -28,6 +30,7 @@ class RecordedRun:
         """Begin with a run that has the recorded changes."""
         self.changes = tuple(recorded.changes)
         self._inputs = recorded.inputs
+        self._stopped = [event_of(stop) for stop in recorded.stops.all]
         self._hashes = {(point.tick, point.changes): point.hash for point in recorded.points}
         self._end = recorded.points[-1].tick if recorded.points else 0
         self._stops = sorted({tick for tick, _ in self._hashes} | self._inputs.keys())
@@ -53,6 +56,11 @@ class RecordedRun:
         """Return the external inputs of the step from a tick, as keyword arguments of `step`."""
         return self._inputs.get(tick, {}) if tick < self.until else {}
 
+    def stops(self, since: int, until: int) -> list[Event]:
+        """Return when robots of a drive were stopped, in the steps from one tick to another."""
+        end = min(until, self.until)
+        return [event for event in self._stopped if since <= event.tick < end]
+
     def next_stop(self, tick: int) -> int | None:
         """Return the next tick that was recorded, or that has an external input."""
         place = bisect_right(self._stops, tick)
@@ -72,6 +80,13 @@ class RecordedRun:
         is_comparable = recorded is not None and simulation.tick < self.until
         if is_comparable and recorded != f"{simulation.hash:016x}":
             self.mismatch_tick = simulation.tick
+
+
+def event_of(stop: Stop) -> Event:
+    """Return the event that a robot was stopped, or may move again."""
+    reasons = f": {', '.join(stop.reasons)}" if stop.reasons else ""
+    text = "may move again" if stop.action == MOVES else f"stopped{reasons}"
+    return Event(stop.tick, "stopped", stop.robot, text, stop.robot)
 
 
 def first_difference(one: Sequence[Change], other: Sequence[Change]) -> float:

@@ -103,7 +103,7 @@ class RunEvents:
         until = simulation.tick
         if until <= self.until:
             return
-        for event in events:
+        for event in sorted(events, key=attrgetter("tick")):
             if event.tick >= self.until:
                 self._keep(event)
         self.until = until
