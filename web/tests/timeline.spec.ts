@@ -116,6 +116,10 @@ test("numbers of a robot and of the run are drawn with one click, and saved as t
   await expect(chart.getByRole("listitem")).toHaveCount(3);
   await chart.getByRole("combobox", { name: "Add a signal" }).fill("rover/1 state of charge");
   await expect(chart.getByRole("listitem")).toHaveCount(4);
+  // The address contains what is drawn.
+  await expect.poll(() => page.url()).toContain("chart=body/rover/1/charge");
+  await page.reload();
+  await expect(chart.getByRole("listitem")).toHaveCount(4);
   await chart.getByRole("button", { name: "Close the chart" }).click();
   await expect(chart).toHaveCount(0);
 });

@@ -29,6 +29,7 @@ const full: Link = {
   tick: 512,
   view: [12.5, 8, 31.25],
   robot: "rover/3",
+  charts: ["outcome/found", "body/rover/0/x_m"],
 };
 
 test.each([
@@ -69,7 +70,7 @@ test("an address has exactly one source, and a study its configuration", () => {
 
 test("the live run is opened as it is: its address has nothing else to open", () => {
   expect(writeLink({ ...full, scenario: null, live: true })).toBe(
-    "#/run?live=1&view=12.5,8,31.25&robot=rover/3",
+    "#/run?live=1&view=12.5,8,31.25&robot=rover/3&chart=outcome/found&chart=body/rover/0/x_m",
   );
   expect(damages("live=1&robot=bender/0")).toEqual([]);
   expect(damages("live=yes")).toEqual(["live=yes"]);

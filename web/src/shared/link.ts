@@ -20,10 +20,15 @@ export interface Link {
   /** Centre x and y, and pixels per unit of the world. */
   view: [number, number, number] | null;
   robot: string | null;
+  /** The ids of the signals in the chart. */
+  charts: string[];
 }
 
 /** Some programs truncate longer addresses. */
 export const maxLinkLength = 8000;
+
+/** Signals in an address. */
+const maxCharts = 32;
 
 /** Characters of a damaged part that are displayed. */
 const longestShown = 60;
@@ -40,6 +45,7 @@ export const emptyLink: Link = {
   tick: 0,
   view: null,
   robot: null,
+  charts: [],
 };
 
 /** The hash of the address of a run, such as `#/run?scenario=search&seed=7`. */
@@ -49,6 +55,7 @@ export function writeLink(link: Link): string {
   else writeRun(link, query);
   if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
   if (link.robot !== null) query.set("robot", link.robot);
+  for (const signal of link.charts) query.append("chart", signal);
   return `#/run?${unescapeReadable(query.toString())}`;
 }
 
@@ -114,6 +121,7 @@ export function readLink(query: URLSearchParams): Link {
     tick: Number(whole(query.get("tick"))),
     view: readView(query.get("view") ?? ""),
     robot: query.get("robot"),
+    charts: [...new Set(query.getAll("chart"))].slice(0, maxCharts),
   };
 }
 

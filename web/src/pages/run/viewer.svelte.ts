@@ -54,6 +54,7 @@ export class Viewer implements Host {
     this.session = new Session({ ...link, text });
     this.timeline = new Timeline(this.session);
     this.charts = new Charts(this.session);
+    this.charts.choose(link.charts);
     if (link.study) void this.loadLabel(link.study);
   }
 
@@ -131,6 +132,7 @@ export class Viewer implements Host {
       tick,
       view: camera ? [round(camera.x), round(camera.y), round(camera.scale)] : link.view,
       robot: selected,
+      charts: this.charts.chosen,
     };
   }
 }

@@ -43,15 +43,11 @@ export function drawMarks(
   const style = getComputedStyle(canvas);
   const colour = (name: string) => style.getPropertyValue(`--${name}`).trim();
   const scale = { width_px, edge };
+  const places = new Map(kinds.map(({ id }) => [id, new Set<number>()]));
+  for (const { kind, at } of entries) places.get(kind)?.add(Math.round(x_px(at, scale) * 2) / 2);
   for (const { id, colour: name } of kinds) {
     context.fillStyle = colour(name);
-    const drawn = new Set<number>();
-    for (const { kind, at } of entries) {
-      const x = Math.round(x_px(at, scale) * 2) / 2;
-      if (kind !== id || drawn.has(x)) continue;
-      drawn.add(x);
-      context.fillRect(x - 1, 0, 2, height_px);
-    }
+    for (const x of places.get(id) ?? []) context.fillRect(x - 1, 0, 2, height_px);
   }
   context.fillStyle = colour("text");
   for (const tick of branches) {
