@@ -1,4 +1,16 @@
-import { downloaded, expect, expectAccessible, hash, openRun, openTab, status, test, time_s } from "./page";
+import {
+  asOnPhone,
+  downloaded,
+  expect,
+  expectAccessible,
+  expectToFit,
+  hash,
+  openRun,
+  openTab,
+  status,
+  test,
+  time_s,
+} from "./page";
 import { readFileSync } from "node:fs";
 
 const scenario = "scenario=search&seed=3";
@@ -120,6 +132,9 @@ test("numbers of a robot and of the run are drawn with one click, and saved as t
   await expect.poll(() => page.url()).toContain("chart=body/rover/1/charge");
   await page.reload();
   await expect(chart.getByRole("listitem")).toHaveCount(4);
+  await asOnPhone(page);
+  await expectToFit(page);
+  await expectAccessible(page);
   await chart.getByRole("button", { name: "Close the chart" }).click();
   await expect(chart).toHaveCount(0);
 });
