@@ -1,4 +1,4 @@
-"""The outcome columns in words: each has a text, and pages are sent those that apply."""
+"""Each outcome column has a description, and pages receive those that apply."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ from lanes import SMALL_LANE, with_passage
 from metric import world
 
 import agent_economy as ae
-from agent_economy.runs.columns import COLUMNS, OF_KINDS, column_text
+from agent_economy.runs.columns import COLUMNS, OF_KINDS, description_of
 from agent_economy.runs.factory import create
 from agent_economy.scenario import bundled
 from agent_economy.server.runs.shown import columns
@@ -62,48 +62,48 @@ def documented(file: str) -> set[str]:
 
 
 @pytest.mark.parametrize("name", bundled.scenarios())
-def test_every_column_of_bundled_scenarios_has_a_text(name: str) -> None:
+def test_every_column_of_bundled_scenarios_has_a_description(name: str) -> None:
     names = set(all_columns(ae.Scenario.load(name))) - NOT_COLUMNS
-    assert [each for each in names if column_text(each) is None] == []
+    assert [each for each in names if description_of(each) is None] == []
 
 
-def test_every_column_of_a_lane_with_vehicles_has_a_text(tmp_path: Path) -> None:
+def test_every_column_of_a_lane_with_vehicles_has_a_description(tmp_path: Path) -> None:
     names = set(all_columns(ae.Scenario.load(with_passage(tmp_path)))) - NOT_COLUMNS
-    assert [each for each in names if column_text(each) is None] == []
+    assert [each for each in names if description_of(each) is None] == []
 
 
 @pytest.mark.parametrize("file", ["glossary.md", "simulation.md"])
-def test_every_documented_column_has_a_text(file: str) -> None:
+def test_every_documented_column_has_a_description(file: str) -> None:
     names = documented(file)
     assert len(names) > 30
-    assert [each for each in names if column_text(each) is None] == []
+    assert [each for each in names if description_of(each) is None] == []
 
 
-def test_texts_of_kinds_have_the_name_of_the_kind() -> None:
-    found = column_text("found_big_mine")
+def test_descriptions_of_kinds_have_the_name_of_the_kind() -> None:
+    found = description_of("found_big_mine")
     assert found is not None
     assert found.label == "Found: big_mine"
     assert found.out_of == ("found_big_mine", "missed_big_mine")
-    find = column_text("found_mine_3_s")
+    find = description_of("found_mine_3_s")
     assert find is not None
     assert find.label == "Find 3 of mine"
-    low = column_text("stated_clearance_mine_low")
+    low = description_of("stated_clearance_mine_low")
     assert low is not None
     assert low.label == "Stated clearance of mine, from"
-    assert column_text("unknown") is None
+    assert description_of("unknown") is None
 
 
-def test_texts_are_sentences_in_known_groups() -> None:
-    for text in (*COLUMNS.values(), *OF_KINDS.values()):
-        assert text.group in columns.GROUPS
-        assert text.label[0].isupper()
-        assert text.help[0].isupper()
-        assert text.help.endswith(".")
-    events = {name for text in COLUMNS.values() for name in (*text.after, text.time_of) if name}
+def test_descriptions_are_sentences_in_known_groups() -> None:
+    for each in (*COLUMNS.values(), *OF_KINDS.values()):
+        assert each.group in columns.GROUPS
+        assert each.label[0].isupper()
+        assert each.help[0].isupper()
+        assert each.help.endswith(".")
+    events = {name for each in COLUMNS.values() for name in (*each.after, each.time_of) if name}
     assert events <= set(COLUMNS)
 
 
-def test_what_the_question_asks_for_comes_first() -> None:
+def test_what_answers_the_question_comes_first() -> None:
     assert first(ae.Scenario.load("search")) == ["found", "time_s", "collisions"]
     assert first(ae.Scenario.load("classic")) == ["found", "time_s", "collisions"]
     assert first(ae.Scenario.load("waypoints"))[:2] == ["served", "time_s"]
@@ -114,7 +114,7 @@ def test_what_the_question_asks_for_comes_first() -> None:
     assert first(changed)[:2] == ["collisions", "distance_m"]
 
 
-def test_without_targets_goals_or_an_end_nothing_is_said_of_finds_or_completeness() -> None:
+def test_without_targets_goals_or_an_end_there_are_no_finds_and_no_completeness() -> None:
     sent = offers(ae.Scenario.loads(world(ROVERS)))
     absent = {"found", "missed", "false_alarms", "complete", "price", "energy_j"}
     assert sent.keys().isdisjoint(absent)
@@ -151,7 +151,7 @@ def test_without_controllers_no_goal_is_refused_and_no_lease_lapses() -> None:
     assert sent.keys().isdisjoint({"goals_refused", "leases_lapsed"})
 
 
-def test_times_of_finds_are_not_sent() -> None:
+def test_times_of_finds_are_left_out() -> None:
     assert not [name for name in offers(ae.Scenario.load("search")) if re.search(r"_\d_s$", name)]
 
 
@@ -159,3 +159,10 @@ def test_a_change_of_the_scenario_changes_what_applies() -> None:
     scenario = ae.Scenario.load("search")
     assert "found" in offers(scenario)
     assert "found" not in offers(scenario.replace("items.mine.count", 0))
+
+
+def test_what_removed_robots_have_used_is_still_sent() -> None:
+    simulation = create(ae.Scenario.load(SMALL_LANE), seed=1, run=1)
+    simulation.step(20)
+    simulation.change("robots.oav.count", 0)
+    assert "distance_oav_m" in {each["id"] for each in columns.offer_of(simulation)}

@@ -135,8 +135,8 @@ def test_goals_are_filtered_by_status_and_by_words() -> None:
     assert [kind["is_on"] for kind in served["filter"]["kinds"]] == [False, False, True]
     # Of the hidden kinds, too, the number is sent.
     assert {kind["id"]: kind["count"] for kind in served["filter"]["kinds"]} == counts
-    assert names(goals_section(simulation, text="spot/59")) == ["spot/59"]
-    found = goals_section(simulation, text="AWARDED rover/0")
+    assert names(goals_section(simulation, words="spot/59")) == ["spot/59"]
+    found = goals_section(simulation, words="AWARDED rover/0")
     assert {row["cells"][2]["note"].split(",")[0] for row in found["table"]["rows"]} == {
         "to rover/0"
     }
@@ -144,7 +144,7 @@ def test_goals_are_filtered_by_status_and_by_words() -> None:
 
 def test_a_filter_that_no_goal_passes_leaves_the_filter_and_no_table() -> None:
     simulation = ae.Simulation(ae.Scenario.load("waypoints"), seed=7)
-    section = goals_section(simulation, text="no such goal", hidden="unknown,")
+    section = goals_section(simulation, words="no such goal", hidden="unknown,")
     assert section["table"] is None
     assert section["filter"]["passed"] == (0, 60)
 
@@ -165,4 +165,4 @@ def test_every_goal_of_thousands_can_be_reached_in_a_small_message() -> None:
     section = goals_section(simulation)
     assert (len(names(section)), section["table"]["total"]) == (200, 3000)
     assert len(json.dumps(section)) < 100_000
-    assert names(goals_section(simulation, text="spot/2999")) == ["spot/2999"]
+    assert names(goals_section(simulation, words="spot/2999")) == ["spot/2999"]

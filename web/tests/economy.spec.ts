@@ -69,7 +69,10 @@ test("controllers that are added during a run are listed, and one is chosen", as
   await page.getByRole("combobox", { name: "controllers.base.allocation" }).selectOption("nearest");
   await expect(page.getByRole("button", { name: "Study this scenario with your 2 changes" })).toBeVisible();
   await openTab(page, "Goals");
-  const controllers = page.locator("table").first().getByRole("button");
+  const controllers = page
+    .locator("table")
+    .first()
+    .getByRole("button", { name: /^base\/\d$/ });
   await expect(controllers).toHaveText(["base/0", "base/1", "base/2"]);
   await expect(page.getByRole("button", { name: /^awarded \d+$/ })).toBeVisible();
   await controllers.nth(1).click();

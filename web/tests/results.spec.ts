@@ -29,7 +29,7 @@ async function openResults(page: Page, server: { url: string }, query: string, w
 }
 
 for (const width of [390, 1280]) {
-  test(`the three figures that the question asks for come first, the rest in groups, at ${width} px`, async ({
+  test(`the three figures that answer the question come first, the rest in groups, at ${width} px`, async ({
     page,
     server,
   }) => {
@@ -37,7 +37,7 @@ for (const width of [390, 1280]) {
     await expect(terms(page)).toHaveText(["Found", "Time", "Collisions"]);
     await expect(figure(page, "Time")).toHaveText("4.0 s so far");
     await expect(figure(page, "Found")).toHaveText("0 / 4");
-    // A closed group says what is in it, in one line.
+    // A closed group lists what is in it, in one line.
     await expect(group(page, "Team")).toContainText("Robots 4, Price 80,000");
     // By keyboard.
     await group(page, "Mission").focus();
@@ -76,10 +76,7 @@ for (const width of [390, 1280]) {
   });
 }
 
-test("a run of which nothing is searched says nothing of finds, energy or prices", async ({
-  page,
-  server,
-}) => {
+test("a run of which nothing is searched has no finds, energy or prices", async ({ page, server }) => {
   await openResults(page, server, "scenario=flock&seed=1&run=1&tick=10", 1280);
   await expect(terms(page)).toHaveText(["Time", "Collisions", "Distance"]);
   for (const name of ["Finds", "Goals", "Lane", "Mission"]) await expect(group(page, name)).toHaveCount(0);

@@ -21,8 +21,8 @@ pub struct Offer {
     pub signals: Vec<SignalOffer>,
     /// The same of each robot: in their ids, `{robot}` stands for its name.
     pub robot_signals: Vec<SignalOffer>,
-    /// The columns of the outcome that apply to the scenario, in the order in which they are displayed: first those that its
-    /// question asks for.
+    /// The columns of the outcome that apply to the scenario, in the order in which they are displayed: first those that answer
+    /// its question.
     pub columns: Vec<ColumnOffer>,
 }
 
@@ -39,7 +39,7 @@ pub struct ColumnOffer {
     pub group: String,
     /// What it is, in a sentence.
     pub help: String,
-    /// Whether it is one of those that the question of the scenario asks for first.
+    /// Whether it is one of those that answer the question of the scenario.
     pub is_first: bool,
     /// When its value is known.
     pub known: Known,
@@ -417,10 +417,10 @@ pub struct Section {
 /// table can be reached, however long it is.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Filter {
-    /// The label of the field for a text that rows contain.
+    /// The label of the search field.
     pub label: String,
-    /// The key of that text.
-    pub text_key: String,
+    /// The key of the search words, all of which a row contains.
+    pub words_key: String,
     /// The key of the ids of the kinds of rows that are hidden, separated by commas.
     pub hidden_key: String,
     /// The kinds of rows that there are.

@@ -1,4 +1,4 @@
-"""The outcome columns in words: label, unit, group, help, and when the value is known."""
+"""Descriptions of the outcome columns: label, unit, group, help, when the value is known."""
 
 import re
 from typing import Literal, NamedTuple
@@ -10,8 +10,8 @@ STATED = ("declared", "given_up")
 """The events that state a risk."""
 
 
-class ColumnText(NamedTuple):
-    """A column, as people read it.
+class Description(NamedTuple):
+    """The description of a column.
 
     Attributes:
         label: Its label.
@@ -36,7 +36,7 @@ class ColumnText(NamedTuple):
     of_all: bool = False
 
 
-T = ColumnText
+T = Description
 
 GENERAL: dict[str, T] = {
     "complete": T(
@@ -451,13 +451,13 @@ OF_KINDS: dict[str, T] = {
 that fits a name is its own."""
 
 
-def column_text(name: str) -> ColumnText | None:
-    """Return a column as people read it; None if there is no such column."""
+def description_of(name: str) -> Description | None:
+    """Return the description of a column; None if there is no such column."""
     if name in COLUMNS:
         return COLUMNS[name]
-    for pattern, text in OF_KINDS.items():
+    for pattern, description in OF_KINDS.items():
         if found := re.fullmatch(expression(pattern), name):
-            return of_kind(text, found.groupdict())
+            return for_kind(description, found.groupdict())
     return None
 
 
@@ -466,14 +466,14 @@ def expression(pattern: str) -> str:
     return pattern.replace("KIND", "(?P<KIND>.+)").replace("_K_", "_(?P<K>[0-9]+)_")
 
 
-def of_kind(text: ColumnText, names: dict[str, str]) -> ColumnText:
-    """Return a text of a kind with its name."""
+def for_kind(description: Description, names: dict[str, str]) -> Description:
+    """Return the description of a column of a kind, with the name of the kind."""
 
     def named(words: str) -> str:
         return re.sub("KIND|K(?=-| )", lambda each: names[each[0]], words)
 
-    return text._replace(
-        label=named(text.label),
-        help=named(text.help),
-        out_of=tuple(map(named, text.out_of)),
+    return description._replace(
+        label=named(description.label),
+        help=named(description.help),
+        out_of=tuple(map(named, description.out_of)),
     )

@@ -236,7 +236,7 @@ class ColumnOffer(TypedDict):
         unit: Its unit; empty without one. Values of the unit % are shares, 0 to 1.
         group: The group that it is displayed in.
         help: What it is, in a sentence.
-        is_first: Whether it is one of those that the question of the scenario asks for first.
+        is_first: Whether it is one of those that answer the question of the scenario.
         known: When its value is known.
         after: Columns of which one must be true, or above 0, before its value is known; empty
             for none.
@@ -462,8 +462,8 @@ class Filter(TypedDict):
     can be reached, however long it is.
 
     Attributes:
-        label: The label of the field for a text that rows contain.
-        text_key: The key of that text.
+        label: The label of the search field.
+        words_key: The key of the search words, all of which a row contains.
         hidden_key: The key of the ids of the kinds of rows that are hidden, separated by
             commas.
         kinds: The kinds of rows that there are.
@@ -471,7 +471,7 @@ class Filter(TypedDict):
     """
 
     label: str
-    text_key: str
+    words_key: str
     hidden_key: str
     kinds: Sequence[FilterKind]
     passed: Sequence[int]
@@ -918,7 +918,7 @@ class Offer(TypedDict):
         signals: Numbers that can be drawn over time.
         robot_signals: The same of each robot: in their ids, `{robot}` stands for its name.
         columns: The columns of the outcome that apply to the scenario, in the order in which
-            they are displayed: first those that its question asks for.
+            they are displayed: first those that answer its question.
     """
 
     layers: Sequence[LayerOffer]

@@ -130,7 +130,7 @@ export interface ColumnOffer {
   group: string;
   /** What it is, in a sentence. */
   help: string;
-  /** Whether it is one of those that the question of the scenario asks for first. */
+  /** Whether it is one of those that answer the question of the scenario. */
   is_first: boolean;
   /** When its value is known. */
   known: Known;
@@ -252,10 +252,10 @@ export interface Fill {
 
 /** A filter of the rows of a table. What is entered is sent back in `choices`: the server filters, so that each row of a table can be reached, however long it is. */
 export interface Filter {
-  /** The label of the field for a text that rows contain. */
+  /** The label of the search field. */
   label: string;
-  /** The key of that text. */
-  text_key: string;
+  /** The key of the search words, all of which a row contains. */
+  words_key: string;
   /** The key of the ids of the kinds of rows that are hidden, separated by commas. */
   hidden_key: string;
   /** The kinds of rows that there are. */
@@ -509,7 +509,7 @@ export interface Offer {
   signals: SignalOffer[];
   /** The same of each robot: in their ids, `{robot}` stands for its name. */
   robot_signals: SignalOffer[];
-  /** The columns of the outcome that apply to the scenario, in the order in which they are displayed: first those that its question asks for. */
+  /** The columns of the outcome that apply to the scenario, in the order in which they are displayed: first those that answer its question. */
   columns: ColumnOffer[];
 }
 

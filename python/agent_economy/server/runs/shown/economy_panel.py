@@ -64,7 +64,7 @@ def goals(picture: Picture, filtered: RowFilter) -> Section:
     if not own:
         found["paragraphs"] = [muted("No goals.")]
         return found
-    shown = [goal for goal in own if filtered.shows(goal.status, words(goal))]
+    shown = [goal for goal in own if filtered.passes(goal.status, cells(goal))]
     kinds = (goal.status for goal in own)
     found["filter"] = filtered.offered("Search goals", STATUSES, kinds, len(shown))
     if shown:
@@ -73,8 +73,8 @@ def goals(picture: Picture, filtered: RowFilter) -> Section:
     return found
 
 
-def words(goal: Goal) -> Iterator[str]:
-    """Yield what the row of a goal says."""
+def cells(goal: Goal) -> Iterator[str]:
+    """Yield the contents of the row of a goal."""
     yield from (goal.name, goal.owner or "none", STATUSES[goal.status])
     yield from details(goal)
 

@@ -12,23 +12,22 @@ class RowFilter(NamedTuple):
 
     Attributes:
         name: The name of the table, with which the keys of its choices begin.
-        text: The text that was entered; rows contain all its words.
+        words: The search words, in lower case; rows contain all of them.
         hidden: The ids of the kinds of rows that are hidden.
     """
 
     name: str
-    text: str
+    words: tuple[str, ...]
     hidden: frozenset[str]
 
-    def shows(self, kind: str, texts: Iterable[str]) -> bool:
-        """Return whether a row of a kind passes, by the texts that it consists of."""
+    def passes(self, kind: str, cells: Iterable[str]) -> bool:
+        """Return whether a row of a kind passes, by the contents of its cells."""
         if kind in self.hidden:
             return False
-        words = self.text.lower().split()
-        if not words:
+        if not self.words:
             return True
-        whole = " ".join(texts).lower()
-        return all(word in whole for word in words)
+        whole = " ".join(cells).lower()
+        return all(word in whole for word in self.words)
 
     def offered(
         self, label: str, labels: Mapping[str, str], kinds: Iterable[str], passed: int
@@ -36,7 +35,7 @@ class RowFilter(NamedTuple):
         """Return the filter as it is sent.
 
         Args:
-            label: The label of the field for the text.
+            label: The label of the search field.
             labels: The label of each kind of rows.
             kinds: The kind of each row, filtered out or not.
             passed: The number of rows that pass.
@@ -44,7 +43,7 @@ class RowFilter(NamedTuple):
         counts = Counter(kinds)
         return {
             "label": label,
-            "text_key": text_key(self.name),
+            "words_key": words_key(self.name),
             "hidden_key": hidden_key(self.name),
             "kinds": [
                 {"id": kind, "label": of, "count": counts[kind], "is_on": kind not in self.hidden}
@@ -55,9 +54,9 @@ class RowFilter(NamedTuple):
         }
 
 
-def text_key(name: str) -> str:
-    """Return the key of the choice of the text."""
-    return f"{name}-text"
+def words_key(name: str) -> str:
+    """Return the key of the choice of the search words."""
+    return f"{name}-words"
 
 
 def hidden_key(name: str) -> str:
@@ -68,4 +67,5 @@ def hidden_key(name: str) -> str:
 def row_filter(name: str, choices: Mapping[str, str]) -> RowFilter:
     """Return the filter of a table that a page has chosen."""
     hidden = frozenset(choices.get(hidden_key(name), "").split(","))
-    return RowFilter(name, choices.get(text_key(name), ""), hidden)
+    words = choices.get(words_key(name), "").lower().split()
+    return RowFilter(name, tuple(words), hidden)
