@@ -1,5 +1,6 @@
 """Goals and controllers, as a page receives them."""
 
+import json
 from typing import Any
 
 from page_client import Page
@@ -106,3 +107,62 @@ def test_with_a_controller_chosen_only_its_goals_stand_out_and_are_listed() -> N
     opacities = {marker["opacity"] for marker in chosen["layers"][LAYER]["markers"]}
     assert opacities == {0.25, 1.0}
     assert {marker["opacity"] for marker in everything["layers"][LAYER]["markers"]} == {1.0}
+
+
+def goals_section(simulation: ae.Simulation, **choices: str) -> Any:
+    """Return the section of the goals, with these choices of the filter."""
+    chosen = {f"goals-{key}": value for key, value in choices.items()}
+    found = subjects.shown(simulation, ALL._replace(choices=chosen))
+    assert found is not None
+    return found["panels"][GOALS]["sections"][1]
+
+
+def names(section: Any) -> list[str]:
+    """Return the names of the goals that are listed."""
+    return [row["cells"][0]["text"] for row in section["table"]["rows"]]
+
+
+def test_goals_are_filtered_by_status_and_by_words() -> None:
+    simulation = ae.Simulation(ae.Scenario.load("waypoints"), seed=7)
+    simulation.step(200)
+    everything = goals_section(simulation)
+    counts = {kind["id"]: kind["count"] for kind in everything["filter"]["kinds"]}
+    assert counts.keys() == {"open", "awarded", "served"}
+    assert everything["filter"]["passed"] == (60, 60)
+    served = goals_section(simulation, hidden="open,awarded")
+    assert served["filter"]["passed"] == (counts["served"], 60)
+    assert len(names(served)) == counts["served"]
+    assert [kind["is_on"] for kind in served["filter"]["kinds"]] == [False, False, True]
+    # Of the hidden kinds, too, the number is sent.
+    assert {kind["id"]: kind["count"] for kind in served["filter"]["kinds"]} == counts
+    assert names(goals_section(simulation, words="spot/59")) == ["spot/59"]
+    found = goals_section(simulation, words="AWARDED rover/0")
+    assert {row["cells"][2]["note"].split(",")[0] for row in found["table"]["rows"]} == {
+        "to rover/0"
+    }
+
+
+def test_a_filter_that_no_goal_passes_leaves_the_filter_and_no_table() -> None:
+    simulation = ae.Simulation(ae.Scenario.load("waypoints"), seed=7)
+    section = goals_section(simulation, words="no such goal", hidden="unknown,")
+    assert section["table"] is None
+    assert section["filter"]["passed"] == (0, 60)
+
+
+def test_each_goal_has_its_place() -> None:
+    simulation = ae.Simulation(ae.Scenario.load("waypoints"), seed=7)
+    simulation.step(200)
+    goals = {goal["name"]: (goal["x_m"], goal["y_m"]) for goal in simulation.goals.to_pylist()}
+    rows = goals_section(simulation)["table"]["rows"]
+    assert {row["cells"][0]["text"]: row["at"] for row in rows} == goals
+
+
+def test_every_goal_of_thousands_can_be_reached_in_a_small_message() -> None:
+    anywhere = ae.Scenario.load("waypoints").replace("goals.spot.placement", {"kind": "uniform"})
+    scenario = anywhere.replace("goals.spot.count", 3000)
+    simulation = ae.Simulation(scenario, seed=7)
+    simulation.step()
+    section = goals_section(simulation)
+    assert (len(names(section)), section["table"]["total"]) == (200, 3000)
+    assert len(json.dumps(section)) < 100_000
+    assert names(goals_section(simulation, words="spot/2999")) == ["spot/2999"]

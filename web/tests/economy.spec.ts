@@ -1,5 +1,6 @@
+import type { Page } from "@playwright/test";
 import { inkAt, opens, type View } from "./ink";
-import { expect, expectAccessiblePanels, openRun, openTab, status, test } from "./page";
+import { expect, expectAccessible, expectAccessiblePanels, openRun, openTab, status, test } from "./page";
 
 const view: View = [150, 150, 2];
 const run = `scenario=waypoints&seed=7&run=0&tick=200&${opens(view)}`;
@@ -68,9 +69,12 @@ test("controllers that are added during a run are listed, and one is chosen", as
   await page.getByRole("combobox", { name: "controllers.base.allocation" }).selectOption("nearest");
   await expect(page.getByRole("button", { name: "Study this scenario with your 2 changes" })).toBeVisible();
   await openTab(page, "Goals");
-  const controllers = page.locator("table").first().getByRole("button");
+  const controllers = page
+    .locator("table")
+    .first()
+    .getByRole("button", { name: /^base\/\d$/ });
   await expect(controllers).toHaveText(["base/0", "base/1", "base/2"]);
-  await expect(page.getByText(/\d+ open, \d+ awarded, \d+ served/)).toBeVisible();
+  await expect(page.getByRole("button", { name: /^awarded \d+$/ })).toBeVisible();
   await controllers.nth(1).click();
   await expect(controllers.nth(1)).toHaveAttribute("aria-pressed", "true");
   await expect(page.getByRole("heading", { name: "Goals of base/1" })).toBeVisible();
@@ -85,4 +89,51 @@ test("controllers that are added during a run are listed, and one is chosen", as
 test("the panels of a run with goals are accessible", async ({ page, server }) => {
   await openRun(page, server, `${run}&robot=rover/0`, "8 robots");
   await expectAccessiblePanels(page, ["Robot", "Goals", "Layers"]);
+});
+
+const goals = (page: Page) => page.getByRole("tabpanel").locator("table").last().locator("tbody tr");
+
+for (const width of [390, 1280]) {
+  test(`goals are filtered by status and text, and one is marked in the view, at ${width} px`, async ({
+    page,
+    server,
+  }) => {
+    await page.setViewportSize({ width, height: 800 });
+    await openRun(page, server, run, "8 robots");
+    if (width < 821) await page.getByRole("button", { name: "Panels", exact: true }).click();
+    await openTab(page, "Goals");
+    await expect(goals(page)).toHaveCount(60);
+    const served = page.getByRole("button", { name: "served 8" });
+    await expect(served).toHaveAttribute("aria-pressed", "true");
+    for (const name of [/^open/, /^awarded/]) await page.getByRole("button", { name }).press("Enter");
+    await expect(goals(page)).toHaveCount(8);
+    await expect(page.getByText("8 of 60 rows")).toBeVisible();
+    for (const name of [/^open/, /^awarded/]) await page.getByRole("button", { name }).click();
+    const search = page.getByRole("searchbox", { name: "Search goals" });
+    await search.fill("no such goal");
+    await expect(page.getByText("0 of 60 rows")).toBeVisible();
+    await search.fill("spot/59");
+    await expect(goals(page)).toHaveCount(1);
+    await expectAccessible(page, "aside");
+    await goals(page).getByRole("button", { name: "spot/59" }).press("Enter");
+    // The view is centred on it: [224.4, 45.9].
+    await expect.poll(() => page.url()).toContain("view=224.4,45.9,2");
+    await expect.poll(() => inkAt(page, [224.4, 45.9, 2], [224.4 + 9, 45.9])).toBe(true);
+    // On a phone, the panels no longer hide it.
+    const view = page.getByRole("application", { name: "World view" });
+    if (width < 821) await expect(page.getByRole("tabpanel")).toBeHidden();
+    if (width < 821) await expect(view).toBeFocused();
+    else await expect(goals(page).getByRole("button")).toHaveAttribute("aria-pressed", "true");
+  });
+}
+
+test("a second click on a goal takes its mark away", async ({ page, server }) => {
+  await openRun(page, server, run, "8 robots");
+  await openTab(page, "Goals");
+  const goal = goals(page).getByRole("button", { name: "spot/59" });
+  await goal.click();
+  await expect(goal).toHaveAttribute("aria-pressed", "true");
+  await goal.click();
+  await expect(goal).toHaveAttribute("aria-pressed", "false");
+  await expect.poll(() => inkAt(page, [224.4, 45.9, 2], [224.4 + 9, 45.9])).toBe(false);
 });

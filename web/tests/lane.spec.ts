@@ -101,7 +101,7 @@ test("what a controller has declared is shown beside the truth", async ({ page, 
   await expect(panel.getByText("No mines left in the lane.")).toBeVisible();
   // The columns declared and declared_s are one row.
   await openTab(page, "Results");
-  await expect(page.getByRole("term").filter({ hasText: /^declared$/ })).toHaveCount(1);
+  await expect(page.getByRole("term").getByRole("button", { name: "Declared", exact: true })).toHaveCount(1);
 });
 
 test("a person ends the mission, and the controllers give the lane up with the risk of that time", async ({

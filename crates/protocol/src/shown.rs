@@ -21,6 +21,50 @@ pub struct Offer {
     pub signals: Vec<SignalOffer>,
     /// The same of each robot: in their ids, `{robot}` stands for its name.
     pub robot_signals: Vec<SignalOffer>,
+    /// The columns of the outcome that apply to the scenario, in the order in which they are displayed: first those that answer
+    /// its question.
+    pub columns: Vec<ColumnOffer>,
+}
+
+/// A column of the outcome, as pages display it.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ColumnOffer {
+    /// Its name in outcomes.
+    pub id: String,
+    /// Its label.
+    pub label: String,
+    /// Its unit; empty without one. Values of the unit % are shares, 0 to 1.
+    pub unit: String,
+    /// The group that it is displayed in.
+    pub group: String,
+    /// What it is, in a sentence.
+    pub help: String,
+    /// Whether it is one of those that answer the question of the scenario.
+    pub is_first: bool,
+    /// When its value is known.
+    pub known: Known,
+    /// Columns of which one must be true, or above 0, before its value is known; empty for none.
+    pub after: Vec<String>,
+    /// The column of the event whose time it is, which is displayed in the place of that event; null for none.
+    pub time_of: Option<String>,
+    /// The columns whose sum is the number of all, of which it counts some; empty for none.
+    pub out_of: Vec<String>,
+    /// The number of all, if that is the same in all runs; null if not.
+    pub all: Option<u32>,
+}
+
+/// When the value of a column is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Known {
+    /// At any time: it counts what has happened.
+    Always,
+    /// At the end of the run; until then the simulated time is displayed.
+    Clock,
+    /// At the end of the run.
+    AtEnd,
+    /// At the end of the run, and displayed only if it is true.
+    Reason,
 }
 
 /// A layer that pages can show.
@@ -361,10 +405,41 @@ pub struct Section {
     pub paragraphs: Vec<Paragraph>,
     /// A button that changes the scenario; null for none.
     pub button: Option<Button>,
+    /// A filter of the rows of the table; null for none.
+    pub filter: Option<Filter>,
     /// A table; null for none.
     pub table: Option<Table>,
     /// The heading of the part of the legend at its end; null for none.
     pub legend: Option<String>,
+}
+
+/// A filter of the rows of a table. What is entered is sent back in `choices`: the server filters, so that each row of a
+/// table can be reached, however long it is.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Filter {
+    /// The label of the search field.
+    pub label: String,
+    /// The key of the search words, all of which a row contains.
+    pub words_key: String,
+    /// The key of the ids of the kinds of rows that are hidden, separated by commas.
+    pub hidden_key: String,
+    /// The kinds of rows that there are.
+    pub kinds: Vec<FilterKind>,
+    /// The number of rows that pass the filter, and of all rows.
+    pub passed: [u32; 2],
+}
+
+/// A kind of rows, which can be hidden.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FilterKind {
+    /// Its id.
+    pub id: String,
+    /// Its label.
+    pub label: String,
+    /// The number of its rows.
+    pub count: u32,
+    /// Whether they are shown.
+    pub is_on: bool,
 }
 
 /// A choice among names.
@@ -448,6 +523,8 @@ pub struct Row {
     pub note: Option<String>,
     /// The ids of signals that it displays, which are drawn over time on request.
     pub signals: Vec<String>,
+    /// The place that it is about, which pages mark in the view on request; null for none.
+    pub at: Option<Point>,
 }
 
 /// A cell of a table.

@@ -223,6 +223,43 @@ class Column(TypedDict):
     is_number: bool
 
 
+Known: TypeAlias = Literal["always", "clock", "at_end", "reason"]
+"""When the value of a column is known."""
+
+
+class ColumnOffer(TypedDict):
+    """A column of the outcome, as pages display it.
+
+    Attributes:
+        id: Its name in outcomes.
+        label: Its label.
+        unit: Its unit; empty without one. Values of the unit % are shares, 0 to 1.
+        group: The group that it is displayed in.
+        help: What it is, in a sentence.
+        is_first: Whether it is one of those that answer the question of the scenario.
+        known: When its value is known.
+        after: Columns of which one must be true, or above 0, before its value is known; empty
+            for none.
+        time_of: The column of the event whose time it is, which is displayed in the place of
+            that event; null for none.
+        out_of: The columns whose sum is the number of all, of which it counts some; empty for
+            none.
+        all: The number of all, if that is the same in all runs; null if not.
+    """
+
+    id: str
+    label: str
+    unit: str
+    group: str
+    help: str
+    is_first: bool
+    known: Known
+    after: Sequence[str]
+    time_of: str | None
+    out_of: Sequence[str]
+    all: int | None
+
+
 class Deleted(TypedDict):
     """An entry that was deleted, and can be restored.
 
@@ -400,6 +437,44 @@ class Factors(TypedDict):
     minimize: str
     where: str | None
     exported_from: ChangedScenario | None
+
+
+class FilterKind(TypedDict):
+    """A kind of rows, which can be hidden.
+
+    Attributes:
+        id: Its id.
+        label: Its label.
+        count: The number of its rows.
+        is_on: Whether they are shown.
+    """
+
+    id: str
+    label: str
+    count: int
+    is_on: bool
+
+
+class Filter(TypedDict):
+    """A filter of the rows of a table.
+
+    What is entered is sent back in `choices`: the server filters, so that each row of a table
+    can be reached, however long it is.
+
+    Attributes:
+        label: The label of the search field.
+        words_key: The key of the search words, all of which a row contains.
+        hidden_key: The key of the ids of the kinds of rows that are hidden, separated by
+            commas.
+        kinds: The kinds of rows that there are.
+        passed: The number of rows that pass the filter, and of all rows.
+    """
+
+    label: str
+    words_key: str
+    hidden_key: str
+    kinds: Sequence[FilterKind]
+    passed: Sequence[int]
 
 
 Shape: TypeAlias = Literal["circle", "triangle", "diamond", "square", "hexagon", "cross", "tick"]
@@ -842,6 +917,8 @@ class Offer(TypedDict):
         events: Kinds of events.
         signals: Numbers that can be drawn over time.
         robot_signals: The same of each robot: in their ids, `{robot}` stands for its name.
+        columns: The columns of the outcome that apply to the scenario, in the order in which
+            they are displayed: first those that answer its question.
     """
 
     layers: Sequence[LayerOffer]
@@ -849,6 +926,7 @@ class Offer(TypedDict):
     events: Sequence[EventKind]
     signals: Sequence[SignalOffer]
     robot_signals: Sequence[SignalOffer]
+    columns: Sequence[ColumnOffer]
 
 
 class OpenedScenario(TypedDict):
@@ -939,11 +1017,13 @@ class Row(TypedDict):
         cells: A cell per column.
         note: A line below it; null for none.
         signals: The ids of signals that it displays, which are drawn over time on request.
+        at: The place that it is about, which pages mark in the view on request; null for none.
     """
 
     cells: Sequence[Cell]
     note: str | None
     signals: Sequence[str]
+    at: Point | None
 
 
 class Table(TypedDict):
@@ -970,6 +1050,7 @@ class Section(TypedDict):
             none.
         paragraphs: Paragraphs.
         button: A button that changes the scenario; null for none.
+        filter: A filter of the rows of the table; null for none.
         table: A table; null for none.
         legend: The heading of the part of the legend at its end; null for none.
     """
@@ -979,6 +1060,7 @@ class Section(TypedDict):
     switch: Switch | None
     paragraphs: Sequence[Paragraph]
     button: Button | None
+    filter: Filter | None
     table: Table | None
     legend: str | None
 

@@ -1,4 +1,4 @@
-import type { Choose, Json, Setting, State, Shown as ShownData } from "../api/protocol";
+import type { Choose, Json, Point, Setting, State, Shown as ShownData } from "../api/protocol";
 import type { BelievedMap } from "../shared/believed_map";
 import type { Link } from "../shared/link";
 import type { Camera } from "./camera";
@@ -16,6 +16,8 @@ export interface Host {
   readonly itemKind: string;
   /** Chooses a value, or takes it back, and opens the panel that shows the consequence. */
   choose(choose: Choose): void;
+  /** The place that is marked; null for none. */
+  readonly marked: Point | null;
   /** Whether the selected robot stays in the centre. */
   follows: boolean;
   camera: Camera | null;

@@ -68,6 +68,12 @@ export class Stage {
     if (setting) this.look(fitTo(setting.world.size, this.camera.width, this.camera.height));
   }
 
+  /** Centres the view on a place. */
+  centre([x, y]: Point): void {
+    this.host.follows = false;
+    this.look({ ...this.camera, x, y });
+  }
+
   zoom(factor: number, at: Point = [this.camera.width / 2, this.camera.height / 2]): void {
     this.look(zoomAt(this.camera, ...at, factor));
   }
@@ -191,6 +197,7 @@ export class Stage {
       robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),
       trails: this.trails,
+      marked: this.host.marked,
       preview: this.preview,
     };
   }

@@ -1,11 +1,21 @@
-import type { Outcome } from "../api/protocol";
+import type { ColumnOffer, Outcome } from "../api/protocol";
 
-export interface OutcomeRow {
+/** A value of an outcome, as it is displayed. */
+export interface Figure {
   /** The column of the value. */
   column: string;
-  name: string;
+  label: string;
   value: string;
   unit: string;
+  group: string;
+  help: string;
+  isFirst: boolean;
+}
+
+/** The moment of an outcome. */
+export interface Moment {
+  isOver: boolean;
+  time_s: number;
 }
 
 const units: [ending: string, unit: string][] = [
@@ -14,50 +24,70 @@ const units: [ending: string, unit: string][] = [
   ["_m", "m"],
 ];
 
-/** Displayed first, in this order; the others follow in the server's order. */
-const first = ["merit", "collisions", "energy_j"];
-
 /**
- * The rows of an outcome: found out of all targets, then values with units. The run number and the times of
- * finds are left out.
+ * What is known of an outcome by now, in the order of the columns. What only the end or an event decides is left out until
+ * then, or is "not yet" if it comes first.
  */
-export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
-  const { found, missed, run: _, ...rest } = outcome;
-  const rows: OutcomeRow[] = [];
-  if (typeof found === "number") {
-    const all = typeof missed === "number" ? found + missed : target;
-    rows.push({ column: "found", name: "found", value: `${found} / ${all}`, unit: "" });
-  }
-  const shown = withoutFindTimes(Object.keys(rest));
-  const names = [
-    ...first.filter((name) => shown.includes(name)),
-    ...shown.filter((name) => !first.includes(name)),
-  ];
-  return [
-    ...rows,
-    ...names.flatMap((name) => reason(name, rest) ?? event(name, rest) ?? row(name, rest[name])),
-  ];
+export function figuresOf(outcome: Outcome, columns: ColumnOffer[], moment: Moment): Figure[] {
+  const isTrue = (column: string) => Number(outcome[column] ?? 0) > 0;
+  return columns.flatMap((column) => {
+    if (column.time_of !== null) return [];
+    const time = isTrue(column.id) ? columns.find((each) => each.time_of === column.id) : undefined;
+    const shown = time ?? column;
+    const isKnown = shown.after.length === 0 || shown.after.some(isTrue);
+    const known = isKnown ? valueOf(outcome, shown, moment) : null;
+    const figure =
+      known ?? (column.is_first ? { value: moment.isOver ? "none" : "not yet", unit: "" } : null);
+    const { label, help } = shown;
+    const place = { group: column.group, isFirst: column.is_first };
+    return figure ? [{ column: shown.id, label, help, ...place, ...figure }] : [];
+  });
 }
 
-/** The row of why a run is over, which columns such as ended_hopeless state; undefined for other columns. */
-function reason(name: string, outcome: Partial<Outcome>): OutcomeRow[] | undefined {
-  if (!name.startsWith("ended_")) return undefined;
-  const words = named(name.slice("ended_".length)).words;
-  return outcome[name] ? [{ column: name, name: "ended", value: words, unit: "" }] : [];
+/** Figures by group, in the order of the first of each. */
+export function grouped(figures: Figure[]): [group: string, figures: Figure[]][] {
+  const groups = new Map<string, Figure[]>();
+  for (const figure of figures) groups.set(figure.group, [...(groups.get(figure.group) ?? []), figure]);
+  return [...groups];
 }
 
-/**
- * The row of something that happens once, such as declared with its time declared_s: the time if it did; undefined for
- * other columns, and no row for the time itself.
- */
-function event(name: string, outcome: Partial<Outcome>): OutcomeRow[] | undefined {
-  const happened = name.endsWith("_s") ? name.slice(0, -2) : undefined;
-  if (happened !== undefined && happened in outcome) return [];
-  const time = outcome[`${name}_s`];
-  if (time === undefined) return undefined;
-  return outcome[name]
-    ? row(`${name}_s`, time)
-    : [{ column: name, name: named(name).words, value: "no", unit: "" }];
+/** A figure in words, such as `Distance 140 m`. */
+export function inWords({ label, value, unit }: Figure): string {
+  return `${label} ${value} ${unit}`.trim();
+}
+
+type Value = Pick<Figure, "value" | "unit">;
+
+/** The value of a column; null if it is not known yet. */
+function valueOf(outcome: Outcome, column: ColumnOffer, { isOver, time_s }: Moment): Value | null {
+  if (column.known === "clock" && !isOver) return { value: time_s.toFixed(1), unit: "s so far" };
+  if (column.known !== "always" && !isOver) return null;
+  const value = outcome[column.id];
+  if (column.known === "reason" && !value) return null;
+  if (typeof value === "boolean") return { value: value ? "yes" : isOver ? "no" : "not yet", unit: "" };
+  if (typeof value !== "number") return null;
+  const all = allOf(outcome, column);
+  if (all !== null) return { value: `${readable(value)} / ${readable(all)}`, unit: column.unit };
+  return numberOf(value, column.unit);
+}
+
+/** The number of all, of which a column counts some; null if it counts something else. */
+function allOf(outcome: Outcome, { out_of, all }: ColumnOffer): number | null {
+  const parts = out_of.map((column) => outcome[column]);
+  const isWhole = parts.length > 0 && parts.every((part) => typeof part === "number");
+  return isWhole ? parts.reduce((sum: number, part) => sum + Number(part), 0) : all;
+}
+
+function numberOf(value: number, unit: string): Value {
+  if (unit === "%") return { value: readable(100 * value), unit };
+  if (unit === "J" && Math.abs(value) >= 10_000) return { value: readable(value / 1000), unit: "kJ" };
+  return { value: readable(value), unit };
+}
+
+/** A number with at most two decimals, never -0. */
+function readable(value: number): string {
+  const digits = Number.isInteger(value) || Math.abs(value) >= 100 ? 0 : 2;
+  return (value + 0).toLocaleString("en", { maximumFractionDigits: digits });
 }
 
 /**
@@ -76,19 +106,4 @@ export function withoutFindTimes(columns: string[]): string[] {
 export function named(column: string): { words: string; unit: string } {
   const [ending = "", unit = ""] = units.find(([end]) => column.endsWith(end)) ?? [];
   return { words: column.slice(0, column.length - ending.length).replaceAll("_", " "), unit };
-}
-
-function row(name: string, value: Outcome[string] | undefined): OutcomeRow[] {
-  if (name === "energy_j" && value === null)
-    return [{ column: name, name: "energy", value: "not counted", unit: "" }];
-  if (value === null || value === undefined || typeof value === "object") return [];
-  const { words, unit } = named(name);
-  if (typeof value !== "number") return [{ column: name, name: words, value: String(value), unit: "" }];
-  const [number, power] = unit === "J" && Math.abs(value) >= 10_000 ? [value / 1000, "k"] : [value, ""];
-  return [{ column: name, name: words, value: readable(number), unit: `${power}${unit}` }];
-}
-
-function readable(value: number): string {
-  if (Number.isInteger(value)) return value.toLocaleString("en");
-  return value.toLocaleString("en", { maximumFractionDigits: Math.abs(value) >= 100 ? 0 : 2 });
 }

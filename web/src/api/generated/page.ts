@@ -118,6 +118,32 @@ export interface Column {
   is_number: boolean;
 }
 
+/** A column of the outcome, as pages display it. */
+export interface ColumnOffer {
+  /** Its name in outcomes. */
+  id: string;
+  /** Its label. */
+  label: string;
+  /** Its unit; empty without one. Values of the unit % are shares, 0 to 1. */
+  unit: string;
+  /** The group that it is displayed in. */
+  group: string;
+  /** What it is, in a sentence. */
+  help: string;
+  /** Whether it is one of those that answer the question of the scenario. */
+  is_first: boolean;
+  /** When its value is known. */
+  known: Known;
+  /** Columns of which one must be true, or above 0, before its value is known; empty for none. */
+  after: string[];
+  /** The column of the event whose time it is, which is displayed in the place of that event; null for none. */
+  time_of: string | null;
+  /** The columns whose sum is the number of all, of which it counts some; empty for none. */
+  out_of: string[];
+  /** The number of all, if that is the same in all runs; null if not. */
+  all: number | null;
+}
+
 /** An entry that was deleted, and can be restored. */
 export interface Deleted {
   /** What restores it. */
@@ -224,6 +250,32 @@ export interface Fill {
   opacity: number;
 }
 
+/** A filter of the rows of a table. What is entered is sent back in `choices`: the server filters, so that each row of a table can be reached, however long it is. */
+export interface Filter {
+  /** The label of the search field. */
+  label: string;
+  /** The key of the search words, all of which a row contains. */
+  words_key: string;
+  /** The key of the ids of the kinds of rows that are hidden, separated by commas. */
+  hidden_key: string;
+  /** The kinds of rows that there are. */
+  kinds: FilterKind[];
+  /** The number of rows that pass the filter, and of all rows. */
+  passed: [number, number];
+}
+
+/** A kind of rows, which can be hidden. */
+export interface FilterKind {
+  /** Its id. */
+  id: string;
+  /** Its label. */
+  label: string;
+  /** The number of its rows. */
+  count: number;
+  /** Whether they are shown. */
+  is_on: boolean;
+}
+
 /** A shape around a place. */
 export interface Glyph {
   /** The shape. */
@@ -325,6 +377,9 @@ export interface KindView {
   /** Its range rings, in the order of the scans in percepts. */
   rings: RingView[];
 }
+
+/** When the value of a column is known. */
+export type Known = "always" | "clock" | "at_end" | "reason";
 
 /** A layer: its parts are drawn in this order. */
 export interface Layer {
@@ -454,6 +509,8 @@ export interface Offer {
   signals: SignalOffer[];
   /** The same of each robot: in their ids, `{robot}` stands for its name. */
   robot_signals: SignalOffer[];
+  /** The columns of the outcome that apply to the scenario, in the order in which they are displayed: first those that answer its question. */
+  columns: ColumnOffer[];
 }
 
 /** The recording of an opened run. */
@@ -790,6 +847,8 @@ export interface Row {
   note: string | null;
   /** The ids of signals that it displays, which are drawn over time on request. */
   signals: string[];
+  /** The place that it is about, which pages mark in the view on request; null for none. */
+  at: Point | null;
 }
 
 /** The colours of the bytes of a raster. */
@@ -842,6 +901,8 @@ export interface Section {
   paragraphs: Paragraph[];
   /** A button that changes the scenario; null for none. */
   button: Button | null;
+  /** A filter of the rows of the table; null for none. */
+  filter: Filter | null;
   /** A table; null for none. */
   table: Table | null;
   /** The heading of the part of the legend at its end; null for none. */

@@ -13,6 +13,7 @@ import { links } from "./links";
 import { maps } from "./maps";
 import { observedCells } from "./observed_cells";
 import { obstacles } from "./obstacles";
+import { place } from "./place";
 import { preview } from "./preview";
 import { selection } from "./selection";
 import { terrain } from "./terrain";
@@ -40,6 +41,7 @@ export const layers: Layer[] = [
   headings,
   beliefs,
   external,
+  place,
   selection,
   preview,
 ];

@@ -21,6 +21,8 @@ export interface Scene {
   /** Number of the selected robot; -1 for none. */
   selected: number;
   trails: Trails;
+  /** The place that is marked; null for none. */
+  marked: Point | null;
   /** The shape that the current tool would place, drawn on top. */
   preview: Path2D | null;
 }

@@ -49,7 +49,7 @@ const setting: Setting = {
     { entry: 1, polygon: null, circle: { at: [15, 5], radius: 2 } },
   ],
   maps: [],
-  offer: { layers: [], panels: [], events: [], signals: [], robot_signals: [] },
+  offer: { layers: [], panels: [], events: [], signals: [], robot_signals: [], columns: [] },
   versions: [],
   version: 0,
   can_redo: false,

@@ -1,4 +1,4 @@
-import type { Choose, LayerOffer, ShowRequest, StudyConfiguration } from "../../api/protocol";
+import type { Choose, LayerOffer, Point, ShowRequest, StudyConfiguration } from "../../api/protocol";
 import { runsOf } from "../../api/studies";
 import type { Link } from "../../shared/link";
 import { Charts } from "./charts/charts.svelte";
@@ -42,6 +42,8 @@ export class Viewer implements Host {
   speed = $state<number | null>(1);
   /** Whether the view follows the selected robot. */
   follows = $state(false);
+  /** The place that is marked in the view. */
+  marked = $state.raw<Point | null>(null);
   camera = $state.raw<Camera | null>(null);
   stage: Stage | null = null;
   /** The label of the study's configuration, once it is loaded. */
@@ -71,6 +73,16 @@ export class Viewer implements Host {
     if (this.choices[key] === value) delete this.choices[key];
     else this.choices[key] = value;
     this.panel = this.session.setting?.offer.panels.find(({ id }) => id === panel)?.label ?? this.panel;
+  }
+
+  /** Centres the view on a place and marks it, or takes the mark away. */
+  mark(at: Point): void {
+    this.marked = this.isMarked(at) ? null : at;
+    if (this.marked) this.stage?.centre(at);
+  }
+
+  isMarked([x, y]: Point): boolean {
+    return this.marked?.[0] === x && this.marked[1] === y;
   }
 
   /** Whether a layer that the server offers is on. */

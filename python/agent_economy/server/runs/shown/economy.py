@@ -17,6 +17,7 @@ from agent_economy.server.runs.shown.drawing import (
     stroke,
 )
 from agent_economy.server.runs.shown.goals import NO_OWNER, Picture, goals_of, reason_label
+from agent_economy.server.runs.shown.row_filter import row_filter
 from agent_economy.server.runs.shown.subject import Contents, Request, Subject
 from agent_economy.types.page import Area, Colour, Glyph, Key, Layer, Line, Marker
 
@@ -43,7 +44,9 @@ def contents(simulation: Simulation, request: Request) -> Contents:
     return Contents(
         layers={LAYER: lambda: drawn(picture)},
         panels={
-            PANEL: lambda: economy_panel.panel(picture, (CONTROLLER, PANEL)),
+            PANEL: lambda: economy_panel.panel(
+                picture, (CONTROLLER, PANEL), row_filter(PANEL, request.choices)
+            ),
             SERVICE: lambda: economy_panel.service(simulation, request.robot, picture.colour),
         },
     )

@@ -1,11 +1,11 @@
 """The panel of goals and controllers, and that of the goals which a robot serves."""
 
-from collections import Counter
 from collections.abc import Callable, Iterator
 
 from agent_economy.runs.simulation import Simulation
 from agent_economy.server.runs.shown.drawing import chooses
 from agent_economy.server.runs.shown.goals import STATUSES, Goal, Picture, Row, reason_label
+from agent_economy.server.runs.shown.row_filter import RowFilter
 from agent_economy.server.runs.shown.tables import MAX_ROWS, cell, muted, row, section, table
 from agent_economy.types.page import Cell, Colour, Panel, Section
 from agent_economy.types.page import Row as TableRow
@@ -14,9 +14,9 @@ Colouring = Callable[[str | None], Colour]
 """Returns the colour of what belongs to a controller."""
 
 
-def panel(picture: Picture, choice: tuple[str, str]) -> Panel:
-    """Return the panel of all goals, or of those of the chosen controller."""
-    return {"note": None, "sections": [controllers(picture, choice), goals(picture)]}
+def panel(picture: Picture, choice: tuple[str, str], chosen: RowFilter) -> Panel:
+    """Return the panel of all goals, or of those of the chosen controller, as far as they pass."""
+    return {"note": None, "sections": [controllers(picture, choice), goals(picture, chosen)]}
 
 
 def controllers(picture: Picture, choice: tuple[str, str]) -> Section:
@@ -56,29 +56,33 @@ def details_of_controller(of: Row, orphans: list[str]) -> str:
     return f"{failed}Radio range {of['range_m']:g} m{aboard}{names}"
 
 
-def goals(picture: Picture) -> Section:
+def goals(picture: Picture, filtered: RowFilter) -> Section:
     """Return the goals, of the chosen controller if there is one."""
     chosen = picture.chosen
     own = [goal for goal in picture.goals if chosen in (None, goal.owner)]
     found = section(f"Goals of {chosen}" if chosen else "Goals")
-    found["paragraphs"] = [muted(counts(own))]
-    if own:
-        rows = [goal_row(goal, picture.colour) for goal in own[:MAX_ROWS]]
-        found["table"] = table(("Goal", "Owner", "Status"), rows, total=len(own))
+    if not own:
+        found["paragraphs"] = [muted("No goals.")]
+        return found
+    shown = [goal for goal in own if filtered.passes(goal.status, cells(goal))]
+    kinds = (goal.status for goal in own)
+    found["filter"] = filtered.offered("Search goals", STATUSES, kinds, len(shown))
+    if shown:
+        rows = [goal_row(goal, picture.colour) for goal in shown[:MAX_ROWS]]
+        found["table"] = table(("Goal", "Owner", "Status"), rows, total=len(shown))
     return found
 
 
-def counts(goals: list[Goal]) -> str:
-    """Return the number of goals of each status that occurs: "21 open, 31 awarded"."""
-    numbers = Counter(goal.status for goal in goals)
-    found = [f"{numbers[status]} {label}" for status, label in STATUSES.items() if numbers[status]]
-    return ", ".join(found) or "no goals"
+def cells(goal: Goal) -> Iterator[str]:
+    """Yield the contents of the row of a goal."""
+    yield from (goal.name, goal.owner or "none", STATUSES[goal.status])
+    yield from details(goal)
 
 
 def goal_row(goal: Goal, colour: Colouring) -> TableRow:
     """Return the row of a goal."""
     status = cell(STATUSES[goal.status], ", ".join(details(goal)))
-    return row((goal.name, owner_cell(goal.owner, colour), status))
+    return row((goal.name, owner_cell(goal.owner, colour), status), at=goal.at)
 
 
 def owner_cell(owner: str | None, colour: Colouring) -> Cell:
@@ -116,4 +120,5 @@ def served_row(of: Row, colour: Colouring) -> TableRow:
     """Return the row of a goal that a robot serves."""
     name = of["goal"] or f"at {of['x_m']:.1f}, {of['y_m']:.1f}"
     owner = owner_cell(of["owner"], colour)
-    return row((name, owner, f"{of['lease_s']:.1f} s", of["verdict"]))
+    at = (of["x_m"], of["y_m"])
+    return row((name, owner, f"{of['lease_s']:.1f} s", of["verdict"]), at=at)

@@ -3,7 +3,7 @@
 from typing import Any
 
 from agent_economy.runs.stepped import Stepped
-from agent_economy.server.runs.shown import economy, lane, passage
+from agent_economy.server.runs.shown import columns, economy, lane, passage
 from agent_economy.server.runs.shown.events import EVENTS
 from agent_economy.server.runs.shown.subject import Request, Subject
 from agent_economy.server.runs.signals.sources import ENGINES as SIGNALS
@@ -26,6 +26,7 @@ def offer(simulation: Stepped) -> Offer:
         "events": list(EVENTS),
         "signals": signals.offer(simulation),
         "robot_signals": list(signals.robots),
+        "columns": columns.offer_of(simulation),
     }
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
+from agent_economy.types.brain import Point
 from agent_economy.types.page import Cell, Choose, Colour, Column, Paragraph, Row, Section, Table
 
 MAX_ROWS = 200
@@ -16,6 +17,7 @@ def section(heading: str | None = None) -> Section:
         "switch": None,
         "paragraphs": [],
         "button": None,
+        "filter": None,
         "table": None,
         "legend": None,
     }
@@ -48,12 +50,19 @@ def table(columns: Sequence[str], rows: Sequence[Row], *, total: int | None = No
     }
 
 
-def row(cells: Iterable[str | Cell], note: str | None = None, signals: Sequence[str] = ()) -> Row:
-    """Return a row; `signals` are the ids of those that it displays."""
+def row(
+    cells: Iterable[str | Cell],
+    note: str | None = None,
+    signals: Sequence[str] = (),
+    *,
+    at: Point | None = None,
+) -> Row:
+    """Return a row; `signals` are the ids of those that it displays, `at` the place it is about."""
     return {
         "cells": [cell(each) if isinstance(each, str) else each for each in cells],
         "note": note,
         "signals": signals,
+        "at": at,
     }
 
 

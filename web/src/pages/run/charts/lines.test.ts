@@ -17,6 +17,7 @@ const offer = {
   events: [],
   signals: [{ id: "controller/base/0/goals", label: "goals owned", unit: "", of: "base/0" }],
   robot_signals: [{ id: "body/{robot}/x_m", label: "x", unit: "m", of: "" }],
+  columns: [],
 };
 
 test("samples replace those from their first tick on, and all if the signals differ", () => {
