@@ -5,22 +5,6 @@ from typing import Any, NamedTuple
 
 from agent_economy.runs.simulation import STATUSES
 
-KINDS = (
-    "found",
-    "served",
-    "acted",
-    "marked",
-    "declared",
-    "passed",
-    "issued",
-    "awarded",
-    "sent",
-    "collided",
-    "stopped",
-    "failed",
-)
-"""The kinds of events."""
-
 BROKEN, FAILED_ACT = "broken", ", failed"
 ORPHANED = "orphaned: its owner's lease has ended"
 
@@ -30,7 +14,7 @@ class Event(NamedTuple):
 
     Attributes:
         tick: The number of steps before its own.
-        kind: One of `KINDS`.
+        kind: Its kind, as pages filter it: the first word of those in `WORDS`.
         of: The name of the item, goal, robot, controller or vehicle that it happened to.
         text: What happened.
         agent: The name of the robot or controller that did it; empty if there is none.

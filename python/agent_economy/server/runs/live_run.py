@@ -153,7 +153,7 @@ class LiveRun:
             self._is_ended, self._latest_tick = True, self.tick
             raise
         self.series.note(self.simulation)
-        self.events.note(self._reader.read(), self.simulation)
+        self.events.note(self._reader.read(self.events.until), self.simulation)
 
 
 def do_nothing() -> None:

@@ -14,7 +14,7 @@ from typing import Protocol
 from agent_economy.scenario import TomlValue, validation
 from agent_economy.server.runs.pending import PendingQueue
 from agent_economy.server.runs.playback_clock import PlaybackClock
-from agent_economy.server.runs.run import Progress
+from agent_economy.server.runs.run import FOREVER, Progress
 from agent_economy.types.page import (
     Change,
     ChooseVersion,
@@ -26,9 +26,6 @@ from agent_economy.types.page import (
     Step,
     Undo,
 )
-
-FOREVER = 2**53
-"""A tick that no run reaches."""
 
 
 class ReversibleRun(Progress, Protocol):

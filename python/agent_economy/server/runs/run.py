@@ -8,6 +8,9 @@ from agent_economy.server.runs.outcome_series import OutcomeSeries
 from agent_economy.server.runs.run_events import RunEvents
 from agent_economy.server.runs.versions import Versions
 
+FOREVER = 2**53
+"""A tick that no run reaches."""
+
 
 class Progress(Protocol):
     """How far a run is."""

@@ -20,8 +20,8 @@ MAX_EVENTS = 4000
 class EventReader(Protocol):
     """Reads what happens in a run."""
 
-    def read(self) -> list[Event]:
-        """Return the events since the last call."""
+    def read(self, since: int) -> list[Event]:
+        """Return the events since the last call, of steps from a tick on."""
 
 
 class MetricReader:
@@ -31,9 +31,9 @@ class MetricReader:
         """Begin with the next step."""
         self._reader = _core.EventReader(simulation._run)  # noqa: SLF001  (ours)
 
-    def read(self) -> list[Event]:
-        """Return the events since the last call."""
-        return [in_words(*each) for each in self._reader.drain()]
+    def read(self, since: int) -> list[Event]:
+        """Return the events since the last call, of steps from a tick on."""
+        return [in_words(*each) for each in self._reader.drain() if each[0] >= since]
 
 
 class ClassicReader:
@@ -43,16 +43,20 @@ class ClassicReader:
         """Begin with the present."""
         self._simulation = simulation
         self._found: set[int] = set()
-        self.read()
+        self.read(0)
 
-    def read(self) -> list[Event]:
-        """Return the finds since the last call; the run may have gone back since."""
+    def read(self, since: int) -> list[Event]:
+        """Return the finds since the last call, of steps from a tick on.
+
+        The run may have gone back since that call.
+        """
         found_s = np.array(self._simulation._run.found_s, np.float64)  # noqa: SLF001  (ours)
         found = set(np.flatnonzero(np.isfinite(found_s)).tolist())
         new, self._found = sorted(found - self._found), found
         ticks = np.round(found_s / self._simulation.step_s)
         # An item is found at the end of a step.
-        return [Event(int(ticks[item]) - 1, "found", f"item/{item}", "found", "") for item in new]
+        events = [Event(int(ticks[item]) - 1, "found", f"item/{item}", "found", "") for item in new]
+        return [event for event in events if event.tick >= since]
 
 
 def reader_of(simulation: Stepped) -> EventReader:
@@ -99,13 +103,12 @@ class RunEvents:
         return {kind: stride for kind, stride in self._strides.items() if stride > 1}
 
     def note(self, events: list[Event], simulation: Stepped) -> None:
-        """Keep the events of steps that are not known yet, up to the current one."""
+        """Keep events of steps that were not known, which are those from `until` on."""
         until = simulation.tick
         if until <= self.until:
             return
         for event in sorted(events, key=attrgetter("tick")):
-            if event.tick >= self.until:
-                self._keep(event)
+            self._keep(event)
         self.until = until
         if simulation.is_over and not self._has_ended:
             self._has_ended = True

@@ -249,8 +249,9 @@ class Timeline:
             self._step(steps)
         took_s = time.monotonic() - start_s
         self._batch = max(1, min(10_000, round(self._batch * SLICE_S / max(took_s, SLICE_S / 4))))
-        stops = self.recorded.stops(self.events.until, self.tick)
-        self.events.note([*self._reader.read(), *stops], self.simulation)
+        known = self.events.until
+        stops = self.recorded.stops(known, self.tick)
+        self.events.note([*self._reader.read(known), *stops], self.simulation)
         self._apply_log()
         self.recorded.compare(self.simulation)
         self.versions.current.reached(self.tick)

@@ -8,15 +8,12 @@ from agent_economy.recording.replayer import replay_steps
 from agent_economy.runs import factory
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.server.runs.recorded_run import first_difference
-from agent_economy.server.runs.run import Run
+from agent_economy.server.runs.run import FOREVER, Run
 from agent_economy.server.runs.signals.sources import Sources
 from agent_economy.types.page import Signals
 
 MAX_SAMPLES = 2000
 """Maximum number of samples; when there are more, every second one is dropped."""
-
-FOREVER = 2**53
-"""A tick that no run reaches."""
 
 
 class Sampler:

@@ -1,7 +1,7 @@
 import type { Session } from "../session.svelte";
 
 /** What a pair needs of a run. */
-export type Paired = Pick<Session, "state" | "setting" | "step" | "go" | "pause">;
+export type Paired = Pick<Session, "state" | "setting" | "step">;
 
 /** Wall-clock time that a step of playback at the maximum speed is to take. */
 const slice_ms = 80;

@@ -23,9 +23,6 @@ class Fake implements Paired {
     this.state = { ...this.state, target_tick: this.target } as State;
   }
 
-  go(): void {}
-  pause(): void {}
-
   arrive(): void {
     if (this.target === null || !this.state || !this.setting) return;
     const tick = Math.min(this.target, this.last);
