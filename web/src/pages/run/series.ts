@@ -1,4 +1,5 @@
 import type { SeriesAnswer, State } from "../../api/protocol";
+import { csv } from "./charts/csv";
 
 /** The outcome of a run up to a tick. */
 export interface Row {
@@ -56,13 +57,14 @@ export class Series {
 
   /** CSV with a header line. */
   csv(): string {
+    const { rows } = this;
+    const ticks = rows.map(({ tick }) => tick);
     const names = this.names().filter((name) => name !== "time_s");
-    const lines = this.rows.map((row) => [
-      row.tick,
-      row.time_s,
-      ...names.map((name) => row.values[name] ?? ""),
-    ]);
-    return [["tick", "time_s", ...names], ...lines].map((line) => `${line.join(",")}\n`).join("");
+    const line = (id: string) => ({
+      id,
+      points: { ticks, values: rows.map(({ values }) => values[id] ?? null) },
+    });
+    return csv(names.map(line), this.step_s);
   }
 
   private row(tick: number, values: Row["values"]): Row {

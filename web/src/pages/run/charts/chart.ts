@@ -1,6 +1,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import type { Line, Points } from "./lines";
+import type { Points } from "./csv";
+import type { Line } from "./lines";
 
 /** A line and its points. */
 export interface Drawn {

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { csv, linesOf, pointsOf, valueAt } from "./lines";
+import { csv } from "./csv";
+import { linesOf, pointsOf, valueAt } from "./lines";
 import { noSamples, withSamples } from "./samples";
 import { available, described, inspected, paths } from "./signals";
 

@@ -1,5 +1,6 @@
 import type { SignalOffer } from "../../../api/protocol";
 import type { Row } from "../series";
+import type { Points } from "./csv";
 import type { Samples } from "./samples";
 import { outcome } from "./signals";
 
@@ -11,12 +12,6 @@ export interface Line extends SignalOffer {
   /** A name of a colour of the theme. */
   colour: string;
   isDashed: boolean;
-}
-
-/** The points of a line: a value is null where there is none. */
-export interface Points {
-  ticks: number[];
-  values: (number | null)[];
 }
 
 const colours = ["owner-1", "owner-2", "owner-3", "owner-4", "owner-5", "owner-6"];
@@ -52,21 +47,4 @@ export function pointsOf(signal: string, series: Row[], samples: Samples): Point
 export function valueAt({ ticks, values }: Points, tick: number): number | null {
   const place = ticks.findLastIndex((each) => each <= tick);
   return place < 0 ? null : (values[place] ?? null);
-}
-
-/** CSV of exactly these points, with a row for each tick at which a line has one. */
-export function csv(lines: { id: string; points: Points }[], step_s: number): string {
-  const columns = lines.map(({ points }) => new Map(points.ticks.map((tick, i) => [tick, points.values[i]])));
-  const ticks = [...new Set(lines.flatMap(({ points }) => points.ticks))].sort((one, other) => one - other);
-  const rows = ticks.map((tick) => [
-    tick,
-    Number((tick * step_s).toPrecision(12)),
-    ...columns.map((column) => column.get(tick) ?? ""),
-  ]);
-  const header = ["tick", "time_s", ...lines.map(({ id }) => quoted(id))];
-  return [header, ...rows].map((row) => `${row.join(",")}\n`).join("");
-}
-
-function quoted(name: string): string {
-  return /[",\n]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name;
 }
