@@ -1,17 +1,7 @@
 import { type BelievedMap, runs, unknown } from "../../shared/believed_map";
-import { type Colours, rgb } from "../colours";
-import { inWorld, type Layer, type Pen } from "./layer";
-
-/** Rasters of a map, cached because each map is drawn many times. */
-interface Rasters {
-  colours: Colours;
-  occupied: HTMLCanvasElement;
-  unseen: HTMLCanvasElement;
-  /** Unknown cells, in units of cells from the corner. */
-  dark: Path2D;
-}
-
-const cache = new WeakMap<BelievedMap, Rasters>();
+import type { Colours } from "../colours";
+import { type Cells, channelsOf, drawPicture, Pictures, squares } from "./cells";
+import type { Layer, Pen } from "./layer";
 
 /** The selected robot's map over the true world: unknown cells are hatched, occupied ones filled, free ones clear. */
 export const beliefMap: Layer = {
@@ -22,9 +12,8 @@ export const beliefMap: Layer = {
   active: ({ map, selected }) => map !== null && selected >= 0,
   draw(pen, { map }) {
     if (!map) return;
-    const { occupied, dark } = rastersOf(map, pen.colours);
-    hatch(pen, map, dark);
-    picture(pen, map, occupied);
+    hatch(pen, map, unknownCells(map));
+    drawCells(pen, map, occupiedCells);
   },
 };
 
@@ -36,51 +25,43 @@ export const unseen: Layer = {
   only: "metric",
   active: ({ map, selected }) => map !== null && selected >= 0,
   draw(pen, { map }) {
-    if (map) picture(pen, map, rastersOf(map, pen.colours).unseen);
+    if (map) drawCells(pen, map, unsearchedCells);
   },
 };
-
-function rastersOf(map: BelievedMap, colours: Colours): Rasters {
-  const known = cache.get(map);
-  if (known?.colours === colours) return known;
-  const dark = new Path2D();
-  for (const [column, row, length] of runs(map.occupancy, map.columns, (percent) => percent === unknown))
-    dark.rect(column, row, length, 1);
-  const occupied = raster(map, map.occupancy, colours.belief, occupiedAlpha);
-  const notSeen = raster(map, map.unseen, colours["item-hidden"], (percent) => 0.22 * (percent / 100));
-  const all = { colours, occupied, unseen: notSeen, dark };
-  cache.set(map, all);
-  return all;
-}
 
 /** Cells that are probably occupied: the higher the probability, the more opaque. */
 function occupiedAlpha(percent: number): number {
   return percent === unknown || percent <= 50 ? 0 : 0.15 + (0.5 * (percent - 50)) / 50;
 }
 
-function raster(
-  { columns, rows }: BelievedMap,
-  cells: Uint8Array,
-  colour: string,
-  alpha: (value: number) => number,
-): HTMLCanvasElement {
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [columns, rows];
-  const image = new ImageData(columns, rows);
-  const [red, green, blue] = rgb(colour);
-  cells.forEach((value, i) => {
-    image.data.set([red * 255, green * 255, blue * 255, alpha(value) * 255], 4 * i);
-  });
-  canvas.getContext("2d")?.putImageData(image, 0, 0);
-  return canvas;
+function cellsOf(bytes: "occupancy" | "unseen") {
+  return (map: BelievedMap): Cells => ({ columns: map.columns, rows: map.rows, bytes: map[bytes] });
 }
 
-function picture(pen: Pen, { corner, cell_m }: BelievedMap, cells: HTMLCanvasElement): void {
-  inWorld(pen, () => {
-    pen.context.imageSmoothingEnabled = false;
-    pen.context.transform(cell_m, 0, 0, cell_m, ...corner);
-    pen.context.drawImage(cells, 0, 0);
-  });
+const occupiedCells = new Pictures(
+  cellsOf("occupancy"),
+  (colours) => (percent) => channelsOf(colours.belief, occupiedAlpha(percent)),
+);
+const unsearchedCells = new Pictures(
+  cellsOf("unseen"),
+  (colours) => (percent) => channelsOf(colours["item-hidden"], 0.22 * (percent / 100)),
+);
+
+function drawCells(pen: Pen, map: BelievedMap, pictures: Pictures<BelievedMap>): void {
+  drawPicture(pen, pictures.of(map, pen.colours), squares(map.corner, map.cell_m));
+}
+
+const paths = new WeakMap<BelievedMap, Path2D>();
+
+/** The unknown cells, in units of cells from the corner. */
+function unknownCells(map: BelievedMap): Path2D {
+  const known = paths.get(map);
+  if (known) return known;
+  const path = new Path2D();
+  for (const [column, row, length] of runs(map.occupancy, map.columns, (percent) => percent === unknown))
+    path.rect(column, row, length, 1);
+  paths.set(map, path);
+  return path;
 }
 
 /** Hatching with the same spacing at every zoom. */

@@ -11,8 +11,9 @@ import type {
   Stroke,
 } from "../../api/protocol";
 import { toScreen } from "../camera";
-import { type Colours, rgb } from "../colours";
+import { rgb } from "../colours";
 import { linesOf, radiusOf } from "../glyphs";
+import { bytesOf, drawPicture, Pictures, squares } from "./cells";
 import {
   imagesOf,
   inWorld,
@@ -84,31 +85,16 @@ function clipped(pen: Pen, { clip }: LayerData, draw: () => void): void {
   });
 }
 
+const pictures = new Pictures<Raster>(
+  ({ columns, rows, cells }) => ({ columns, rows, bytes: bytesOf(cells) }),
+  (colours, { scale: { first, last, colours: names } }) => {
+    const stops = names.map((name) => rgb(colours[name]));
+    return (byte) => colourAt(stops, (byte - first) / (last - first));
+  },
+);
+
 function drawRaster(pen: Pen, raster: Raster): void {
-  inWorld(pen, () => {
-    const { context } = pen;
-    context.imageSmoothingEnabled = false;
-    context.transform(raster.cell, 0, 0, raster.cell, ...raster.corner);
-    context.drawImage(pictureOf(raster, pen.colours), 0, 0);
-  });
-}
-
-const pictures = new WeakMap<Raster, { colours: Colours; canvas: HTMLCanvasElement }>();
-
-function pictureOf(raster: Raster, colours: Colours): HTMLCanvasElement {
-  const known = pictures.get(raster);
-  if (known?.colours === colours) return known.canvas;
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [raster.columns, raster.rows];
-  const image = new ImageData(raster.columns, raster.rows);
-  const { first, last } = raster.scale;
-  const stops = raster.scale.colours.map((name) => rgb(colours[name]));
-  const palette = Array.from({ length: 256 }, (_, byte) => colourAt(stops, (byte - first) / (last - first)));
-  const cells = Uint8Array.from(atob(raster.cells), (character) => character.charCodeAt(0));
-  cells.forEach((byte, i) => image.data.set(palette[byte] ?? [], 4 * i));
-  canvas.getContext("2d")?.putImageData(image, 0, 0);
-  pictures.set(raster, { colours, canvas });
-  return canvas;
+  drawPicture(pen, pictures.of(raster, pen.colours), squares(raster.corner, raster.cell));
 }
 
 /** The colour at a place between the first stop, 0, and the last, 1: four channels, 0 to 255. */
