@@ -168,8 +168,9 @@ picture: study ## Regenerate docs/report.png (needs Chromium)
 page-pictures: .venv/installed web ## Regenerate the screenshots in docs/ui (needs Node and Chromium)
 	cd web && CHROMIUM="$(CHROMIUM)" node dev/pictures.mjs
 
-bench-page: .venv/installed web ## Measure the page: first load, latency of changes, crowds (needs Chromium)
-	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent bench
+# MINUTES=60 measures the memory of server and tab while playing for that time, and nothing else.
+bench-page: .venv/installed web ## Measure the page: first load, latency of changes, crowds, memory (needs Chromium)
+	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent bench -- $(addprefix --minutes ,$(MINUTES))
 
 # Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
 safety: .venv/installed ## Break every port and process in every state, and measure the stops (a quarter of an hour); SAFETY=--quick

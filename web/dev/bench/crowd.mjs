@@ -3,8 +3,8 @@ import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { usedBelow_ms, usedBy_ms } from "./processor.mjs";
 
-const warm_ms = 4000;
-const measured_ms = 10_000;
+export const warm_ms = 4000;
+export const measured_ms = 10_000;
 const metersEach = 5;
 
 /** Robots that drive straight ahead in a periodic world. */
@@ -33,7 +33,7 @@ cohesion = 0.03
 };
 
 /** Counts how often robots are drawn, interpolated frames included. */
-function countPictures() {
+export function countPictures() {
   let isDrawn = false;
   globalThis.pictures = 0;
   for (const name of ["drawElements", "drawArrays"]) {

@@ -19,6 +19,11 @@ export function usedBy_ms(pid) {
 
 /** Processor time of all descendants of this process, except one and its descendants, in milliseconds. */
 export function usedBelow_ms(without) {
+  return [...below(without).values()].reduce((sum, found) => sum + found.used_ms, 0);
+}
+
+/** All descendants of this process, except one and its descendants, by number. */
+export function below(without) {
   const all = new Map(
     readdirSync("/proc")
       .filter((name) => /^\d+$/.test(name))
@@ -29,5 +34,5 @@ export function usedBelow_ms(without) {
     const parent = all.get(pid)?.parent ?? 0;
     return parent === process.pid || (parent > 1 && isBelow(parent));
   };
-  return [...all].reduce((sum, [pid, found]) => sum + (found && isBelow(pid) ? found.used_ms : 0), 0);
+  return new Map([...all].filter(([pid, found]) => found && isBelow(pid)));
 }
