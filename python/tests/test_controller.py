@@ -6,8 +6,8 @@ import pytest
 
 import agent_economy as ae
 
-OPERATOR = {"kind": 255, "index": 0}
-BASE = {"kind": 1, "index": 0}
+OPERATOR = {"role": "person", "kind": 0, "index": 0}
+BASE = {"role": "controller", "kind": 1, "index": 0}
 ROVER = {"kind": 0, "index": 0}
 
 
@@ -145,7 +145,7 @@ def test_an_unknown_kind_of_controllers_is_an_error() -> None:
 def test_percepts_that_no_controller_can_have_are_errors() -> None:
     controller = ae.Controller()
     wrong: Any = {"id": ROVER}
-    with pytest.raises(ae.InputError, match=r"percept\.id\.kind = 0: must be a number from 1"):
+    with pytest.raises(ae.InputError, match=r'percept\.id\.role = "robot": must be "controller"'):
         controller.step(wrong)
     lie = received(ROVER, serial=1)
     lie["message"]["confidence"] = 2

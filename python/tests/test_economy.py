@@ -147,7 +147,7 @@ def test_an_unknown_controller_is_named_with_the_known_ones(scenario: ae.Scenari
 
 def percept_of_a_controller() -> Any:
     """Return a percept without messages."""
-    return {"time_s": 0.0, "id": {"kind": 1, "index": 0}}
+    return {"time_s": 0.0, "id": {"role": "controller", "kind": 1, "index": 0}}
 
 
 def test_a_robot_that_fails_on_command_is_broken_and_others_serve_its_goals(
@@ -269,7 +269,7 @@ def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
     assert brain.served_goals() == []
     position = {"value": [0.0, 0.0], "age_s": 0.0}
     heading = {"value": 0.0, "age_s": 0.0}
-    goal = {"issuer": {"kind": 255, "index": 0}, "number": 3}
+    goal = {"issuer": {"role": "person", "kind": 0, "index": 0}, "number": 3}
     task = {
         "id": goal,
         "at_m": [10.0, 0.0],
@@ -284,7 +284,7 @@ def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
     def step(time_s: float, dispatch: dict[str, Any]) -> list[Any]:
         message = {"about": {"dispatch": dispatch}, "confidence": 1.0}
         message["to"] = {"kind": 0, "index": 0}
-        inbox = [{"from": {"kind": 1, "index": 0}, "age_s": 0.0, "message": message}]
+        inbox = [{"from": {"role": "controller", "kind": 1, "index": 0}, "age_s": 0.0, "message": message}]
         percept = {"time_s": time_s, "position": position, "heading_rad": heading, "inbox": inbox}
         outbox = brain.step(percept)["outbox"]  # type: ignore[arg-type]
         return [each["about"]["dispatch"] for each in outbox if "dispatch" in each["about"]]
@@ -295,5 +295,5 @@ def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
     step(2.0, {"award": {"goal": goal, "number": bid["number"], "lease_s": 20.0}})
     (served,) = brain.served_goals()
     assert served["task"]["id"] == goal
-    assert served["owner"] == {"kind": 1, "index": 0}
+    assert served["owner"] == {"role": "controller", "kind": 1, "index": 0}
     assert served["lease_s"] == pytest.approx(19.0)

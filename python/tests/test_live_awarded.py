@@ -170,9 +170,9 @@ def test_a_goal_that_expires_is_impossible(tmp_path: Path) -> None:
 def test_that_a_real_robot_serves_a_goal_is_known_from_its_message(tmp_path: Path) -> None:
     watch = Watch(economy(tmp_path / "economy.toml", range_m=0.5))
     watch.step(0.2)
-    issuer = int(watch.simulation.goals["issuer"][1].as_py())
-    for kind, number in ((255, 1), (9, 2)):
-        goal = {"issuer": {"kind": kind, "index": issuer}, "number": number}
+    goals = int(watch.simulation.goals["issuer"][1].as_py())
+    for issuer, number in (({"list": goals}, 1), ({"kind": 0, "index": goals}, 2)):
+        goal = {"issuer": issuer, "number": number}
         about = {"goal": {"id": goal, "at": [0.0, 0.0], "status": "done"}}
         watch.goals.add("bender/1", [{"about": about, "confidence": 1.0}])
     verdicts = watch.step(2 * QUIET_S)

@@ -9,7 +9,7 @@ from metric import world
 from agent_economy import Batch, Brain, InputError, Scenario, Simulation
 from agent_economy.runs.batch import Commands, Percepts
 
-OPERATOR = {"kind": 255, "index": 0}
+OPERATOR = {"role": "person", "kind": 0, "index": 0}
 
 SCENARIO = world("""
 clock.time_limit_s = 600
@@ -96,11 +96,11 @@ def test_without_orders_a_robot_that_stops_when_done_stays_where_it_is() -> None
 
 def test_an_order_from_another_sender_is_ignored_and_one_of_an_unknown_kind_is_an_error() -> None:
     body = Body()
-    body.step({**order(1, (8.0, 2.0)), "from": {"kind": 0, "index": 1}})
+    for sender in ({"kind": 0, "index": 1}, {"role": "person", "kind": 0, "index": 1}):
+        body.step({**order(1, (8.0, 2.0)), "from": sender})
     assert body.verdicts() == []
-    for sender in ({"kind": 255, "index": 1}, {"kind": 7, "index": 0}):
-        with pytest.raises(InputError, match=r"inbox\[0\].from.kind = (255|7): must be a number"):
-            body.step({**order(1, (8.0, 2.0)), "from": sender})
+    with pytest.raises(InputError, match=r"inbox\[0\].from.kind = 7: must be a number"):
+        body.step({**order(1, (8.0, 2.0)), "from": {"kind": 7, "index": 0}})
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,8 @@ use crate::goals::orders::AssignedGoal;
 use crate::inspect::BeliefState;
 use crate::inspect::BelievedMap;
 use crate::inspect::Decision;
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::command::{Command, Motion};
 use crate::io::percept::Percept;
 use crate::messaging::peers::Peers;
@@ -181,7 +182,7 @@ impl Brain {
     }
 
     /// Changes the ids of the other robots; those without a new id are forgotten.
-    pub fn renumber(&mut self, new_id: impl Fn(RobotId) -> Option<RobotId>) {
+    pub fn renumber(&mut self, new_id: impl Fn(AgentId) -> Option<AgentId>) {
         if let Some(brain) = &mut self.beliefs {
             brain.renumber(&new_id);
         }

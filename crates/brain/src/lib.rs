@@ -53,13 +53,14 @@ pub use goals::orders::{AssignedGoal, OrderVerdict};
 pub use goals::proposal::max_deviation_m;
 pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, HeadingOptions};
 pub use io::act::{Act, ActKind, Acted, MAX_ACTS, Tool};
-pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
+pub use io::agent_id::{AgentId, AgentRole, Receiver};
+pub use io::body::{Body, Detector, Other, RangeRing};
 pub use io::command::{Command, Motion, SensorRequest};
 pub use io::dispatch::{
     Assignment, Award, Bid, Claim, Dispatch, Fitness, Reason, Refusal, Renewal, Report, Seen, Task,
     Work,
 };
-pub use io::goal_id::{GoalId, issuer_of};
+pub use io::goal_id::{GoalId, GoalList, Issuer, issuer_of};
 pub use io::lane::{
     CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, Statement,
 };

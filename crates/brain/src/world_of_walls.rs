@@ -1,7 +1,8 @@
 //! For tests: a disc that executes commands exactly, among walls that its rays measure exactly.
 
 use crate::brain::Brain;
-use crate::io::body::{Body, RangeRing, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::{Body, RangeRing};
 use crate::io::command::{Command, Motion};
 use crate::io::percept::{Neighbour, Observation, Percept, Reading, Scan};
 use base::geometry::{Point, Segment};
@@ -108,9 +109,9 @@ pub(crate) struct Walk {
     pub(crate) heading_rad: f64,
     pub(crate) speed_m_s: f64,
     /// Index of the robot, and number of robots.
-    pub(crate) id: (RobotId, u32),
+    pub(crate) id: (AgentId, u32),
     /// Other robots, which it always detects.
-    pub(crate) others: Vec<(RobotId, Point)>,
+    pub(crate) others: Vec<(AgentId, Point)>,
     /// The minimum distance from its footprint to a wall up to now.
     pub(crate) min_gap_m: f64,
     pub(crate) is_touching: bool,
@@ -131,7 +132,7 @@ impl Walk {
             at: at.into(),
             heading_rad,
             speed_m_s: 0.0,
-            id: (RobotId::default(), 1),
+            id: (AgentId::default(), 1),
             others: Vec::new(),
             min_gap_m: f64::INFINITY,
             is_touching: false,
@@ -189,7 +190,7 @@ impl Walk {
         }
     }
 
-    fn seen(&self, (id, at): &(RobotId, Point)) -> Neighbour {
+    fn seen(&self, (id, at): &(AgentId, Point)) -> Neighbour {
         let way = self.at.to(*at);
         Neighbour {
             range_m: way.length(),

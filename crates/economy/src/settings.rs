@@ -4,7 +4,6 @@ use crate::allocation::Allocation;
 use crate::clearance::Clearance;
 use crate::passage::Passage;
 use alloc::sync::Arc;
-use brain::RobotId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -29,13 +28,6 @@ pub struct Settings {
     /// Maximum drift of any clock, in seconds per second.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub max_drift: f64,
-    /// Number of kinds of robots, which are numbered before all kinds of controllers. With 0, it is
-    /// the number of the controller's own kind: there is no other kind of controllers before it.
-    #[serde(skip)]
-    pub robot_kinds: u8,
-    /// Number of kinds of controllers; 0 if it is unknown.
-    #[serde(skip)]
-    pub controller_kinds: u8,
     /// The lane that all controllers of the kind are to clear; without it, they plan no goals.
     #[serde(skip)]
     pub clearance: Option<Arc<Clearance>>,
@@ -48,20 +40,6 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Whether an id is that of a robot, for a controller with an id.
-    pub(crate) fn is_robot(&self, id: RobotId, own: RobotId) -> bool {
-        let is_known = self.robot_kinds > 0;
-        id.kind < if is_known { self.robot_kinds } else { own.kind }
-    }
-
-    /// Whether an id is that of another controller.
-    pub(crate) fn is_other_controller(&self, id: RobotId, own: RobotId) -> bool {
-        let is_known = self.robot_kinds > 0 && self.controller_kinds > 0;
-        let end = self.robot_kinds.saturating_add(self.controller_kinds);
-        let is_kind = id.kind != RobotId::OPERATOR.kind && (!is_known || id.kind < end);
-        id != own && is_kind && !self.is_robot(id, own)
-    }
-
     /// The shortest service lease that outlasts an auction and a round trip over the radio of this time in seconds:
     /// a robot holds it from its bid. The clock of the robot may be fast, and that of the auction slow.
     #[must_use]
@@ -86,8 +64,6 @@ impl Default for Settings {
             auction_s: 1.0,
             max_goals: 1000,
             max_drift: 1e-4,
-            robot_kinds: 0,
-            controller_kinds: 0,
             clearance: None,
             passage: None,
             is_called_off: false,

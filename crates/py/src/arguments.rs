@@ -3,7 +3,7 @@
 use crate::error::input_error;
 use crate::metric_scenario::robot_of;
 use base::error::{InputError, InputErrors};
-use brain::RobotId;
+use brain::AgentId;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
@@ -73,13 +73,13 @@ impl Arguments {
         scenario: &Scenario,
         name: &str,
         given: &[String],
-    ) -> Option<Vec<RobotId>> {
+    ) -> Option<Vec<AgentId>> {
         let robots = given.iter().map(|each| {
             let id = robot_of(scenario, name, each);
             id.map_err(|error| self.errors.borrow_mut().push(error))
                 .ok()
         });
-        let robots: Vec<Option<RobotId>> = robots.collect();
+        let robots: Vec<Option<AgentId>> = robots.collect();
         robots.into_iter().collect()
     }
 

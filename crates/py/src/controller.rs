@@ -7,7 +7,7 @@ use crate::metric_scenario::MetricScenario;
 use crate::percept_check::of_controller;
 
 use base::error::{InputError, InputErrors};
-use brain::{Command, Percept, Reason, RobotId, Task};
+use brain::{AgentId, Command, Percept, Reason, Task};
 use economy::{OwnedGoal, Settings};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyRuntimeError;
@@ -26,9 +26,9 @@ pub(crate) struct Controller {
 #[derive(Serialize)]
 struct Owned {
     task: Task,
-    assignee: Option<RobotId>,
+    assignee: Option<AgentId>,
     lease_s: Option<f64>,
-    heir: Option<RobotId>,
+    heir: Option<AgentId>,
     owner_lease_s: Option<f64>,
     unserved: Option<Reason>,
 }
@@ -64,7 +64,7 @@ impl Controller {
     /// The command for a percept; both are dicts.
     fn step<'py>(&self, percept: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let read = convert::read("percept", percept);
-        let read = read.and_then(|read| of_controller("percept", read, self.settings.robot_kinds));
+        let read = read.and_then(|read| of_controller("percept", read));
         let read: Percept = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         let mut command = Command::default();
         self.with(|controller| controller.step_into(&read, &mut command));

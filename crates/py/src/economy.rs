@@ -39,7 +39,7 @@ pub(crate) fn goals<'py>(
     let each = |of: &dyn Fn(&Goal) -> String| goals.iter().map(of).collect::<Vec<_>>();
     let dict = PyDict::new(py);
     dict.set_item("name", each(&|goal| goal_name(scenario, goal)))?;
-    let issuers = goals.iter().map(|goal| goal.id.issuer.index);
+    let issuers = goals.iter().map(|goal| goal.id.issuer.number());
     dict.set_item("issuer", issuers.collect::<Vec<_>>().into_pyarray(py))?;
     let numbers = goals.iter().map(|goal| goal.id.number);
     dict.set_item("number", numbers.collect::<Vec<_>>().into_pyarray(py))?;

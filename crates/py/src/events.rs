@@ -3,7 +3,7 @@
 use crate::economy::word;
 use crate::metric_scenario::name_of;
 use crate::simulation::Simulation;
-use brain::RobotId;
+use brain::AgentId;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use sim::judge::events::{Event, EventKind, EventReader as Reader, GoalName};
@@ -139,7 +139,7 @@ fn parts<'py>(
             about,
             goal,
         } => {
-            let to = (to != RobotId::EVERYONE).then(|| receiver_name(scenario, to));
+            let to = to.agent().map(|to| receiver_name(scenario, to));
             let value = (about, goal.map(any), to).into_bound_py_any(py)?;
             ("sent", robot(from), value)
         }
@@ -150,14 +150,17 @@ fn parts<'py>(
 fn goal_name(scenario: &Scenario, goal: GoalName) -> String {
     let GoalName { id, place } = goal;
     place.map_or_else(
-        || format!("goal {} of {}", id.number, name_of(scenario, id.issuer)),
+        || {
+            let issuer = id.issuer.agent().unwrap_or_default();
+            format!("goal {} of {}", id.number, name_of(scenario, issuer))
+        },
         |(kind, index)| named(scenario.goal_kinds(), kind.into(), index),
     )
 }
 
 /// The name of the receiver of a message.
-fn receiver_name(scenario: &Scenario, id: RobotId) -> String {
-    if id == RobotId::OPERATOR {
+fn receiver_name(scenario: &Scenario, id: AgentId) -> String {
+    if id == AgentId::OPERATOR {
         return "operator".to_owned();
     }
     name_of(scenario, id)

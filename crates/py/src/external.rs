@@ -6,7 +6,7 @@ use crate::metric_scenario::{name_of, participant_of, robot_of};
 use crate::percept_check::fitting;
 use base::document::path_of;
 use base::error::{InputError, InputErrors};
-use brain::{Command, Percept, RobotId};
+use brain::{AgentId, Command, Percept};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use schemars::JsonSchema;
@@ -16,7 +16,7 @@ use sim::simulation::Simulation as Run;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A value for each of several robots or controllers.
-pub(crate) type ByRobot<T> = BTreeMap<RobotId, T>;
+pub(crate) type ByRobot<T> = BTreeMap<AgentId, T>;
 
 /// Reads the percepts and commands of a step. The kinds in `in_python` have Python brains.
 ///
@@ -30,7 +30,7 @@ pub(crate) fn read(
 ) -> Result<(ByRobot<Percept>, ByRobot<Command>), InputErrors> {
     let mut errors = Vec::new();
     let scenario = run.scenario();
-    let fits = |at: &str, id: RobotId, percept: Percept| match scenario.brain(id.kind) {
+    let fits = |at: &str, id: AgentId, percept: Percept| match scenario.brain(id.kind) {
         Some(brain) => fitting(at, percept, brain.body()),
         None => Ok(percept),
     };
@@ -38,7 +38,7 @@ pub(crate) fn read(
     let percepts = by_robot(("percepts", percepts), named, fits, &mut errors);
     let kinds = Kinds::of_scenario(scenario);
     let allowed =
-        |at: &str, id: RobotId, command| kinds.command(at, tools_of(scenario, id.kind), command);
+        |at: &str, id: AgentId, command| kinds.command(at, tools_of(scenario, id.kind), command);
     let named = |name: &str| participant_of(scenario, "commands", name);
     let commands = by_robot(("commands", commands), named, allowed, &mut errors);
     errors.extend(commands_of_external(run, &percepts, &commands));
@@ -48,8 +48,8 @@ pub(crate) fn read(
 
 fn by_robot<T: DeserializeOwned + JsonSchema>(
     (argument, given): (&str, &Bound<PyDict>),
-    named: impl Fn(&str) -> Result<RobotId, InputError>,
-    fits: impl Fn(&str, RobotId, T) -> Result<T, InputError>,
+    named: impl Fn(&str) -> Result<AgentId, InputError>,
+    fits: impl Fn(&str, AgentId, T) -> Result<T, InputError>,
     errors: &mut Vec<InputError>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
@@ -75,11 +75,11 @@ fn commands_of_external(
     }
     let robots = run.state().each_robot(run.scenario());
     let external = robots.filter(|robot| robot.is_external);
-    let external: BTreeSet<RobotId> = external.map(|robot| robot.id).collect();
+    let external: BTreeSet<AgentId> = external.map(|robot| robot.id).collect();
     let rejected = commands
         .keys()
         .filter(|id| external.contains(id) || percepts.contains_key(id));
-    let error = |id: &RobotId| {
+    let error = |id: &AgentId| {
         let name = format!("{:?}", name_of(run.scenario(), *id));
         let allowed =
             "a robot without an external body: an external body takes no commands, it returns them";

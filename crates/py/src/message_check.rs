@@ -1,7 +1,7 @@
 //! Rejects messages, and ids of robots, that no brain could use: brains would ignore them unseen.
 
 use base::error::InputError;
-use brain::{About, Act, Body, Command, MAX_ACTS, Message, RobotId, Tool};
+use brain::{About, Act, AgentId, AgentRole, Body, Command, MAX_ACTS, Message, Tool};
 use sim::scenario::Scenario;
 
 /// The kinds that messages can be about.
@@ -41,18 +41,15 @@ impl Kinds {
     }
 
     /// An error, unless there is the kind of a robot; `at` is the path of its id.
-    pub(crate) fn robot(&self, at: &str, id: RobotId) -> Option<InputError> {
-        unless_below(self.robots?, &format!("{at}.kind"), id.kind.into(), "robot")
+    pub(crate) fn robot(&self, at: &str, id: AgentId) -> Option<InputError> {
+        let robots = self.robots?;
+        unless_role(at, id, AgentRole::Robot)
+            .or_else(|| unless_below(robots, &format!("{at}.kind"), id.kind.into(), "robot"))
     }
 
-    /// An error, unless there is the kind of the sender of a message; `at` is the path of its id. The operator is no
-    /// robot, and the senders of messages about goals of controllers may be controllers, whose kinds have numbers after
-    /// those of robots.
-    pub(crate) fn sender(&self, at: &str, id: RobotId, about: &About) -> Option<InputError> {
-        if id == RobotId::OPERATOR || matches!(about, About::Dispatch(_)) {
-            return None;
-        }
-        self.robot(at, id)
+    /// An error, unless there is the kind of the sender of a message, if it is a robot; `at` is the path of its id.
+    pub(crate) fn sender(&self, at: &str, id: AgentId) -> Option<InputError> {
+        id.is_robot().then(|| self.robot(at, id))?
     }
 
     /// The first error of a message; `at` is its path.
@@ -121,6 +118,14 @@ fn without_tool(at: &str, tools: &[Tool], acts: &[Act]) -> Option<InputError> {
     let path = format!("{at}.acts[{number}].kind");
     let given = Some(acts[number].kind.name().to_owned());
     Some(InputError::new(path, given, allowed))
+}
+
+/// An error, unless an agent is what it has to be; `at` is the path of its id.
+pub(crate) fn unless_role(at: &str, id: AgentId, role: AgentRole) -> Option<InputError> {
+    (id.role != role).then(|| {
+        let [given, allowed] = [id.role, role].map(|role| format!("{:?}", role.name()));
+        InputError::new(format!("{at}.role"), Some(given), allowed)
+    })
 }
 
 fn unless_below(kinds: usize, at: &str, kind: usize, what: &str) -> Option<InputError> {

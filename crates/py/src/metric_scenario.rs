@@ -4,7 +4,7 @@ use crate::convert;
 use crate::error::input_error;
 use crate::scenario::Source;
 use base::error::{InputError, InputErrors, nearest};
-use brain::RobotId;
+use brain::AgentId;
 use pyo3::prelude::*;
 use sim::scenario::{Scenario, ScenarioSpec};
 use std::sync::Arc;
@@ -23,14 +23,14 @@ pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
 }
 
 /// The name of a robot or controller: KIND/INDEX.
-pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
+pub(crate) fn name_of(scenario: &Scenario, id: AgentId) -> String {
     let mut kinds = scenario.robot_kinds().chain(scenario.controller_kinds());
     let kind = kinds.nth(id.kind.into());
     format!("{}/{}", kind.unwrap_or_default(), id.index)
 }
 
 /// The robot of a name; `path` is the path of errors.
-pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, InputError> {
+pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<AgentId, InputError> {
     id_in(&scenario.team(), "robots", path, name)
 }
 
@@ -39,7 +39,7 @@ pub(crate) fn participant_of(
     scenario: &Scenario,
     path: &str,
     name: &str,
-) -> Result<RobotId, InputError> {
+) -> Result<AgentId, InputError> {
     let mut all = scenario.team();
     let robots = all.len();
     all.extend(scenario.controller_team());
@@ -48,7 +48,13 @@ pub(crate) fn participant_of(
     } else {
         "robots"
     };
-    id_in(&all, what, path, name)
+    let id = id_in(&all, what, path, name)?;
+    let is_robot = usize::from(id.kind) < robots;
+    Ok(if is_robot {
+        id
+    } else {
+        AgentId::controller(id.kind, id.index)
+    })
 }
 
 /// The id of a name among kinds, in the order of their numbers, with their counts; `what` they are, in errors.
@@ -57,13 +63,13 @@ fn id_in(
     what: &str,
     path: &str,
     name: &str,
-) -> Result<RobotId, InputError> {
+) -> Result<AgentId, InputError> {
     let (kind, index) = name.rsplit_once('/').unwrap_or((name, ""));
     let place = team.iter().position(|(known, _)| known == kind);
     let id = place.zip(index.parse().ok()).and_then(|(place, index)| {
         let is_there = index < team[place].1 && name == format!("{kind}/{index}");
         let kind = u8::try_from(place).ok()?;
-        is_there.then_some(RobotId { kind, index })
+        is_there.then_some(AgentId::robot(kind, index))
     });
     id.ok_or_else(|| unknown(team, what, path, name))
 }
@@ -95,7 +101,7 @@ fn unknown(team: &[(String, u32)], what: &str, path: &str, name: &str) -> InputE
 }
 
 /// The robot that a Python string names.
-pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
+pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<AgentId> {
     let id = robot_of(scenario, "robot", &convert::text(robot));
     id.map_err(|error| input_error(&InputErrors(vec![error]), ""))
 }

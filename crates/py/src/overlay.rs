@@ -2,7 +2,7 @@
 
 use crate::metric_scenario::id_of;
 use crate::simulation::Simulation;
-use brain::RobotId;
+use brain::AgentId;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -71,7 +71,7 @@ pub(crate) fn drawn_links<'py>(
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn to_draw(run: &mut Run, selected: Option<RobotId>, all_robots: bool, limit: usize) -> Vec<Link> {
+fn to_draw(run: &mut Run, selected: Option<AgentId>, all_robots: bool, limit: usize) -> Vec<Link> {
     let mut of = |robot| run.links(robot, limit).unwrap_or_default();
     let mut links = match selected {
         _ if all_robots => of(None),
@@ -115,10 +115,10 @@ pub(crate) fn drawn_footprints<'py>(
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn drawn(run: &mut Run, selected: Option<RobotId>, all_robots: bool) -> Vec<u8> {
+fn drawn(run: &mut Run, selected: Option<AgentId>, all_robots: bool) -> Vec<u8> {
     let robots = run.state().each_robot(run.scenario());
     let ids = (0..).zip(robots.map(|robot| robot.id));
-    let ids: Vec<(u32, RobotId)> = ids
+    let ids: Vec<(u32, AgentId)> = ids
         .filter(|(_, id)| all_robots || selected == Some(*id))
         .collect();
     let mut bytes = Vec::new();

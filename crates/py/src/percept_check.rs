@@ -1,8 +1,8 @@
 //! Rejects percepts that a body or a controller cannot have: an error in a driver that the agent would not notice.
 
-use crate::message_check::Kinds;
+use crate::message_check::{Kinds, unless_role};
 use base::error::InputError;
-use brain::{Body, Percept, RobotId, Scan};
+use brain::{AgentRole, Body, Percept, Scan};
 
 /// `percept`, if `body` can have it; `at` is its path in errors.
 pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept, InputError> {
@@ -12,25 +12,10 @@ pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept
     }
 }
 
-/// `percept`, if a controller can have it where robots have this number of kinds, 0 if it is unknown; `at` is its path
-/// in errors.
-pub(crate) fn of_controller(
-    at: &str,
-    percept: Percept,
-    robot_kinds: u8,
-) -> Result<Percept, InputError> {
-    let (first, no_robot) = (robot_kinds.max(1), RobotId::OPERATOR.kind);
-    let kind = percept.id.kind;
-    let error = if (first..no_robot).contains(&kind) {
-        unknown_kind(at, &percept, &Kinds::any())
-    } else {
-        let allowed = format!(
-            "a number from {first} to {}: kinds of controllers are numbered after those of robots",
-            no_robot - 1
-        );
-        let path = format!("{at}.id.kind");
-        Some(InputError::new(path, Some(kind.to_string()), allowed))
-    };
+/// `percept`, if a controller can have it; `at` is its path in errors.
+pub(crate) fn of_controller(at: &str, percept: Percept) -> Result<Percept, InputError> {
+    let error = unless_role(&format!("{at}.id"), percept.id, AgentRole::Controller)
+        .or_else(|| unknown_kind(at, &percept, &Kinds::any()));
     error.map_or(Ok(percept), Err)
 }
 
@@ -71,11 +56,7 @@ fn unknown_kind(at: &str, percept: &Percept, kinds: &Kinds) -> Option<InputError
     let received = || {
         inbox.find_map(|(number, received)| {
             let at = format!("{at}.inbox[{number}]");
-            let sender = kinds.sender(
-                &format!("{at}.from"),
-                received.from,
-                &received.message.about,
-            );
+            let sender = kinds.sender(&format!("{at}.from"), received.from);
             sender.or_else(|| kinds.message(&format!("{at}.message"), &received.message))
         })
     };

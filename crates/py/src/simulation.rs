@@ -181,8 +181,11 @@ impl Simulation {
             let error = InputError::new("name".to_owned(), given, allowed.to_owned());
             return Err(input_error(&InputErrors(vec![error]), ""));
         }
-        let is_robot = usize::from(id.kind) < scenario.team().len();
-        let group = if is_robot { "robots" } else { "controllers" };
+        let group = if id.is_robot() {
+            "robots"
+        } else {
+            "controllers"
+        };
         let kind = name.rsplit_once('/').map_or(name, |(kind, _)| kind);
         Ok((format!("{group}.{kind}.failed"), id.index))
     }
@@ -193,12 +196,11 @@ impl Simulation {
         let run = self.locked(py)?;
         let scenario = run.scenario();
         let id = participant_of(scenario, "name", name);
-        let is_robot = |id: &brain::RobotId| usize::from(id.kind) < scenario.team().len();
         let id = id.and_then(|id| {
             let allowed = "a robot: a controller is always in service".to_owned();
             let given = Some(format!("{name:?}"));
             let error = InputError::new("name".to_owned(), given, allowed);
-            Some(id).filter(is_robot).ok_or(error)
+            Some(id).filter(|id| id.is_robot()).ok_or(error)
         });
         let id = id.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         let kind = name.rsplit_once('/').map_or(name, |(kind, _)| kind);

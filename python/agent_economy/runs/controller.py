@@ -14,7 +14,7 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.plain import NotPlainError, floats
 from agent_economy.scenario import Scenario, as_scenario, validation
-from agent_economy.types.brain import Command, Percept, Reason, RobotId, Task
+from agent_economy.types.brain import Command, Percept, Reason, AgentId, Task
 
 __all__ = ["Controller", "ControllerSettings", "OwnedGoal", "assignment"]
 
@@ -53,9 +53,9 @@ class OwnedGoal(TypedDict):
     """
 
     task: Task
-    assignee: RobotId | None
+    assignee: AgentId | None
     lease_s: float | None
-    heir: RobotId | None
+    heir: AgentId | None
     owner_lease_s: float | None
     unserved: Reason | None
 
@@ -71,10 +71,11 @@ class Controller:
 
     Example:
         >>> from agent_economy import Controller
-        >>> goal = {"issuer": {"kind": 255, "index": 0}, "number": 0}
+        >>> operator = {"role": "person", "kind": 0, "index": 0}
+        >>> me = {"role": "controller", "kind": 1, "index": 0}
+        >>> goal = {"issuer": operator, "number": 0}
         >>> task = {"id": goal, "at_m": [3, 4], "radius_m": 1, "value": 1, "service_s": 0,
         ...         "due_s": 60, "work": "visit", "capability": 0}
-        >>> me, operator = {"kind": 1, "index": 0}, {"kind": 255, "index": 0}
         >>> issue = {"to": me, "about": {"dispatch": {"issue": task}}, "confidence": 1}
         >>> received = {"from": operator, "age_s": 0, "message": issue}
         >>> controller = Controller({"allocation": "nearest"})

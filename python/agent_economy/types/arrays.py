@@ -135,14 +135,17 @@ class ContactColumnRows(ContactColumns):
     row: Integers
 
 
-class RobotIdColumns(TypedDict):
-    """The id of a robot: the `index`-th of its kind, both counted from 0.
+class AgentIdColumns(TypedDict):
+    """The id of an agent: the `index`-th of its kind, both counted from 0.
 
     Attributes:
-        kind: Index of the kind in the scenario.
+        role: What it is; without it, a robot. 0 robot, 1 controller, 2 person.
+        kind: Index of the kind in the scenario, in which kinds of controllers are numbered
+            after those of robots; 0 of persons.
         index: Index within the kind.
     """
 
+    role: Integers
     kind: Integers
     index: Integers
 
@@ -164,7 +167,7 @@ class NeighbourColumns(TypedDict):
     bearing_rad: Floats
     course_rad: Floats
     age_s: Floats
-    id: RobotIdColumns
+    id: AgentIdColumns
 
 
 class NeighbourColumnRows(NeighbourColumns):

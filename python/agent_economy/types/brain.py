@@ -7,14 +7,21 @@ Point: TypeAlias = Sequence[float]
 """A point or a vector; in files `[x, y]`."""
 
 
-class RobotId(TypedDict):
-    """The id of a robot: the `index`-th of its kind, both counted from 0.
+AgentRole: TypeAlias = Literal["robot", "controller", "person"]
+"""What an agent is."""
+
+
+class AgentId(TypedDict):
+    """The id of an agent: the `index`-th of its kind, both counted from 0.
 
     Attributes:
-        kind: Index of the kind in the scenario.
+        role: What it is; without it, a robot.
+        kind: Index of the kind in the scenario, in which kinds of controllers are numbered
+            after those of robots; 0 of persons.
         index: Index within the kind.
     """
 
+    role: NotRequired[AgentRole]
     kind: int
     index: int
 
@@ -30,9 +37,25 @@ class Provenance(TypedDict):
             with more counts.
     """
 
-    observer: RobotId
+    observer: AgentId
     track_id: int
     observations: int
+
+
+class GoalList(TypedDict):
+    """A list of goals.
+
+    Attributes:
+        list: A number that follows from the waypoints, or from the name of the kind: robots
+            with different lists do not confuse their goals, and robots with the same list share
+            them.
+    """
+
+    list: int
+
+
+Issuer: TypeAlias = AgentId | GoalList
+"""What numbers goals."""
 
 
 class GoalId(TypedDict):
@@ -42,13 +65,11 @@ class GoalId(TypedDict):
     one place.
 
     Attributes:
-        issuer: The robot that numbered the goal, by its id at that time. The kind 255 stands
-            for others: with the index 0 for a person, otherwise for a list of waypoints, the
-            same for all robots with the same list.
+        issuer: What numbered the goal.
         number: Its number among the goals of the issuer; in a list of waypoints, its index.
     """
 
-    issuer: RobotId
+    issuer: Issuer
     number: int
 
 
@@ -224,7 +245,7 @@ class Seen(TypedDict):
         at_m: Its position in the world, in metres.
     """
 
-    robot: RobotId
+    robot: AgentId
     at_m: Sequence[float]
 
 
@@ -237,7 +258,7 @@ class Assignment(TypedDict):
     """
 
     goal: GoalId
-    robot: RobotId
+    robot: AgentId
 
 
 class Lane(TypedDict):
@@ -434,8 +455,7 @@ class AboutGoal(TypedDict):
 class AboutOrder(TypedDict):
     """An order of a person.
 
-    It is accepted only if its sender and the issuer of the goal are the operator: kind 255,
-    index 0.
+    It is accepted only if its sender and the issuer of the goal are the operator.
 
     Attributes:
         goal: The id of the goal.
@@ -565,7 +585,7 @@ class BelievedRobot(TypedDict):
         age_s: Time since it was last detected.
     """
 
-    id: RobotId | None
+    id: AgentId | None
     at: Point
     velocity_m_s: Point
     age_s: float
@@ -838,7 +858,7 @@ class Message(TypedDict):
         confidence: Confidence of the sender, 0 to 1.
     """
 
-    to: NotRequired[RobotId]
+    to: NotRequired[AgentId | None]
     about: About
     confidence: float
 
@@ -914,7 +934,7 @@ class Neighbour(TypedDict):
     bearing_rad: float
     course_rad: NotRequired[float | None]
     age_s: float
-    id: RobotId
+    id: AgentId
 
 
 class Observation(TypedDict):
@@ -979,7 +999,7 @@ class Scan(TypedDict):
 
 
 ReceivedMessage = TypedDict(
-    "ReceivedMessage", {"from": RobotId, "age_s": float, "message": Message}
+    "ReceivedMessage", {"from": AgentId, "age_s": float, "message": Message}
 )
 """A received message.
 
@@ -1020,7 +1040,7 @@ class Percept(TypedDict):
 
     time_s: NotRequired[float]
     random_words: NotRequired[Sequence[int]]
-    id: NotRequired[RobotId]
+    id: NotRequired[AgentId]
     team_size: NotRequired[int]
     position: NotRequired[PointReading | None]
     heading_rad: NotRequired[NumberReading | None]
@@ -1047,6 +1067,6 @@ class ServedGoal(TypedDict):
     """
 
     task: Task
-    owner: RobotId
+    owner: AgentId
     lease_s: float
     verdict: Verdict

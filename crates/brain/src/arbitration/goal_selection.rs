@@ -12,7 +12,8 @@ use crate::behaviours::{Memory, Ready};
 use crate::goals::fitness::{Pursuit, Step};
 use crate::goals::proposal::{Destination, Proposal};
 use crate::goals::{Goal, Goals, Verdict};
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::message::Message;
 use crate::messaging::Messaging;
@@ -96,7 +97,7 @@ impl BeliefBrain {
     }
 
     /// Changes the ids of the other robots; those without a new id are forgotten.
-    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(AgentId) -> Option<AgentId>) {
         self.beliefs.renumber(new_id);
         self.messaging.renumber(new_id);
     }

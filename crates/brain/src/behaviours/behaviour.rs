@@ -3,7 +3,7 @@
 use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::command::{Command, Motion};
 use crate::service::assignee::Assignee;
 use crate::situation::Situation;
@@ -59,7 +59,7 @@ pub(crate) trait Behaviour {
     }
 
     /// Changes the ids of other agents; those without a new id are forgotten.
-    fn renumber(&self, _memory: &mut Self::Memory, _new_id: &dyn Fn(RobotId) -> Option<RobotId>) {}
+    fn renumber(&self, _memory: &mut Self::Memory, _new_id: &dyn Fn(AgentId) -> Option<AgentId>) {}
 
     /// Its proposal, if it is triggered. Called in each step in which no higher behaviour is active.
     fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal>;

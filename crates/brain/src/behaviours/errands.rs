@@ -7,8 +7,8 @@
 //! waypoints are left to others, and a commitment expires when its robot has sent nothing for some
 //! time.
 
-use crate::io::body::RobotId;
-use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
+use crate::io::agent_id::AgentId;
+use crate::io::goal_id::{GoalId, GoalPlace, Issuer, issuer_of};
 use crate::messaging::peers::Peers;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -16,7 +16,7 @@ use base::geometry::Point;
 /// A list of waypoints as goals, which are the same for all robots with the same list.
 #[derive(Debug, Clone)]
 pub(crate) struct Waypoints {
-    issuer: RobotId,
+    issuer: Issuer,
     places: Vec<Point>,
 }
 
@@ -88,13 +88,13 @@ impl Errands {
     pub(crate) fn next_of_team(
         &mut self,
         waypoints: &Waypoints,
-        (own, at): (RobotId, Point),
+        (own, at): (AgentId, Point),
         mates: &Peers,
     ) -> Option<GoalPlace> {
         for visited in mates.visits_since(&mut self.visits_processed) {
             self.dismiss(waypoints, *visited);
         }
-        let has_better = |id: RobotId| id < own;
+        let has_better = |id: AgentId| id < own;
         let is_taken = |to: GoalPlace| mates.is_any_going_to(to.id, has_better);
         if !self.is_chosen || self.next(waypoints).is_some_and(is_taken) {
             self.choose(waypoints, at, mates);
@@ -145,8 +145,8 @@ mod tests {
 
     const WAYPOINTS: [Point; 4] = [at(0.0), at(3.0), at(6.0), at(9.0)];
 
-    const fn robot(index: u32) -> RobotId {
-        RobotId { kind: 0, index }
+    const fn robot(index: u32) -> AgentId {
+        AgentId::robot(0, index)
     }
 
     fn waypoint(number: u32) -> GoalPlace {

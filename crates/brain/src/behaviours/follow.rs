@@ -2,7 +2,8 @@
 
 use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::situation::Situation;
@@ -67,12 +68,12 @@ impl Ready {
         }
     }
 
-    fn leader(&self, own: RobotId) -> Option<RobotId> {
+    fn leader(&self, own: AgentId) -> Option<AgentId> {
         let index = match self.robot {
             Some(robot) => robot,
             None => own.index.checked_sub(1)?,
         };
-        (index != own.index).then_some(RobotId { index, ..own })
+        (index != own.index).then_some(AgentId { index, ..own })
     }
 }
 

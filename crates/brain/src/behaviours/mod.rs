@@ -43,7 +43,8 @@ use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::orders::AssignedGoal;
 use crate::goals::proposal::Proposal;
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::command::{Command, Motion};
 use crate::service::assignee::Assignee;
 use crate::situation::Situation;
@@ -192,7 +193,7 @@ macro_rules! behaviours {
             fn renumber(
                 &self,
                 memory: &mut Memory,
-                new_id: &dyn Fn(RobotId) -> Option<RobotId>,
+                new_id: &dyn Fn(AgentId) -> Option<AgentId>,
             ) {
                 match (self, memory) {
                     $((Self::$kind(ready), Memory::$kind(memory)) => {

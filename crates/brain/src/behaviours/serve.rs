@@ -5,7 +5,8 @@ use super::lawnmower::{ahead_m, all_round_m, swath_m};
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::act::ActKind;
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::command::{Command, Motion};
 use crate::navigation::hazards::kept_m;
 use crate::perception::beliefs::Beliefs;
@@ -80,7 +81,6 @@ impl Ready {
                 charge: body.tool(ActKind::Neutralise).copied(),
                 fence: body.tool(ActKind::Isolate).copied(),
                 capabilities: body.capabilities.as_slice().into(),
-                robot_kinds: body.others.len(),
             },
             value: spec.value,
         }
@@ -166,7 +166,7 @@ impl Behaviour for Ready {
         Some(assignee)
     }
 
-    fn renumber(&self, assignee: &mut Box<Assignee>, new_id: &dyn Fn(RobotId) -> Option<RobotId>) {
+    fn renumber(&self, assignee: &mut Box<Assignee>, new_id: &dyn Fn(AgentId) -> Option<AgentId>) {
         assignee.renumber(&new_id);
     }
 

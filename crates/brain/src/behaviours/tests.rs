@@ -3,7 +3,8 @@
 use super::*;
 use crate::arbitration::Arbitration;
 use crate::brain::Brain;
-use crate::io::body::{Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Detector;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::spec::BrainSpec;
 use crate::world_of_walls::{Walk, Wiring, outline, room, rover};
@@ -219,7 +220,7 @@ fn shared_waypoints_are_visited_by_one_robot_each() {
     for (index, own) in [(1, 1), (5, 2)] {
         let mission = navigate(&places, Assignment::OneEach);
         let mut robot = Mission::new(mission, [10.0, 10.0], &[], at(5.0, 5.0));
-        robot.walk.id = (RobotId { kind: 0, index }, 6);
+        robot.walk.id = (AgentId::robot(0, index), 6);
         robot.go(30);
         for (number, place) in places.iter().enumerate() {
             assert_eq!(
@@ -244,7 +245,7 @@ fn two_robots_cover_a_room_together_in_half_the_time() {
     let both = [0, 1].map(|index| {
         let mission = BehaviourSpec::Lawnmower(Lawnmower::default());
         let mut robot = Mission::new(mission, [10.0, 8.0], &[], at(5.0, 4.0));
-        robot.walk.id = (RobotId { kind: 0, index }, 2);
+        robot.walk.id = (AgentId::robot(0, index), 2);
         robot.go(26);
         robot
     });
@@ -343,10 +344,10 @@ fn a_robot_returns_home_before_its_battery_is_empty() {
 
 #[test]
 fn a_follower_keeps_its_distance() {
-    let leader = RobotId { kind: 0, index: 0 };
+    let leader = AgentId::robot(0, 0);
     let mission = BehaviourSpec::Follow(Follow::default());
     let mut robot = Mission::new(mission, [40.0, 10.0], &[], at(2.0, 5.0));
-    robot.walk.id = (RobotId { kind: 0, index: 1 }, 2);
+    robot.walk.id = (AgentId::robot(0, 1), 2);
     for step in 0..40 {
         let gone_m = 0.7 * f64::from(step);
         robot.walk.others = vec![(leader, at(6.0 + gone_m, 5.0))];

@@ -176,12 +176,12 @@ impl Fitness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::body::RobotId;
-    use crate::io::goal_id::GoalId;
+    use crate::io::agent_id::AgentId;
+    use crate::io::goal_id::{GoalId, Issuer};
 
     const GOAL: Destination = Destination {
         id: GoalId {
-            issuer: RobotId { kind: 0, index: 0 },
+            issuer: Issuer::Agent(AgentId::robot(0, 0)),
             number: 1,
         },
         at: Point { x: 9.0, y: 0.0 },

@@ -232,12 +232,15 @@ impl Goals {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::body::RobotId;
+    use crate::io::agent_id::AgentId;
     use fitness::Pursuit;
 
     fn id(number: u32) -> GoalId {
-        let issuer = RobotId::default();
-        GoalId { issuer, number }
+        let issuer = AgentId::default();
+        GoalId {
+            issuer: issuer.into(),
+            number,
+        }
     }
 
     /// Each place has a goal of its own.

@@ -5,7 +5,7 @@
 
 use super::fitness::{Fitness, Pursuit, Step, Verdict};
 use super::proposal::Destination;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::Reason;
 use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
 use crate::io::message::{About, OrderAction};
@@ -75,7 +75,7 @@ pub(crate) fn order_of(received: &ReceivedMessage) -> Option<(GoalPlace, OrderAc
     let About::Order { goal, at, action } = received.message.about else {
         return None;
     };
-    let is_own = received.from == RobotId::OPERATOR && goal.issuer == received.from;
+    let is_own = received.from == AgentId::OPERATOR && goal.issuer == received.from.into();
     let is_valid = (0.0..=1.0).contains(&received.message.confidence)
         && (0.0..f64::INFINITY).contains(&received.age_s)
         && at.x.abs() <= MAX_COORDINATE_M

@@ -49,13 +49,13 @@ pub(crate) fn time_s(path_m: f64, destination: &Destination) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::body::RobotId;
-    use crate::io::goal_id::GoalId;
+    use crate::io::agent_id::AgentId;
+    use crate::io::goal_id::{GoalId, Issuer};
     use base::geometry::Point;
 
     const DESTINATION: Destination = Destination {
         id: GoalId {
-            issuer: RobotId { kind: 0, index: 0 },
+            issuer: Issuer::Agent(AgentId::robot(0, 0)),
             number: 1,
         },
         at: Point { x: 0.0, y: 0.0 },

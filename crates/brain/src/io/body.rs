@@ -4,51 +4,8 @@ use super::act::{ActKind, Tool};
 use alloc::string::String;
 use alloc::vec::Vec;
 use base::geometry::Rectangle;
-use base::hashed::Hashed;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// The id of a robot: the `index`-th of its kind, both counted from 0.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    Default,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    Hash,
-    Serialize,
-    Deserialize,
-    JsonSchema,
-    Hashed,
-)]
-#[serde(deny_unknown_fields)]
-pub struct RobotId {
-    /// Index of the kind in the scenario.
-    pub kind: u8,
-    /// Index within the kind.
-    pub index: u32,
-}
-
-/// The kind of ids that are not those of robots: no scenario has that many kinds.
-pub(crate) const NO_ROBOT: u8 = u8::MAX;
-
-impl RobotId {
-    /// The sender of a person's orders. No robot has this id, and radios name the true sender of a
-    /// message.
-    pub const OPERATOR: Self = Self {
-        kind: NO_ROBOT,
-        index: 0,
-    };
-
-    /// The receiver of a message to all that it reaches.
-    pub const EVERYONE: Self = Self {
-        kind: NO_ROBOT,
-        index: u32::MAX,
-    };
-}
 
 /// What a brain knows of its body, the same for all robots of a kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

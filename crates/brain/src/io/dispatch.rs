@@ -2,7 +2,7 @@
 //!
 //! `docs/economy.md` describes the protocol: which message answers which.
 
-use super::body::RobotId;
+use super::agent_id::AgentId;
 use super::goal_id::GoalId;
 use super::lane::{Coverage, Lane, MAX_COORDINATE_M, Mark, Statement};
 use super::verdict::Verdict;
@@ -267,7 +267,7 @@ pub struct Assignment {
     /// The goal.
     pub goal: GoalId,
     /// The robot.
-    pub robot: RobotId,
+    pub robot: AgentId,
 }
 
 /// Why a robot or a controller does not serve a goal.
@@ -327,7 +327,7 @@ pub struct Renewal {
 #[serde(deny_unknown_fields)]
 pub struct Seen {
     /// The robot.
-    pub robot: RobotId,
+    pub robot: AgentId,
     /// Its position in the world, in metres.
     pub at_m: [f32; 2],
 }

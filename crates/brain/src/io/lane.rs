@@ -1,5 +1,6 @@
 //! Messages about a mined lane: its cells, what robots have searched and marked, and what they state.
 
+use super::agent_id::AgentId;
 use super::goal_id::GoalId;
 use base::geometry::{Point, Rectangle};
 use base::hashed::Hashed;
@@ -230,6 +231,12 @@ pub struct Mark {
 }
 
 impl Mark {
+    /// The robot that has detected it. Receivers ignore a mark whose issuer is not its sender.
+    #[must_use]
+    pub fn robot(&self) -> AgentId {
+        self.id.issuer.agent().unwrap_or_default()
+    }
+
     /// Its position in the world.
     #[must_use]
     pub fn at(&self) -> Point {

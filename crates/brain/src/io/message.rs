@@ -1,6 +1,6 @@
 //! Messages between robots.
 
-use super::body::RobotId;
+use super::agent_id::{AgentId, Receiver};
 use super::dispatch::Dispatch;
 use super::goal_id::GoalId;
 use base::geometry::Point;
@@ -14,8 +14,9 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Message {
     /// The only receiver; without it, all that the message reaches.
-    #[serde(default = "everyone", skip_serializing_if = "is_everyone")]
-    pub to: RobotId,
+    #[serde(default, skip_serializing_if = "Receiver::is_all")]
+    #[schemars(with = "Option<AgentId>")]
+    pub to: Receiver,
     /// Its content.
     pub about: About,
     /// Confidence of the sender, 0 to 1.
@@ -26,14 +27,14 @@ impl Message {
     /// A message to all that it reaches, with full confidence.
     #[must_use]
     pub fn to_all(about: About) -> Self {
-        Self::to(RobotId::EVERYONE, about)
+        Self::to(Receiver::All, about)
     }
 
     /// A message to one receiver, with full confidence.
     #[must_use]
-    pub fn to(to: RobotId, about: About) -> Self {
+    pub fn to(to: impl Into<Receiver>, about: About) -> Self {
         Self {
-            to,
+            to: to.into(),
             about,
             confidence: 1.0,
         }
@@ -51,15 +52,6 @@ impl Message {
     }
 }
 
-fn everyone() -> RobotId {
-    RobotId::EVERYONE
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-fn is_everyone(to: &RobotId) -> bool {
-    *to == RobotId::EVERYONE
-}
-
 impl Hashed for Message {
     /// A message to all has the hash that messages had before they could have a receiver.
     fn add_to(&self, hash: &mut Hash) {
@@ -69,8 +61,8 @@ impl Hashed for Message {
             confidence,
         } = self;
         (*about, *confidence).add_to(hash);
-        if !is_everyone(to) {
-            to.add_to(hash);
+        if let Receiver::Agent(id) = to {
+            id.add_to(hash);
         }
     }
 }
@@ -113,7 +105,7 @@ pub enum About {
         status: CommitmentStatus,
     },
     /// An order of a person. It is accepted only if its sender and the issuer of the goal are the
-    /// operator: kind 255, index 0.
+    /// operator.
     Order {
         /// The id of the goal.
         goal: GoalId,
@@ -145,7 +137,7 @@ pub enum About {
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// The observer.
-    pub observer: RobotId,
+    pub observer: AgentId,
     /// The number that the observer gave the item.
     pub track_id: u32,
     /// Number of observations: of two reports with the same track id, the one with more counts.

@@ -1,6 +1,7 @@
 //! The interface of a brain: what it receives, and what it returns.
 
 pub(crate) mod act;
+pub(crate) mod agent_id;
 pub(crate) mod body;
 pub(crate) mod command;
 pub(crate) mod dispatch;

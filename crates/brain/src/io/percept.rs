@@ -1,7 +1,7 @@
 //! Percepts: the input of a brain.
 
 use crate::io::act::Acted;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::command::Motion;
 use crate::io::message::Message;
 use alloc::vec::Vec;
@@ -25,7 +25,7 @@ pub struct Percept {
     /// Random bits of this step, the only source of randomness of a brain.
     pub random_words: [u32; 4],
     /// The id of the robot, known before the mission.
-    pub id: RobotId,
+    pub id: AgentId,
     /// Number of robots of its kind, itself included; 0 if unknown.
     pub team_size: u32,
     /// Its position in the world.
@@ -164,7 +164,7 @@ pub struct Neighbour {
     /// Time since the measurement.
     pub age_s: f64,
     /// Its id.
-    pub id: RobotId,
+    pub id: AgentId,
 }
 
 /// A received message.
@@ -172,7 +172,7 @@ pub struct Neighbour {
 #[serde(deny_unknown_fields)]
 pub struct ReceivedMessage {
     /// The sender.
-    pub from: RobotId,
+    pub from: AgentId,
     /// Time since it was sent.
     pub age_s: f64,
     /// The message.

@@ -4,7 +4,7 @@ use super::commitment::Commitment;
 use super::phase::phase;
 use super::visits::OwnVisits;
 use crate::goals::proposal::Destination;
-use crate::io::body::RobotId;
+use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::goal_id::GoalPlace;
 use crate::io::message::{About, CommitmentStatus, Message};
 use crate::perception::beliefs::pose::Pose;
@@ -52,7 +52,7 @@ impl BroadcastState {
     /// Whether a broadcast is due after a step of `elapsed_s`. The sum of steps may be off by half
     /// a step; the remainder counts for the next broadcast, so that the mean rate does not depend
     /// on the steps.
-    pub(super) fn is_due(&mut self, own: RobotId, elapsed_s: f64) -> bool {
+    pub(super) fn is_due(&mut self, own: AgentId, elapsed_s: f64) -> bool {
         let initial_s = || BROADCAST_PERIOD_S * phase(own, [BROADCAST_PERIOD_S, self.period_s]);
         let age_s = self.age_s.unwrap_or_else(initial_s) + elapsed_s;
         let half_s = elapsed_s.min(BROADCAST_PERIOD_S) / 2.0;
@@ -140,7 +140,7 @@ impl BroadcastState {
 /// A message with full confidence.
 fn certain(about: About) -> Message {
     Message {
-        to: RobotId::EVERYONE,
+        to: Receiver::All,
         about,
         confidence: 1.0,
     }

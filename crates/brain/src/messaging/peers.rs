@@ -2,7 +2,7 @@
 //!
 //! Each of these has its own age, which starts at the age of its message.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::io::message::CommitmentStatus;
 use crate::io::percept::Reading;
@@ -25,7 +25,7 @@ const AGE_TOLERANCE_S: f64 = 1e-6;
 /// A team mate, as known from its messages.
 #[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Peer {
-    pub(crate) id: RobotId,
+    pub(crate) id: AgentId,
     /// Its last reported position and number of observations, whether trusted or not.
     reported: Option<Reading<(Point, u32)>>,
     /// Its last trusted position.
@@ -57,7 +57,7 @@ impl Peers {
     /// seconds.
     pub(crate) fn update_observations(
         &mut self,
-        id: RobotId,
+        id: AgentId,
         Reading { value, age_s }: Reading<(Point, u32)>,
     ) -> (Point, u32, f64) {
         let (at, observations) = value;
@@ -77,7 +77,7 @@ impl Peers {
     }
 
     /// Updates the position of a robot with a report of a given age.
-    pub(crate) fn update_position(&mut self, id: RobotId, at: Point, age_s: f64) {
+    pub(crate) fn update_position(&mut self, id: AgentId, at: Point, age_s: f64) {
         if age_s > MAX_AGE_S {
             return;
         }
@@ -90,7 +90,7 @@ impl Peers {
     /// Updates the destination of a robot with a report of a given age. Visits never expire.
     pub(crate) fn update_destination(
         &mut self,
-        id: RobotId,
+        id: AgentId,
         goal: GoalPlace,
         status: CommitmentStatus,
         age_s: f64,
@@ -127,13 +127,13 @@ impl Peers {
     pub(crate) fn is_any_going_to(
         &self,
         goal: GoalId,
-        condition: impl Fn(RobotId) -> bool,
+        condition: impl Fn(AgentId) -> bool,
     ) -> bool {
         let mut mates = self.mates.iter();
         mates.any(|peer| peer.is_going_to(goal) && condition(peer.id))
     }
 
-    fn peer(&mut self, id: RobotId) -> &mut Peer {
+    fn peer(&mut self, id: AgentId) -> &mut Peer {
         let known = self.mates.iter().position(|peer| peer.id == id);
         let index = known.unwrap_or_else(|| {
             if self.mates.len() == MAX_PEERS {

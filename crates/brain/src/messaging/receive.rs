@@ -3,7 +3,8 @@
 use super::reports::{Report, freshness};
 use super::state::Messaging;
 use super::trust::MIN_TRUST;
-use crate::io::body::{Body, Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::{Body, Detector};
 use crate::io::goal_id::GoalPlace;
 use crate::io::message::{About, Provenance};
 use crate::io::percept::{Percept, Reading, ReceivedMessage};
@@ -109,7 +110,7 @@ impl Messaging {
     /// not matter, but no more of them count than are plausible.
     fn observed_path<'b>(
         &mut self,
-        mate: RobotId,
+        mate: AgentId,
         reported: Reading<(Point, u32)>,
         body: &'b Body,
     ) -> ObservedPath<'b> {

@@ -33,7 +33,7 @@
 //! The bound is on belief by reports: own observations apply after it.
 
 use super::trust::{MIN_TRUST, Trust};
-use crate::io::body::RobotId;
+use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::message::{About, Message, Provenance};
 use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::{
@@ -72,7 +72,7 @@ pub(crate) struct Report {
     /// Probability that it still carries information about the item: see [`freshness`].
     pub(crate) freshness: f64,
     /// The sender.
-    pub(crate) from: RobotId,
+    pub(crate) from: AgentId,
 }
 
 impl Report {
@@ -110,19 +110,19 @@ impl Report {
 /// The receiving robot, and its trust in others.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reception<'t> {
-    pub(crate) own: RobotId,
+    pub(crate) own: AgentId,
     pub(crate) trust: &'t Trust,
 }
 
 impl Reception<'_> {
     /// Trust in another robot, 0 to 1.
-    pub(crate) fn trust_in(&self, other: RobotId) -> f64 {
+    pub(crate) fn trust_in(&self, other: AgentId) -> f64 {
         self.trust.of(other)
     }
 
     /// Whether a robot is trusted enough for its reports to be relayed, or to replace those of
     /// others.
-    fn trusts(&self, other: RobotId) -> bool {
+    fn trusts(&self, other: AgentId) -> bool {
         other == self.own || self.trust_in(other) >= MIN_TRUST
     }
 }
@@ -175,7 +175,7 @@ impl Items {
     }
 
     /// Updates the trust in the senders of reports that own observations confirm or refute.
-    pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust) {
+    pub(crate) fn learn(&mut self, own: AgentId, trust: &mut Trust) {
         for number in mem::take(&mut self.unjudged).iter() {
             let Some(track) = self.tracks.get_mut(number) else {
                 break;
@@ -241,7 +241,7 @@ impl Items {
                 left -= 1;
                 let provenance = source.provenance;
                 outbox.push(Message {
-                    to: RobotId::EVERYONE,
+                    to: Receiver::All,
                     about: About::Item {
                         kind,
                         at,
@@ -316,7 +316,7 @@ impl Track {
 
     /// Whether own observations have confirmed a report of this item by a sender. Trust then does not
     /// grow by further ones: otherwise a liar could earn it by one item with many numbers.
-    fn is_credited(&self, own: RobotId, sender: RobotId) -> bool {
+    fn is_credited(&self, own: AgentId, sender: AgentId) -> bool {
         let mut sources = self.sources[..self.count].iter();
         self.own_verdict(own) == Some(true)
             && sources.any(|source| source.from == sender && source.is_judged)
@@ -376,7 +376,7 @@ impl Track {
     }
 
     /// Whether own observations confirm the item; `None` if they are not decisive.
-    fn own_verdict(&self, own: RobotId) -> Option<bool> {
+    fn own_verdict(&self, own: AgentId) -> Option<bool> {
         let mut sources = self.sources[..self.count].iter();
         let source = sources.find(|source| source.provenance.observer == own)?;
         if source.log_odds() > DECISIVE {
@@ -388,7 +388,7 @@ impl Track {
         }
     }
 
-    fn has_report_from(&self, sender: RobotId) -> bool {
+    fn has_report_from(&self, sender: AgentId) -> bool {
         let mut sources = self.sources[..self.count].iter();
         sources.any(|source| source.from == sender)
     }
@@ -445,7 +445,7 @@ impl Source {
 struct WeightedReport {
     slot: usize,
     /// The sender and the observer.
-    robots: [RobotId; 2],
+    robots: [AgentId; 2],
     /// Trust in the sender x trust in the observer, once if they are one robot.
     trust: f64,
     /// Log likelihood ratio, discounted by trust.
@@ -476,7 +476,7 @@ impl WeightedReport {
     }
 
     /// Whether it comes from one of two robots, or from observations of one of them.
-    fn shares(&self, robots: [RobotId; 2]) -> bool {
+    fn shares(&self, robots: [AgentId; 2]) -> bool {
         robots.iter().any(|robot| self.robots.contains(robot))
     }
 }

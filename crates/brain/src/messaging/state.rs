@@ -5,7 +5,8 @@ use super::commitment::Commitment;
 use super::peers::Peers;
 use super::reports::Reception;
 use super::trust::Trust;
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::message::Message;
 use crate::perception::beliefs::items::track::Track;
 use crate::perception::beliefs::{Beliefs, BeliefsSpec};
@@ -47,8 +48,8 @@ impl Messaging {
     }
 
     /// Renumbers the robots; information about removed robots is dropped.
-    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
-        let keep = |id: &mut RobotId| new_id(*id).map(|new| *id = new).is_some();
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(AgentId) -> Option<AgentId>) {
+        let keep = |id: &mut AgentId| new_id(*id).map(|new| *id = new).is_some();
         self.peers.mates.retain_mut(|peer| keep(&mut peer.id));
         self.trust.renumber(keep);
     }
@@ -81,7 +82,7 @@ impl Messaging {
         beliefs.items.report(&reception, outbox, MAX_ITEM_MESSAGES);
     }
 
-    pub(super) fn reception(&self, own: RobotId) -> Reception<'_> {
+    pub(super) fn reception(&self, own: AgentId) -> Reception<'_> {
         Reception {
             own,
             trust: &self.trust,

@@ -2,8 +2,9 @@ use super::Messaging;
 use super::commitment::Commitment;
 use super::receive::MAX_OBSERVATION_RATE_HZ;
 use crate::goals::proposal::Destination;
+use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::body::Body;
-use crate::io::body::{Detector, RobotId};
+use crate::io::body::Detector;
 use crate::io::goal_id::GoalId;
 use crate::io::message::CommitmentStatus;
 use crate::io::message::{About, Message, Provenance};
@@ -18,8 +19,8 @@ use crate::world_of_walls::{now, rover};
 use base::geometry::Point;
 use base::geometry::Rectangle;
 
-const ME: RobotId = RobotId { kind: 0, index: 0 };
-const MATE: RobotId = RobotId { kind: 0, index: 1 };
+const ME: AgentId = AgentId::robot(0, 0);
+const MATE: AgentId = AgentId::robot(0, 1);
 
 /// A robot that detects items all around, up to 2 m, on a field of 20 m by 20 m.
 fn body(probability: f64) -> Body {
@@ -130,7 +131,7 @@ fn received(about: About, confidence: f64) -> ReceivedMessage {
         from: MATE,
         age_s: 0.0,
         message: Message {
-            to: RobotId::EVERYONE,
+            to: Receiver::All,
             about,
             confidence,
         },
@@ -291,7 +292,7 @@ fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
         let mut outbox = Vec::new();
         let aim = goal.map(|at| Destination {
             id: GoalId {
-                issuer: RobotId::default(),
+                issuer: AgentId::default().into(),
                 number: u32::from(at == here),
             },
             at,
@@ -365,7 +366,7 @@ fn invalid_messages_are_ignored() {
 }
 
 /// A report by a team mate of its own or another robot's observations.
-fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedMessage {
+fn relayed(from: AgentId, observer: AgentId, x: f64, track_id: u32) -> ReceivedMessage {
     let (at, observations) = (Point { x, y: 9.5 }, 1);
     let provenance = Provenance {
         observer,
@@ -388,7 +389,7 @@ fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedM
 
 #[test]
 fn a_false_relayed_report_lowers_the_trust_in_its_sender() {
-    let (mut robot, innocent) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
+    let (mut robot, innocent) = (Robot::new(0.8, 0.9), AgentId::robot(0, 3));
     for track_id in 1..5 {
         robot.step(
             false,
@@ -407,7 +408,7 @@ fn a_false_relayed_report_lowers_the_trust_in_its_sender() {
 
 #[test]
 fn a_report_that_is_relayed_later_counts_for_its_first_sender() {
-    let (mut robot, other) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
+    let (mut robot, other) = (Robot::new(0.8, 0.9), AgentId::robot(0, 3));
     robot.step(
         false,
         vec![relayed(MATE, MATE, 8.0, 1), relayed(other, MATE, 8.0, 1)],

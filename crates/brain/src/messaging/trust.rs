@@ -1,6 +1,6 @@
 //! Trust in other robots.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::perception::beliefs::TrustSpec;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
@@ -42,7 +42,7 @@ pub(crate) struct Trust {
 
 #[derive(Debug, Clone, Hashed)]
 struct Record {
-    id: RobotId,
+    id: AgentId,
     confirmed: f32,
     refuted: f32,
 }
@@ -57,7 +57,7 @@ impl Trust {
 
     /// Returns the trust in a robot, 0 to 1.
     #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
-    pub(crate) fn of(&self, robot: RobotId) -> f64 {
+    pub(crate) fn of(&self, robot: AgentId) -> f64 {
         let initial = self.spec.initial as f32;
         let record = self.records.iter().find(|record| record.id == robot);
         record.map_or(self.spec.initial, |record| {
@@ -67,12 +67,12 @@ impl Trust {
     }
 
     /// Renumbers the robots, and drops the records of those for which `keep` returns false.
-    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut AgentId) -> bool) {
         self.records.retain_mut(|record| keep(&mut record.id));
     }
 
     /// Records that a report of a robot was confirmed or refuted.
-    pub(crate) fn learn(&mut self, robot: RobotId, is_confirmed: bool) {
+    pub(crate) fn learn(&mut self, robot: AgentId, is_confirmed: bool) {
         if !self.spec.adaptive {
             return;
         }
@@ -101,7 +101,7 @@ impl Trust {
 mod tests {
     use super::*;
 
-    const SENDER: RobotId = RobotId { kind: 0, index: 3 };
+    const SENDER: AgentId = AgentId::robot(0, 3);
 
     #[test]
     fn trust_falls_with_refuted_reports_and_rises_with_confirmed_ones() {
@@ -111,7 +111,7 @@ mod tests {
         assert!((trust.of(SENDER) - 0.45).abs() < 1e-6);
         (0..8).for_each(|_| trust.learn(SENDER, true));
         assert!(trust.of(SENDER) > 0.7);
-        assert!((trust.of(RobotId::default()) - 0.9).abs() < 1e-6);
+        assert!((trust.of(AgentId::default()) - 0.9).abs() < 1e-6);
     }
 
     #[test]
@@ -129,7 +129,7 @@ mod tests {
     fn memory_is_bounded_for_any_number_of_robots() {
         let mut trust = Trust::new(&TrustSpec::default());
         for index in 0..1000 {
-            trust.learn(RobotId { kind: 0, index }, false);
+            trust.learn(AgentId::robot(0, index), false);
         }
         assert_eq!(trust.records.len(), MAX_RECORDS);
     }

@@ -1,6 +1,6 @@
 //! The visits of a robot that it repeats to its team.
 
-use crate::io::body::NO_ROBOT;
+use crate::io::agent_id::AgentId;
 use crate::io::goal_id::GoalPlace;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
@@ -16,9 +16,11 @@ pub(super) struct OwnVisits {
 }
 
 impl OwnVisits {
-    /// Adds a visit, unless the goal is one that the robot chose itself: no other robot has that.
+    /// Adds a visit, unless the goal is one that the robot chose itself or that a controller has planned: no other
+    /// robot has that.
     pub(super) fn add(&mut self, goal: GoalPlace) {
-        if goal.id.issuer.kind != NO_ROBOT {
+        let issuer = goal.id.issuer.agent();
+        if issuer.is_some_and(|id| id != AgentId::OPERATOR) {
             return;
         }
         if self.visits.len() == MAX_VISITS {
@@ -38,12 +40,13 @@ impl OwnVisits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::body::RobotId;
-    use crate::io::goal_id::GoalId;
+    use crate::io::goal_id::{GoalId, GoalList, Issuer};
     use base::geometry::Point;
 
-    fn goal(kind: u8, number: u32) -> GoalPlace {
-        let issuer = RobotId { kind, index: 1 };
+    const SHARED: Issuer = Issuer::List(GoalList { list: 1 });
+    const OWN: Issuer = Issuer::Agent(AgentId::robot(0, 1));
+
+    fn goal(issuer: Issuer, number: u32) -> GoalPlace {
         GoalPlace {
             id: GoalId { issuer, number },
             at: Point::default(),
@@ -58,21 +61,21 @@ mod tests {
     #[test]
     fn visits_of_shared_waypoints_are_repeated_in_turn() {
         let mut visits = OwnVisits::default();
-        (0..3).for_each(|number| visits.add(goal(NO_ROBOT, number)));
+        (0..3).for_each(|number| visits.add(goal(SHARED, number)));
         assert_eq!(repeated(&mut visits, 7), [0, 1, 2, 0, 1, 2, 0]);
     }
 
     #[test]
     fn visits_of_goals_that_the_robot_chose_itself_are_not_repeated() {
         let mut visits = OwnVisits::default();
-        visits.add(goal(0, 1));
+        visits.add(goal(OWN, 1));
         assert_eq!(visits.next(), None);
     }
 
     #[test]
     fn the_number_of_visits_is_bounded_and_the_oldest_is_dropped() {
         let mut visits = OwnVisits::default();
-        (0..100).for_each(|number| visits.add(goal(NO_ROBOT, number)));
+        (0..100).for_each(|number| visits.add(goal(SHARED, number)));
         let all = repeated(&mut visits, 2 * MAX_VISITS);
         assert_eq!(all.iter().min(), Some(&36));
         assert_eq!(all[..MAX_VISITS], all[MAX_VISITS..]);

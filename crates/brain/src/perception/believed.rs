@@ -1,6 +1,6 @@
 //! Estimates of items and robots, as the belief state shows them.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub struct BelievedItem {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BelievedRobot {
     /// Its id, if it was identified.
-    pub id: Option<RobotId>,
+    pub id: Option<AgentId>,
     /// Its position in the robot's frame: x forwards, y to the left.
     pub at: Point,
     /// Its velocity over ground, in the same frame.

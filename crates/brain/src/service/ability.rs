@@ -2,7 +2,7 @@
 
 use super::lanes::Lanes;
 use crate::io::act::Tool;
-use crate::io::body::{Body, RobotId};
+use crate::io::body::Body;
 use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
 use crate::navigation::hazards::WORK_REACH_M;
@@ -50,8 +50,6 @@ pub(crate) struct Ability {
     /// Its tool to fence items off, if it has one.
     pub(crate) fence: Option<Tool>,
     pub(crate) capabilities: Arc<[u8]>,
-    /// Kinds of participants from this number on are controllers.
-    pub(crate) robot_kinds: usize,
 }
 
 impl Ability {
@@ -171,11 +169,6 @@ impl Ability {
         let (away_m, radius_m) = (at.to(task.at()).length(), f64::from(task.radius_m));
         let is_seen = task.work != Work::Search || away_m + radius_m <= self.all_round_m;
         away_m <= radius_m && is_seen
-    }
-
-    /// Whether an agent is a controller.
-    pub(crate) fn is_controller(&self, id: RobotId) -> bool {
-        usize::from(id.kind) >= self.robot_kinds && id.kind != RobotId::OPERATOR.kind
     }
 }
 

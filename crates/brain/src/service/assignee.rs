@@ -13,7 +13,7 @@ use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
 use crate::goals::proposal::within_m;
 use crate::io::act::Act;
-use crate::io::body::RobotId;
+use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::command::Command;
 use crate::io::dispatch::{Award, Claim, Dispatch, Reason, Task, Work};
 use crate::io::goal_id::GoalId;
@@ -91,7 +91,7 @@ impl Assignee {
     /// verdicts on the marks that it has interrogated.
     pub(crate) fn report_lane(&mut self, ability: &Ability, moment: &Moment, beliefs: &Beliefs) {
         let inbox = moment.percept.inbox.iter();
-        for received in inbox.filter(|received| ability.is_controller(received.from)) {
+        for received in inbox.filter(|received| received.from.is_controller()) {
             if let About::Dispatch(Dispatch::Lane(lane)) = received.message.about {
                 let phase = phase(
                     moment.percept.id,
@@ -110,7 +110,7 @@ impl Assignee {
         }
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
             match dispatch {
-                Dispatch::Statement(_) => self.send(RobotId::EVERYONE, dispatch),
+                Dispatch::Statement(_) => self.send(Receiver::All, dispatch),
                 // Broadcast, these would be most of the messages that other robots receive.
                 _ => self.send_to_controllers(dispatch),
             }
@@ -176,9 +176,9 @@ impl Assignee {
     }
 
     /// Changes the ids of other agents; those without a new id are forgotten.
-    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(AgentId) -> Option<AgentId>) {
         // Leases and offers name their owners: after a change of ids, they are obtained again.
-        let is_unchanged = |id: RobotId| new_id(id) == Some(id);
+        let is_unchanged = |id: AgentId| new_id(id) == Some(id);
         let others = self.jobs.list.iter().filter(|job| !is_unchanged(job.owner));
         let others: Vec<GoalId> = others.map(|job| job.task.id).collect();
         for goal in others {
@@ -189,7 +189,7 @@ impl Assignee {
             .retain(|contact| is_unchanged(contact.id));
     }
 
-    pub(super) fn send(&mut self, to: RobotId, dispatch: Dispatch) {
+    pub(super) fn send(&mut self, to: impl Into<Receiver>, dispatch: Dispatch) {
         self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
     }
 
@@ -254,23 +254,23 @@ impl Assignee {
             return;
         };
         let from = received.from;
-        if let (RobotId::OPERATOR, Dispatch::Service(is_in)) = (from, dispatch) {
+        if let (AgentId::OPERATOR, Dispatch::Service(is_in)) = (from, dispatch) {
             self.set_service(is_in);
         }
-        if !ability.is_controller(from) {
+        if !from.is_controller() {
             return;
         }
         self.schedule.note(from, self.now_s);
         match dispatch {
             Dispatch::Query {} => self.schedule.report_now(from, self.now_s),
             Dispatch::Call { number, task } if task.is_valid() => {
-                let is_only_one = received.message.to != RobotId::EVERYONE;
+                let is_only_one = !received.message.to.is_all();
                 let offer = Offer::new(task, from, number, self.now_s);
                 self.take_call(offer, is_only_one, ability, moment);
             }
             Dispatch::Award(award) => self.take_award(from, award, ability, moment),
             Dispatch::Withdraw(claim) => {
-                let is_only_one = received.message.to != RobotId::EVERYONE;
+                let is_only_one = !received.message.to.is_all();
                 self.take_withdrawal(from, claim, is_only_one);
             }
             Dispatch::Renewed(number) => self.holder.renew(from, number, self.now_s),
@@ -301,7 +301,7 @@ impl Assignee {
         }
     }
 
-    fn take_award(&mut self, from: RobotId, award: Award, ability: &Ability, moment: &Moment) {
+    fn take_award(&mut self, from: AgentId, award: Award, ability: &Ability, moment: &Moment) {
         let Award { goal, number, .. } = award;
         let claim = Claim { goal, number };
         if self.finished.contains(goal) {
@@ -329,7 +329,7 @@ impl Assignee {
 
     fn accepted(
         &mut self,
-        from: RobotId,
+        from: AgentId,
         award: Award,
         ability: &Ability,
         moment: &Moment,
@@ -376,7 +376,7 @@ impl Assignee {
         }
     }
 
-    fn take_withdrawal(&mut self, from: RobotId, claim: Claim, is_only_one: bool) {
+    fn take_withdrawal(&mut self, from: AgentId, claim: Claim, is_only_one: bool) {
         let goal = claim.goal;
         if self
             .offers

@@ -138,9 +138,10 @@ impl Estimate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::body::{Body, RobotId};
+    use crate::io::agent_id::AgentId;
+    use crate::io::body::Body;
     use crate::io::dispatch::Work;
-    use crate::io::goal_id::GoalId;
+    use crate::io::goal_id::{GoalId, Issuer};
     use crate::io::percept::Percept;
     use crate::perception::beliefs::Map;
     use crate::perception::beliefs::coverage_map::tests::map;
@@ -149,7 +150,7 @@ mod tests {
 
     const TASK: Task = Task {
         id: GoalId {
-            issuer: RobotId::OPERATOR,
+            issuer: Issuer::Agent(AgentId::OPERATOR),
             number: 0,
         },
         at_m: [12.0, 2.0],
@@ -177,7 +178,6 @@ mod tests {
             speed_m_s,
             max_goals: 4,
             all_round_m: 3.0,
-            robot_kinds: 1,
             ..Ability::default()
         };
         let (percept, body) = (Percept::default(), Body::default());
@@ -194,7 +194,7 @@ mod tests {
         };
         let known = (&Jobs::default(), &Failures::default());
         let bidder = Bidder::new(&ability, known, &moment, 0.0).unwrap();
-        let offer = Offer::new(task, RobotId::default(), 0, 0.0);
+        let offer = Offer::new(task, AgentId::default(), 0, 0.0);
         bidder
             .estimate(&offer)
             .map(|estimate| estimate.bid(1).time_s)

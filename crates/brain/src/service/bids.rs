@@ -73,7 +73,7 @@ impl Assignee {
         self.holder
             .request(number, owner, Some(task.id), self.now_s);
         self.outbox.push(Message {
-            to: owner,
+            to: owner.into(),
             about: About::Dispatch(Dispatch::Bid(estimate.bid(number))),
             confidence: estimate.confidence,
         });

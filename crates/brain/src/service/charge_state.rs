@@ -96,7 +96,7 @@ impl Aim {
 fn own_mark(track: &Track, beliefs: &Beliefs) -> Option<GoalId> {
     let own = track.own_contact(beliefs.id)?;
     Some(GoalId {
-        issuer: beliefs.id,
+        issuer: beliefs.id.into(),
         number: own.provenance.track_id,
     })
 }

@@ -1,6 +1,6 @@
 //! The goals that a robot has served: it reports each until the owner has withdrawn it.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::Claim;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
@@ -22,14 +22,14 @@ pub(crate) struct Finished {
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Service {
     claim: Claim,
-    owner: RobotId,
+    owner: AgentId,
     /// Remaining number of reports, and the time of the next.
     left: u8,
     next_s: f64,
 }
 
 impl Finished {
-    pub(crate) fn add(&mut self, claim: Claim, owner: RobotId, now_s: f64) {
+    pub(crate) fn add(&mut self, claim: Claim, owner: AgentId, now_s: f64) {
         if self.list.len() == MAX_GOALS {
             self.list.remove(0);
         }
@@ -46,7 +46,7 @@ impl Finished {
     }
 
     /// A controller offers or awards a goal that has been served: it has to know.
-    pub(crate) fn report_to(&mut self, goal: GoalId, owner: RobotId, now_s: f64) {
+    pub(crate) fn report_to(&mut self, goal: GoalId, owner: AgentId, now_s: f64) {
         let mut list = self.list.iter_mut();
         if let Some(service) = list.find(|service| service.claim.goal == goal) {
             let is_due = service.left == 0 || service.owner != owner;
@@ -59,7 +59,7 @@ impl Finished {
     }
 
     /// The owner knows.
-    pub(crate) fn acknowledge(&mut self, goal: GoalId, owner: RobotId) {
+    pub(crate) fn acknowledge(&mut self, goal: GoalId, owner: AgentId) {
         let mut list = self.list.iter_mut();
         let is_it = |service: &&mut Service| service.claim.goal == goal && service.owner == owner;
         if let Some(service) = list.find(is_it) {
@@ -68,7 +68,7 @@ impl Finished {
     }
 
     /// The reports that are due, with their receivers.
-    pub(crate) fn due(&mut self, now_s: f64) -> impl Iterator<Item = (RobotId, Claim)> {
+    pub(crate) fn due(&mut self, now_s: f64) -> impl Iterator<Item = (AgentId, Claim)> {
         let due = move |service: &mut Service| {
             let is_due = service.left > 0 && now_s >= service.next_s;
             if is_due {

@@ -14,7 +14,7 @@
 //! that takes at most (1 + rho) times as long on the grantor's clock.
 
 use super::set_hash::set_hash;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::{Claim, Renewal};
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
@@ -32,7 +32,7 @@ pub struct Grant {
     /// The goal.
     pub goal: GoalId,
     /// The agent that may hold it.
-    pub holder: RobotId,
+    pub holder: AgentId,
     /// The number of the request that was granted; renewals do not change it.
     pub number: u32,
     /// The time for which another grant waits after this one.
@@ -63,7 +63,7 @@ impl Grantor {
     }
 
     /// Grants a goal; returns whether that is possible: no other agent can hold it.
-    pub fn grant(&mut self, holder: RobotId, claim: Claim, wait_s: f64, now_s: f64) -> bool {
+    pub fn grant(&mut self, holder: AgentId, claim: Claim, wait_s: f64, now_s: f64) -> bool {
         let Claim { goal, number } = claim;
         if self.grant_of(goal).is_some() {
             return false;
@@ -80,7 +80,7 @@ impl Grantor {
     }
 
     /// Renews one lease; returns whether the sender holds it.
-    pub fn renew_one(&mut self, from: RobotId, claim: Claim, now_s: f64) -> bool {
+    pub fn renew_one(&mut self, from: AgentId, claim: Claim, now_s: f64) -> bool {
         let mut grants = self.grants.iter_mut();
         let own = grants.find(|grant| grant.goal == claim.goal && grant.is_renewed_by(from));
         if let Some(grant) = own {
@@ -91,7 +91,7 @@ impl Grantor {
     }
 
     /// Renews all leases of the sender; returns whether its list of them is the same as this one.
-    pub fn renew(&mut self, from: RobotId, renewal: Renewal, now_s: f64) -> bool {
+    pub fn renew(&mut self, from: AgentId, renewal: Renewal, now_s: f64) -> bool {
         let own = self.grants.iter().filter(|grant| grant.is_renewed_by(from));
         let is_same = set_hash(own.map(|grant| grant.goal)) == (renewal.count, renewal.hash);
         if is_same {
@@ -115,7 +115,7 @@ impl Grantor {
     }
 
     /// Takes the release or refusal of a lease by its holder; that of another lease has no effect.
-    pub fn release(&mut self, from: RobotId, claim: Claim) -> Option<Grant> {
+    pub fn release(&mut self, from: AgentId, claim: Claim) -> Option<Grant> {
         self.remove(|grant| {
             grant.goal == claim.goal && grant.holder == from && grant.number == claim.number
         })
@@ -136,7 +136,7 @@ impl Grantor {
 }
 
 impl Grant {
-    fn is_renewed_by(&self, holder: RobotId) -> bool {
+    fn is_renewed_by(&self, holder: AgentId) -> bool {
         self.holder == holder && !self.is_withdrawn
     }
 
@@ -149,8 +149,8 @@ impl Grant {
 mod tests {
     use super::*;
 
-    const HOLDER: RobotId = RobotId { kind: 0, index: 0 };
-    const OTHER: RobotId = RobotId { kind: 0, index: 1 };
+    const HOLDER: AgentId = AgentId::robot(0, 0);
+    const OTHER: AgentId = AgentId::robot(0, 1);
 
     fn claim(number: u32) -> Claim {
         Claim {

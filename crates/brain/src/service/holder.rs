@@ -5,7 +5,7 @@
 //! [grantor](super::grantor), which counts from there, never waits too short.
 
 use super::set_hash::set_hash;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::{Claim, Renewal};
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
@@ -31,7 +31,7 @@ pub struct Lease {
     /// The goal.
     pub goal: GoalId,
     /// The agent that granted it.
-    pub grantor: RobotId,
+    pub grantor: AgentId,
     /// The number of the request that was granted; renewals do not change it.
     pub number: u32,
     /// When it was granted first.
@@ -45,7 +45,7 @@ pub struct Lease {
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Request {
     number: u32,
-    grantor: RobotId,
+    grantor: AgentId,
     /// Without a goal, all leases of the grantor.
     goal: Option<GoalId>,
     sent_s: f64,
@@ -72,7 +72,7 @@ impl Holder {
     }
 
     /// Notes a request for a goal, or to renew all leases of a grantor, that is sent now.
-    pub fn request(&mut self, number: u32, grantor: RobotId, goal: Option<GoalId>, now_s: f64) {
+    pub fn request(&mut self, number: u32, grantor: AgentId, goal: Option<GoalId>, now_s: f64) {
         if self.requests.len() == MAX_REQUESTS {
             self.requests.remove(0);
         }
@@ -86,7 +86,7 @@ impl Holder {
 
     /// Takes a grant of a goal; returns whether it is held now. A grant that answers no request, or
     /// too late, changes nothing.
-    pub fn accept(&mut self, from: RobotId, claim: Claim, lasts_s: f64, now_s: f64) -> bool {
+    pub fn accept(&mut self, from: AgentId, claim: Claim, lasts_s: f64, now_s: f64) -> bool {
         let Some(sent_s) = self.answered(from, claim.number, Some(claim.goal)) else {
             return self.is_held(claim.goal, now_s);
         };
@@ -109,26 +109,26 @@ impl Holder {
     }
 
     /// Takes the renewal of one lease.
-    pub fn renew_one(&mut self, from: RobotId, claim: Claim, now_s: f64) {
+    pub fn renew_one(&mut self, from: AgentId, claim: Claim, now_s: f64) {
         if let Some(sent_s) = self.answered(from, claim.number, Some(claim.goal)) {
             self.extend(from, Some(claim.goal), sent_s, now_s);
         }
     }
 
     /// Takes the renewal of all leases of a grantor.
-    pub fn renew(&mut self, from: RobotId, number: u32, now_s: f64) {
+    pub fn renew(&mut self, from: AgentId, number: u32, now_s: f64) {
         if let Some(sent_s) = self.answered(from, number, None) {
             self.extend(from, None, sent_s, now_s);
         }
     }
 
     /// Whether the answer to a renewal of all leases is that each has to be renewed.
-    pub fn differs(&mut self, from: RobotId, number: u32) -> bool {
+    pub fn differs(&mut self, from: AgentId, number: u32) -> bool {
         self.answered(from, number, None).is_some()
     }
 
     /// Whether a message answers a request for a goal.
-    pub fn is_answer(&mut self, from: RobotId, claim: Claim) -> bool {
+    pub fn is_answer(&mut self, from: AgentId, claim: Claim) -> bool {
         self.answered(from, claim.number, Some(claim.goal))
             .is_some()
     }
@@ -153,7 +153,7 @@ impl Holder {
 
     /// The request to renew all leases of a grantor; `None` without any.
     #[must_use]
-    pub fn renewal(&self, grantor: RobotId, number: u32) -> Option<Renewal> {
+    pub fn renewal(&self, grantor: AgentId, number: u32) -> Option<Renewal> {
         let leases = self.leases.iter();
         let own = leases.filter(|lease| lease.grantor == grantor);
         let (count, hash) = set_hash(own.map(|lease| lease.goal));
@@ -165,7 +165,7 @@ impl Holder {
     }
 
     /// When the request of this number was sent; it is forgotten.
-    fn answered(&mut self, from: RobotId, number: u32, goal: Option<GoalId>) -> Option<f64> {
+    fn answered(&mut self, from: AgentId, number: u32, goal: Option<GoalId>) -> Option<f64> {
         let index = self.requests.iter().position(|request| {
             request.number == number && request.grantor == from && request.goal == goal
         })?;
@@ -173,7 +173,7 @@ impl Holder {
     }
 
     /// Extends a lease, or all of a grantor, that were held when the request was sent and still are.
-    fn extend(&mut self, from: RobotId, goal: Option<GoalId>, sent_s: f64, now_s: f64) {
+    fn extend(&mut self, from: AgentId, goal: Option<GoalId>, sent_s: f64, now_s: f64) {
         for lease in &mut self.leases {
             let is_meant = goal.is_none_or(|goal| goal == lease.goal);
             let was_held = lease.grantor == from && lease.since_s <= sent_s;
@@ -189,8 +189,8 @@ impl Holder {
 mod tests {
     use super::*;
 
-    const GRANTOR: RobotId = RobotId { kind: 1, index: 0 };
-    const OTHER: RobotId = RobotId { kind: 1, index: 1 };
+    const GRANTOR: AgentId = AgentId::controller(1, 0);
+    const OTHER: AgentId = AgentId::controller(1, 1);
 
     fn claim(number: u32) -> Claim {
         Claim {

@@ -4,7 +4,7 @@ use super::ability::Ability;
 use super::charge_state::{Aim, Charges, Fence};
 use crate::goals::proposal::max_deviation_m;
 use crate::goals::tour::Tour;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::{Task, Work};
 use crate::io::goal_id::GoalId;
 use crate::io::verdict::Verdict;
@@ -19,7 +19,7 @@ const ROUNDING_S: f64 = 1e-6;
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Job {
     pub(crate) task: Task,
-    pub(crate) owner: RobotId,
+    pub(crate) owner: AgentId,
     /// Its deadline on the robot's clock.
     pub(crate) due_at_s: f64,
     /// Time of service so far.
@@ -39,7 +39,7 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    pub(crate) fn new(task: Task, owner: RobotId, due_at_s: f64) -> Self {
+    pub(crate) fn new(task: Task, owner: AgentId, due_at_s: f64) -> Self {
         Self {
             task,
             owner,
@@ -210,10 +210,9 @@ mod tests {
             speed_m_s: 1.0,
             max_goals: 1,
             lanes,
-            robot_kinds: 1,
             ..Ability::default()
         };
-        (Job::new(task, RobotId::default(), f64::INFINITY), ability)
+        (Job::new(task, AgentId::default(), f64::INFINITY), ability)
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! A track that this robot has only failed to detect is no mark: its looks there are part of its
 //! coverage, where the blind share of its sensors counts.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::goal_id::GoalId;
 use crate::io::lane::{Coverage, MARK_KINDS, Mark};
 use crate::perception::beliefs::Beliefs;
@@ -167,7 +167,7 @@ impl Mark {
 #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
 fn mark_of(
     (track, kinds): (&Track, Option<&KindModel>),
-    own: RobotId,
+    own: AgentId,
     pose_deviation_m: f64,
 ) -> Option<Mark> {
     let source = track.own_contact(own)?;
@@ -186,7 +186,7 @@ fn mark_of(
     let variance_m2 = track.variance_m2 + pose_deviation_m * pose_deviation_m;
     Some(Mark {
         id: GoalId {
-            issuer: own,
+            issuer: own.into(),
             number: source.provenance.track_id,
         },
         at_m: [track.at.x as f32, track.at.y as f32],

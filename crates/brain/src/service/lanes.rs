@@ -136,13 +136,13 @@ impl Lanes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::body::RobotId;
+    use crate::io::agent_id::AgentId;
     use crate::io::dispatch::Work;
-    use crate::io::goal_id::GoalId;
+    use crate::io::goal_id::{GoalId, Issuer};
 
     const TASK: Task = Task {
         id: GoalId {
-            issuer: RobotId::OPERATOR,
+            issuer: Issuer::Agent(AgentId::OPERATOR),
             number: 0,
         },
         at_m: [3.0, 4.0],

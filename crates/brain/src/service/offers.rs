@@ -1,6 +1,6 @@
 //! The goals for which controllers have called for bids.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::Task;
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
@@ -25,7 +25,7 @@ pub(crate) struct Offers {
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(crate) struct Offer {
     pub(crate) task: Task,
-    pub(crate) owner: RobotId,
+    pub(crate) owner: AgentId,
     /// Number of the call.
     pub(crate) call: u16,
     /// Its deadline on the robot's clock.
@@ -34,7 +34,7 @@ pub(crate) struct Offer {
 }
 
 impl Offer {
-    pub(crate) fn new(task: Task, owner: RobotId, call: u16, now_s: f64) -> Self {
+    pub(crate) fn new(task: Task, owner: AgentId, call: u16, now_s: f64) -> Self {
         Self {
             task,
             owner,
@@ -103,7 +103,7 @@ mod tests {
             work: Work::Visit,
             capability: 0,
         };
-        Offer::new(task, RobotId::default(), 1, now_s)
+        Offer::new(task, AgentId::default(), 1, now_s)
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::assignee::Assignee;
 use super::holder::Lease;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::{Claim, Dispatch};
 use crate::io::percept::Percept;
 use alloc::vec::Vec;
@@ -39,7 +39,7 @@ impl Assignee {
     }
 
     /// Renews the leases of a controller one by one, those that end first.
-    pub(super) fn renew_each(&mut self, from: RobotId, percept: &Percept) {
+    pub(super) fn renew_each(&mut self, from: AgentId, percept: &Percept) {
         let own = self.holder.leases().iter();
         let own = own.filter(|lease| lease.grantor == from);
         let mut own: Vec<Lease> = own.copied().collect();

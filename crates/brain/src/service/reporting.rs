@@ -2,7 +2,7 @@
 
 use super::ability::{Ability, Moment};
 use super::assignee::Assignee;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::{Claim, Dispatch, Fitness, Reason, Refusal, Report};
 use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
@@ -11,14 +11,14 @@ use base::geometry::Point;
 impl Assignee {
     /// Reports the goals that have been served, and now and then the robot's state.
     pub(super) fn report(&mut self, ability: &Ability, moment: &Moment) {
-        let done: Vec<(RobotId, Claim)> = self.finished.due(self.now_s).collect();
+        let done: Vec<(AgentId, Claim)> = self.finished.due(self.now_s).collect();
         for (owner, claim) in done {
             self.send(owner, Dispatch::Done(claim));
         }
         let Some(at) = moment.at.filter(|_| !self.is_out_of_service) else {
             return;
         };
-        let receivers: Vec<RobotId> = self.schedule.due(self.now_s).collect();
+        let receivers: Vec<AgentId> = self.schedule.due(self.now_s).collect();
         for to in receivers {
             self.send(to, Dispatch::Report(self.state(ability, moment, at)));
             if let Some(fitness) = self.fitness(to, ability, at) {
@@ -42,7 +42,7 @@ impl Assignee {
 
     /// The progress towards the first goal of a controller.
     #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-    pub(super) fn fitness(&self, owner: RobotId, ability: &Ability, at: Point) -> Option<Fitness> {
+    pub(super) fn fitness(&self, owner: AgentId, ability: &Ability, at: Point) -> Option<Fitness> {
         let job = self.jobs.list.iter().find(|job| job.owner == owner)?;
         let away_m = at.to(job.task.at()).length();
         let remaining_s = ability.travel_s(away_m) + ability.work_s(&job.task) - job.served_s;
@@ -67,7 +67,7 @@ impl Assignee {
         }
     }
 
-    pub(super) fn refuse(&mut self, to: RobotId, goal: GoalId, number: u32, reason: Reason) {
+    pub(super) fn refuse(&mut self, to: AgentId, goal: GoalId, number: u32, reason: Reason) {
         self.send(
             to,
             Dispatch::Refuse(Refusal {

@@ -1,6 +1,6 @@
 //! When a robot bids, reports and renews.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::goal_id::GoalId;
 use crate::io::percept::Percept;
 use alloc::vec::Vec;
@@ -25,7 +25,7 @@ const MAX_TURNS: u32 = 20;
 /// What a robot knows of a controller.
 #[derive(Debug, Clone, Hashed)]
 pub(crate) struct Contact {
-    pub(crate) id: RobotId,
+    pub(crate) id: AgentId,
     received_s: f64,
     next_report_s: f64,
     pub(crate) next_renewal_s: f64,
@@ -69,7 +69,7 @@ impl Schedule {
     }
 
     /// Notes a message of a controller.
-    pub(crate) fn note(&mut self, id: RobotId, now_s: f64) -> &mut Contact {
+    pub(crate) fn note(&mut self, id: AgentId, now_s: f64) -> &mut Contact {
         let known = self.contacts.iter().position(|contact| contact.id == id);
         let index = known.unwrap_or_else(|| {
             self.contacts.push(Contact {
@@ -87,11 +87,11 @@ impl Schedule {
     }
 
     /// The last bid that a controller received.
-    pub(crate) fn bid_of(&self, id: RobotId) -> Option<StandingBid> {
+    pub(crate) fn bid_of(&self, id: AgentId) -> Option<StandingBid> {
         self.contacts.iter().find(|contact| contact.id == id)?.bid
     }
 
-    pub(crate) fn set_bid(&mut self, id: RobotId, bid: StandingBid) {
+    pub(crate) fn set_bid(&mut self, id: AgentId, bid: StandingBid) {
         let mut contacts = self.contacts.iter_mut();
         if let Some(contact) = contacts.find(|contact| contact.id == id) {
             contact.bid = Some(bid);
@@ -112,7 +112,7 @@ impl Schedule {
     }
 
     /// The controllers to which a report is due.
-    pub(crate) fn due(&mut self, now_s: f64) -> impl Iterator<Item = RobotId> {
+    pub(crate) fn due(&mut self, now_s: f64) -> impl Iterator<Item = AgentId> {
         self.contacts.iter_mut().filter_map(move |contact| {
             let is_due = now_s >= contact.next_report_s;
             if is_due {
@@ -130,7 +130,7 @@ impl Schedule {
     }
 
     /// A controller requests a report.
-    pub(crate) fn report_now(&mut self, id: RobotId, now_s: f64) {
+    pub(crate) fn report_now(&mut self, id: AgentId, now_s: f64) {
         self.note(id, now_s).next_report_s = now_s;
     }
 }

@@ -1,7 +1,7 @@
 //! What pages and recordings show of the goals that a robot serves.
 
 use super::assignee::Assignee;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::dispatch::Task;
 use crate::io::verdict::Verdict;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ pub struct ServedGoal {
     /// The goal.
     pub task: Task,
     /// The controller that awarded it.
-    pub owner: RobotId,
+    pub owner: AgentId,
     /// Remaining time of its lease, on the robot's clock.
     pub lease_s: f64,
     /// Its state.

@@ -2,7 +2,8 @@
 
 pub(crate) mod timer;
 
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::goal_id::{GoalId, GoalPlace};
 use crate::io::percept::Percept;
 use crate::io::random_words::RandomWords;
@@ -74,7 +75,7 @@ impl Situation<'_> {
     pub(crate) fn new_goal(&self, at: Point) -> GoalPlace {
         let number = self.last_goal.get().wrapping_add(1);
         self.last_goal.set(number);
-        let issuer = self.percept.id;
+        let issuer = self.percept.id.into();
         GoalPlace {
             id: GoalId { issuer, number },
             at,
@@ -88,7 +89,7 @@ impl Situation<'_> {
     }
 
     /// The position of another robot in the world, if it is tracked or has reported it recently.
-    pub(crate) fn position_of(&self, id: RobotId) -> Option<Point> {
+    pub(crate) fn position_of(&self, id: AgentId) -> Option<Point> {
         let tracked = self.beliefs?.position_of(id);
         let mut mates = self.peers?.mates.iter();
         let reported = || mates.find(|peer| peer.id == id)?.at();

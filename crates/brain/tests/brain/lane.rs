@@ -3,14 +3,14 @@
 use crate::{body, brain, percept_at};
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, Award, Body, Brain, Command, Contact, Coverage, Detector, Dispatch, GoalId, Lane, Mark,
-    MarkVerdict, Message, Observation, Other, Percept, Reason, ReceivedMessage, RobotId, Statement,
-    Task, Work,
+    About, AgentId, Award, Body, Brain, Command, Contact, Coverage, Detector, Dispatch, GoalId,
+    Lane, Mark, MarkVerdict, Message, Observation, Other, Percept, Reason, ReceivedMessage,
+    Statement, Task, Work,
 };
 
-const OWNER: RobotId = RobotId { kind: 1, index: 0 };
+const OWNER: AgentId = AgentId::controller(1, 0);
 
-const MATE: RobotId = RobotId { kind: 0, index: 7 };
+const MATE: AgentId = AgentId::robot(0, 7);
 
 const LANE: Lane = Lane {
     min_m: [0.0; 2],
@@ -61,12 +61,12 @@ impl Robot {
     }
 
     /// A step with a measurement; `contacts` are kinds and distances ahead.
-    fn command(&mut self, messages: &[(RobotId, About)], contacts: &[(u16, f64)]) -> Command {
+    fn command(&mut self, messages: &[(AgentId, About)], contacts: &[(u16, f64)]) -> Command {
         self.step += 1;
         let inbox = messages.iter().map(|(from, about)| ReceivedMessage {
             from: *from,
             age_s: 0.0,
-            message: Message::to(RobotId::default(), *about),
+            message: Message::to(AgentId::default(), *about),
         });
         let contacts = contacts.iter().map(|(kind, range_m)| Contact {
             kind: *kind,
@@ -114,7 +114,7 @@ impl Robot {
     fn interrogate(&mut self, work: Work) -> Result<(), Reason> {
         let task = Task {
             id: GoalId {
-                issuer: OWNER,
+                issuer: OWNER.into(),
                 number: 3,
             },
             at_m: [6.0, 5.0],
@@ -270,7 +270,7 @@ fn mark_after(looks: u32) -> Mark {
 #[test]
 fn a_mark_has_the_evidence_of_all_own_looks_before_and_after_the_contact() {
     let (early, late) = (mark_after(0), mark_after(6));
-    assert_eq!(late.id.issuer, RobotId::default());
+    assert_eq!(late.id.issuer, AgentId::default().into());
     assert!((late.at_m[0] - 6.0).abs() < 0.1 && late.deviation_m() < 0.5);
     assert!(late.log_ratios[1] < -10.0, "it is no clutter");
     let contact = (0.5 / (core::f32::consts::TAU * 0.01 * 1e-3)).ln();

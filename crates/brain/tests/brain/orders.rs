@@ -3,8 +3,8 @@
 use crate::{body, brain, now, percept_at};
 use base::geometry::Point;
 use brain::{
-    About, Body, Brain, GoalId, Message, Motion, OrderAction, OrderVerdict, Percept, Reason,
-    ReceivedMessage, RobotId,
+    About, AgentId, Body, Brain, GoalId, Message, Motion, OrderAction, OrderVerdict, Percept,
+    Reason, ReceivedMessage, Receiver,
 };
 use proptest::prelude::*;
 
@@ -12,17 +12,20 @@ const LAYERS: &str = r#"{"limit_speed_to_stopping_distance": false, "behaviours"
     {"kind": "cruise", "speed_m_s": 0.5}, {"kind": "correct", "stop_when_done": true}]}"#;
 
 fn id(number: u32) -> GoalId {
-    let issuer = RobotId::OPERATOR;
-    GoalId { issuer, number }
+    let issuer = AgentId::OPERATOR;
+    GoalId {
+        issuer: issuer.into(),
+        number,
+    }
 }
 
 fn order(number: u32, at: [f64; 2], action: OrderAction) -> ReceivedMessage {
     let (goal, at) = (id(number), Point::from(at));
     ReceivedMessage {
-        from: RobotId::OPERATOR,
+        from: AgentId::OPERATOR,
         age_s: 0.0,
         message: Message {
-            to: RobotId::EVERYONE,
+            to: Receiver::All,
             about: About::Order { goal, at, action },
             confidence: 1.0,
         },
@@ -148,19 +151,22 @@ fn waypoints_that_were_visited_before_the_first_order_are_complete() {
 #[test]
 fn only_orders_of_the_operator_with_ids_of_its_own_count() {
     let mut robot = Robot::new(LAYERS, body());
-    let mate = RobotId { kind: 0, index: 1 };
-    let other = RobotId {
+    let mate = AgentId::robot(0, 1);
+    let other = AgentId {
         index: 1,
-        ..RobotId::OPERATOR
+        ..AgentId::OPERATOR
     };
     for (from, issuer) in [
-        (mate, RobotId::OPERATOR),
+        (mate, AgentId::OPERATOR),
         (mate, mate),
-        (RobotId::OPERATOR, mate),
+        (AgentId::OPERATOR, mate),
         (other, other),
     ] {
         let (number, at) = (1, Point { x: 4.0, y: 0.0 });
-        let goal = GoalId { issuer, number };
+        let goal = GoalId {
+            issuer: issuer.into(),
+            number,
+        };
         let action = OrderAction::Assign;
         let mut received = assign(1, [4.0, 0.0]);
         received.from = from;
@@ -432,9 +438,9 @@ fn an_order_has_its_documented_form() {
     );
 }
 
-fn sender() -> impl Strategy<Value = RobotId> {
-    let any_robot = (any::<u8>(), 0_u32..3).prop_map(|(kind, index)| RobotId { kind, index });
-    prop_oneof![3 => Just(RobotId::OPERATOR), 2 => any_robot]
+fn sender() -> impl Strategy<Value = AgentId> {
+    let any_robot = (any::<u8>(), 0_u32..3).prop_map(|(kind, index)| AgentId::robot(kind, index));
+    prop_oneof![3 => Just(AgentId::OPERATOR), 2 => any_robot]
 }
 
 fn number() -> impl Strategy<Value = f64> {
@@ -444,7 +450,10 @@ fn number() -> impl Strategy<Value = f64> {
 fn any_order() -> impl Strategy<Value = ReceivedMessage> {
     let about = (sender(), 0_u32..6, number(), number(), any::<bool>());
     let about = about.prop_map(|(issuer, number, x, y, is_assigned)| About::Order {
-        goal: GoalId { issuer, number },
+        goal: GoalId {
+            issuer: issuer.into(),
+            number,
+        },
         at: Point { x, y },
         action: if is_assigned {
             OrderAction::Assign
@@ -459,7 +468,7 @@ fn any_order() -> impl Strategy<Value = ReceivedMessage> {
             from,
             age_s,
             message: Message {
-                to: RobotId::EVERYONE,
+                to: Receiver::All,
                 about,
                 confidence,
             },
@@ -474,8 +483,8 @@ fn expected(orders: &[ReceivedMessage]) -> Vec<(u32, Point)> {
         let About::Order { goal, at, action } = received.message.about else {
             continue;
         };
-        let is_valid = received.from == RobotId::OPERATOR
-            && goal.issuer == RobotId::OPERATOR
+        let is_valid = received.from == AgentId::OPERATOR
+            && goal.issuer == AgentId::OPERATOR.into()
             && received.age_s >= 0.0
             && received.age_s.is_finite()
             && received.message.confidence >= 0.0
@@ -511,6 +520,6 @@ proptest! {
         let goals = robot.brain.assigned_goals();
         let found: Vec<_> = goals.iter().map(|goal| (goal.id.number, goal.at)).collect();
         prop_assert_eq!(found, expected(&steps.concat()));
-        prop_assert!(goals.iter().all(|goal| goal.id.issuer == RobotId::OPERATOR));
+        prop_assert!(goals.iter().all(|goal| goal.id.issuer == AgentId::OPERATOR.into()));
     }
 }

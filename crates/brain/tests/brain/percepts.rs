@@ -4,9 +4,9 @@ use crate::{body, brain};
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
 use brain::{
-    About, Act, ActKind, Acted, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command,
+    About, Act, ActKind, Acted, AgentId, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command,
     CommitmentStatus, Contact, Detector, GoalId, Message, Motion, Neighbour, Observation, Other,
-    Percept, Provenance, RangeRing, Reading, ReceivedMessage, RobotId, Scan, SensorRequest,
+    Percept, Provenance, RangeRing, Reading, ReceivedMessage, Receiver, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -142,8 +142,8 @@ fn scans(number: Numbers, max: usize) -> impl Strategy<Value = Vec<Scan>> {
     proptest::collection::vec(scan, 0..=max)
 }
 
-fn robot() -> impl Strategy<Value = RobotId> {
-    any::<(u8, u32)>().prop_map(|(kind, index)| RobotId { kind, index })
+fn robot() -> impl Strategy<Value = AgentId> {
+    any::<(u8, u32)>().prop_map(|(kind, index)| AgentId::robot(kind, index))
 }
 
 fn message(number: Numbers) -> impl Strategy<Value = Message> {
@@ -172,22 +172,25 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
         CommitmentStatus::Done,
         CommitmentStatus::Released,
     ];
-    let id = (robot(), 0_u32..4).prop_map(|(issuer, number)| GoalId { issuer, number });
+    let id = (robot(), 0_u32..4).prop_map(|(issuer, number)| GoalId {
+        issuer: issuer.into(),
+        number,
+    });
     let goal = (id, point(number), 0_usize..2).prop_map(move |(id, at, status)| About::Goal {
         id,
         at,
         status: stands[status],
     });
     (prop_oneof![item, sender, goal], number(0.0, 1.0)).prop_map(|(about, confidence)| Message {
-        to: RobotId::EVERYONE,
+        to: Receiver::All,
         about,
         confidence,
     })
 }
 
 /// Ids of existing and of unknown robots.
-fn known_robot() -> impl Strategy<Value = RobotId> {
-    let few = (0_u8..2, 0_u32..3).prop_map(|(kind, index)| RobotId { kind, index });
+fn known_robot() -> impl Strategy<Value = AgentId> {
+    let few = (0_u8..2, 0_u32..3).prop_map(|(kind, index)| AgentId::robot(kind, index));
     prop_oneof![4 => few, 1 => robot()]
 }
 
@@ -476,7 +479,7 @@ proptest! {
             check_outbox(&brain.step(percept).outbox)?;
             brain.renumber(|id| {
                 let index = if id.index > gone { id.index - 1 } else { id.index };
-                (id.index != gone).then_some(RobotId { index, ..id })
+                (id.index != gone).then_some(AgentId { index, ..id })
             });
         }
         check_belief_state(&brain)?;

@@ -2,15 +2,15 @@
 
 use crate::{body, brain, now, percept_at};
 use brain::{
-    About, Award, Body, Brain, Claim, Command, CommitmentStatus, Dispatch, GoalId, Message, Other,
-    Percept, Reason, ReceivedMessage, RobotId, Task, Work,
+    About, AgentId, Award, Body, Brain, Claim, Command, CommitmentStatus, Dispatch, GoalId, Issuer,
+    Message, Other, Percept, Reason, ReceivedMessage, Task, Work,
 };
 
-const OWNER: RobotId = RobotId { kind: 1, index: 0 };
+const OWNER: AgentId = AgentId::controller(1, 0);
 
 const TASK: Task = Task {
     id: GoalId {
-        issuer: RobotId::OPERATOR,
+        issuer: Issuer::Agent(AgentId::OPERATOR),
         number: 0,
     },
     at_m: [10.0, 0.0],
@@ -65,7 +65,7 @@ impl Robot {
     /// A step with messages of several controllers.
     fn command_from(
         &mut self,
-        messages: impl IntoIterator<Item = (RobotId, Dispatch)>,
+        messages: impl IntoIterator<Item = (AgentId, Dispatch)>,
         touches: bool,
     ) -> Command {
         self.time_s += 0.1;
@@ -130,7 +130,7 @@ fn of_two_awards_that_arrive_together_a_robot_with_room_for_one_takes_the_better
             ..body()
         };
         robot.brain = brain(spec, body);
-        let owners = [0, 1].map(|index| RobotId { kind: 1, index });
+        let owners = [0, 1].map(|index| AgentId::controller(1, index));
         let tasks = [(0, first), (1, second)].map(|(number, value)| Task {
             id: GoalId { number, ..TASK.id },
             value,
@@ -287,7 +287,7 @@ fn a_robot_that_does_not_come_nearer_reports_that_it_is_stuck_and_does_not_bid_a
     }
     assert_eq!(reasons, [Reason::Unreachable]);
     let goal = TASK.id;
-    let to = RobotId::default();
+    let to = AgentId::default();
     robot.time_s += 0.1;
     let withdrawal = ReceivedMessage {
         from: OWNER,

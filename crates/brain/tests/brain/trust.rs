@@ -3,17 +3,17 @@
 use crate::{now, percept_at};
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, Body, Brain, CommitmentStatus, Detector, Message, Motion, Observation, Other, Percept,
-    Provenance, ReceivedMessage, RobotId,
+    About, AgentId, Body, Brain, CommitmentStatus, Detector, Message, Motion, Observation, Other,
+    Percept, Provenance, ReceivedMessage, Receiver,
 };
 use std::f64::consts::TAU;
 
-const ME: RobotId = robot(1);
-const LEADER: RobotId = robot(0);
-const UNRELIABLE: RobotId = robot(7);
+const ME: AgentId = robot(1);
+const LEADER: AgentId = robot(0);
+const UNRELIABLE: AgentId = robot(7);
 
-const fn robot(index: u32) -> RobotId {
-    RobotId { kind: 0, index }
+const fn robot(index: u32) -> AgentId {
+    AgentId::robot(0, index)
 }
 
 /// A body with a detector range of 3 m in all directions, on a field of 20 m by 20 m.
@@ -91,9 +91,9 @@ fn goes_anywhere(brain: &mut Brain) -> bool {
     })
 }
 
-fn received(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> ReceivedMessage {
+fn received(from: AgentId, about: About, [age_s, confidence]: [f64; 2]) -> ReceivedMessage {
     let message = Message {
-        to: RobotId::EVERYONE,
+        to: Receiver::All,
         about,
         confidence,
     };
@@ -239,7 +239,7 @@ fn reported_observations_of_an_untrusted_robot_do_not_end_a_search() {
 
 /// Whether a report of robot 3 is believed after robot 7 has sent wrong reports about items in view,
 /// as observations of `observer`.
-fn believes_3_after_lies_of_7(observer: RobotId) -> bool {
+fn believes_3_after_lies_of_7(observer: AgentId) -> bool {
     let mut brain = brain(r#"{"kind": "frontier"}"#, "");
     for track_id in 0..12 {
         let away = base::trig::sin_cos(TAU * f64::from(track_id) / 12.0);

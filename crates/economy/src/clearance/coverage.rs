@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{CELLS_PER_MESSAGE, Coverage, RobotId};
+use brain::{AgentId, CELLS_PER_MESSAGE, Coverage};
 use core::ops::Range;
 
 /// For each sensor model and cell, the evidence that there is no visible item without a mark.
@@ -20,7 +20,7 @@ pub(super) struct Searched {
 
 #[derive(Debug, Clone, Hashed)]
 struct RobotSearched {
-    robot: RobotId,
+    robot: AgentId,
     model: usize,
     steps: Vec<u8>,
 }
@@ -43,7 +43,7 @@ impl Searched {
     /// or none where all of it was known.
     pub(super) fn take(
         &mut self,
-        robot: RobotId,
+        robot: AgentId,
         model: usize,
         coverage: &Coverage,
     ) -> Range<usize> {
@@ -86,7 +86,7 @@ impl Searched {
 
     /// How often all looks of a model miss a visible item in a cell, in nats, without those of some
     /// robots of the model.
-    pub(super) fn nats_without(&self, model: usize, cell: usize, robots: &[RobotId]) -> f64 {
+    pub(super) fn nats_without(&self, model: usize, cell: usize, robots: &[AgentId]) -> f64 {
         let total = self.totals.get(model).and_then(|totals| totals.get(cell));
         let total = total.copied().unwrap_or_default();
         if robots.is_empty() {
@@ -107,8 +107,8 @@ impl Searched {
 mod tests {
     use super::*;
 
-    fn robot(index: u32) -> RobotId {
-        RobotId { kind: 0, index }
+    fn robot(index: u32) -> AgentId {
+        AgentId::robot(0, index)
     }
 
     fn message(first: u32, steps: u8) -> Coverage {

@@ -4,7 +4,7 @@ use super::place::Place;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{Mark, RobotId, Statement};
+use brain::{AgentId, Mark, Statement};
 
 /// Maximum number of places; marks of further ones are refused, and remain missing.
 const MAX_PLACES: usize = 10_000;
@@ -23,7 +23,7 @@ pub(super) struct Marks {
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct MarkCount {
-    robot: RobotId,
+    robot: AgentId,
     received: u32,
     reported: u32,
 }
@@ -44,7 +44,7 @@ impl Marks {
                 }
             },
             None if is_full => return,
-            None => self.count(mark.id.issuer).received += 1,
+            None => self.count(mark.robot()).received += 1,
         }
         self.add(mark);
     }
@@ -55,7 +55,7 @@ impl Marks {
         let places = places.filter(|place| place.is_other > 0.5 && !place.is_neutralised());
         let near = places.filter_map(|place| Some((place.distance_to(&mark)?, place)));
         let near: Vec<(f64, &mut Place)> = near.collect();
-        let robot = mark.id.issuer;
+        let robot = mark.robot();
         // Two marks of one robot are two places, unless it has too many there to be distinguished.
         let has_many = near.iter().filter(|(_, place)| place.is_of(robot)).count() >= MAX_OF_ROBOT;
         let near = near.into_iter();
@@ -102,17 +102,17 @@ impl Marks {
     }
 
     /// The robots that have marked something within a distance of a position.
-    pub(super) fn robots_near(&self, at: Point, within_m: f64) -> Vec<RobotId> {
+    pub(super) fn robots_near(&self, at: Point, within_m: f64) -> Vec<AgentId> {
         let all = self.places.iter().flat_map(|place| &place.marks);
         let near = all.filter(|mark| mark.at().to(at).length() <= within_m);
-        let mut robots: Vec<RobotId> = near.map(|mark| mark.id.issuer).collect();
+        let mut robots: Vec<AgentId> = near.map(Mark::robot).collect();
         robots.sort_unstable();
         robots.dedup();
         robots
     }
 
     /// Notes how many marks a robot has; returns whether all of them have been received.
-    pub(super) fn note_reported(&mut self, robot: RobotId, reported: u32) -> bool {
+    pub(super) fn note_reported(&mut self, robot: AgentId, reported: u32) -> bool {
         let count = self.count(robot);
         count.reported = count.reported.max(reported);
         count.received >= reported
@@ -125,7 +125,7 @@ impl Marks {
         missing.sum()
     }
 
-    fn count(&mut self, robot: RobotId) -> &mut MarkCount {
+    fn count(&mut self, robot: AgentId) -> &mut MarkCount {
         let known = self.counts.iter().position(|count| count.robot == robot);
         let index = known.unwrap_or_else(|| {
             self.counts.push(MarkCount {

@@ -14,7 +14,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use brain::{AgentId, Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, Statement};
 use core::f64::consts::TAU;
 use core::ops::Range;
 
@@ -125,7 +125,7 @@ impl LanePicture {
 
     /// Takes what a robot has searched, unless some of its marks have not been received: the robot
     /// repeats both.
-    pub fn take_coverage(&mut self, robot: RobotId, coverage: &Coverage) {
+    pub fn take_coverage(&mut self, robot: AgentId, coverage: &Coverage) {
         let Some(model) = self.model_of(robot) else {
             return;
         };
@@ -136,8 +136,8 @@ impl LanePicture {
     }
 
     /// Takes a mark of a robot; one that names another issuer has no effect.
-    pub fn take_mark(&mut self, robot: RobotId, mark: &Mark) {
-        let is_own = mark.id.issuer == robot && self.model_of(robot).is_some();
+    pub fn take_mark(&mut self, robot: AgentId, mark: &Mark) {
+        let is_own = mark.id.issuer == robot.into() && self.model_of(robot).is_some();
         if is_own && mark.is_valid() {
             self.marks.take(*mark);
         }
@@ -227,7 +227,7 @@ impl LanePicture {
         Risk::new(unmarked, marks.map(|mark| mark.mine))
     }
 
-    fn model_of(&self, robot: RobotId) -> Option<usize> {
+    fn model_of(&self, robot: AgentId) -> Option<usize> {
         self.model_of_kind.get(usize::from(robot.kind)).copied()
     }
 
@@ -322,7 +322,7 @@ impl LanePicture {
             return f64::NEG_INFINITY;
         };
         let is_of_item = |mark: &Mark| {
-            let model = self.model_of(mark.id.issuer);
+            let model = self.model_of(mark.robot());
             model.is_some_and(|model| detected[model])
         };
         let cell = self.clearance.lane.nearest_cell(place.at);
@@ -363,7 +363,7 @@ impl LanePicture {
     fn lookalike_log_ratio(&self, place: &Place, kind: usize, model: usize) -> f64 {
         let lookalikes = self.lookalikes[model].as_ref();
         lookalikes.map_or(0.0, |lookalikes| {
-            let is_of_model = |mark: &Mark| self.model_of(mark.id.issuer) == Some(model);
+            let is_of_model = |mark: &Mark| self.model_of(mark.robot()) == Some(model);
             lookalikes.relative_log_ratio(kind, place.log_ratios(kind, is_of_model))
         })
     }
@@ -381,7 +381,7 @@ impl LanePicture {
 
     /// The robots whose looks do not contradict an item at a place: those that have marked it, or something
     /// that may be the same item.
-    fn robots_in_agreement(&self, place: &Place) -> Vec<RobotId> {
+    fn robots_in_agreement(&self, place: &Place) -> Vec<AgentId> {
         let within_m = NEAR_M.max(place.reach_m());
         let mut robots = self.marks.robots_near(place.at, within_m);
         robots.extend(place.robots());

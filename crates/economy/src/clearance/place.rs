@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{GoalId, MARK_KINDS, Mark, MarkVerdict, RobotId};
+use brain::{AgentId, GoalId, MARK_KINDS, Mark, MarkVerdict};
 use core::cmp::Reverse;
 use core::f64::consts::TAU;
 
@@ -86,9 +86,9 @@ impl Place {
 
     /// The highest expected number of mines that are left there when one item has been destroyed, and the robot whose mark
     /// states it.
-    pub(super) fn further(&self) -> Option<(f64, RobotId)> {
+    pub(super) fn further(&self) -> Option<(f64, AgentId)> {
         let each = self.surest(|_| None);
-        let each = each.map(|mark| (mark.further(), mark.id.issuer));
+        let each = each.map(|mark| (mark.further(), mark.robot()));
         each.max_by(|one, other| one.0.total_cmp(&other.0))
     }
 
@@ -109,7 +109,7 @@ impl Place {
     /// odds of another item = density of items / (N(distance; variance of both places) x share of items with two marks)
     /// ```
     pub(super) fn note_destroyed(&mut self, other: &Self, items_per_m2: f64) {
-        let is_of_both = |mark: &Mark| other.is_of(mark.id.issuer);
+        let is_of_both = |mark: &Mark| other.is_of(mark.robot());
         let joint_m2 = self.variance_m2 + other.variance_m2;
         let square = self.at.to(other.at).length_squared() / joint_m2;
         if square <= GATE * GATE {
@@ -140,8 +140,8 @@ impl Place {
     }
 
     /// The robots that have marked it.
-    pub(super) fn robots(&self) -> Vec<RobotId> {
-        self.marks.iter().map(|mark| mark.id.issuer).collect()
+    pub(super) fn robots(&self) -> Vec<AgentId> {
+        self.marks.iter().map(Mark::robot).collect()
     }
 
     /// Distance of a mark in joint standard deviations, squared; `None` if it belongs to another place.
@@ -152,8 +152,8 @@ impl Place {
     }
 
     /// Whether a robot has a mark there.
-    pub(super) fn is_of(&self, robot: RobotId) -> bool {
-        self.marks.iter().any(|mark| mark.id.issuer == robot)
+    pub(super) fn is_of(&self, robot: AgentId) -> bool {
+        self.marks.iter().any(|mark| mark.robot() == robot)
     }
 
     /// For each robot, the mark that is most probably of an item of the kind that it is of, or of any: of those that it still
@@ -171,7 +171,7 @@ impl Place {
         };
         self.marks.iter().filter(move |mark| {
             let mut rivals = self.marks.iter();
-            !rivals.any(|one| one.id.issuer == mark.id.issuer && is_surer(one, mark))
+            !rivals.any(|one| one.robot() == mark.robot() && is_surer(one, mark))
         })
     }
 

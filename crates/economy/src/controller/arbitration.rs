@@ -17,7 +17,7 @@
 use super::Controller;
 use super::owned::Assigned;
 use alloc::vec::Vec;
-use brain::{Claim, Dispatch, GoalId, Reason, Refusal, RobotId};
+use brain::{AgentId, Claim, Dispatch, GoalId, Reason, Refusal};
 
 /// A withdrawal without an answer is repeated after this time, in seconds.
 const RETRY_S: f64 = 1.0;
@@ -32,9 +32,9 @@ const HOPELESS_S: f64 = 30.0;
 
 impl Controller {
     /// A robot does not reach its goal: others can have it.
-    pub(super) fn take_stuck(&mut self, from: RobotId, refusal: Refusal) {
+    pub(super) fn take_stuck(&mut self, from: AgentId, refusal: Refusal) {
         let now_s = self.now_s;
-        let is_holder = |holder: RobotId| holder == from;
+        let is_holder = |holder: AgentId| holder == from;
         let grant = self.services.grant_of(refusal.goal);
         if grant.is_some_and(|grant| is_holder(grant.holder)) {
             self.contest(refusal.goal);
@@ -49,7 +49,7 @@ impl Controller {
     }
 
     /// A robot approaches its goal again, or reports how long it will take.
-    pub(super) fn is_approaching(&mut self, from: RobotId, goal: GoalId, remaining_s: f64) {
+    pub(super) fn is_approaching(&mut self, from: AgentId, goal: GoalId, remaining_s: f64) {
         let now_s = self.now_s;
         let Some(owned) = self.goal_mut(goal) else {
             return;
@@ -130,7 +130,7 @@ impl Controller {
         }
     }
 
-    fn has_other_bid(&self, goal: GoalId, robot: RobotId) -> bool {
+    fn has_other_bid(&self, goal: GoalId, robot: AgentId) -> bool {
         let mut bids = self.bids.iter();
         bids.any(|standing| standing.bid.goal == goal && standing.robot != robot)
     }
@@ -173,7 +173,7 @@ impl Controller {
     }
 
     /// A lease has ended in silence.
-    pub(super) fn lost_assignee(&mut self, goal: GoalId, robot: RobotId) {
+    pub(super) fn lost_assignee(&mut self, goal: GoalId, robot: AgentId) {
         let now_s = self.now_s;
         if let Some(owned) = self.goal_mut(goal).filter(|owned| !owned.is_done) {
             owned.lapses.add(robot, now_s);

@@ -6,7 +6,7 @@ use super::owned::Assigned;
 use super::picture::Robot;
 use crate::allocation::{Allocation, Market, Offer, Pair};
 use alloc::vec::Vec;
-use brain::{Award, Claim, Dispatch, GoalId, RobotId, Task};
+use brain::{AgentId, Award, Claim, Dispatch, GoalId, Receiver, Task};
 
 /// Maximum number of calls per step, and time after which a call is repeated, in seconds.
 pub(crate) const CALLS_PER_STEP: usize = 2;
@@ -41,7 +41,7 @@ impl Controller {
             owned.called_s.get_or_insert(now_s);
             owned.next_call_s = now_s + REPEAT_S;
             let (number, task) = (owned.call, owned.task_at(now_s));
-            self.send(RobotId::EVERYONE, Dispatch::Call { number, task });
+            self.send(Receiver::All, Dispatch::Call { number, task });
         }
     }
 
@@ -139,7 +139,7 @@ impl Controller {
     }
 
     /// Awards a goal to a robot that has bid for it; one that has not is called alone.
-    fn award_to(&mut self, goal: GoalId, robot: RobotId) {
+    fn award_to(&mut self, goal: GoalId, robot: AgentId) {
         let bid = self.bids.get(robot, goal).map(|standing| standing.bid);
         let Some(bid) = bid else {
             self.call_to(goal, robot);
@@ -178,7 +178,7 @@ impl Controller {
     }
 
     /// Requests an answer of one robot, at most once in a while.
-    pub(super) fn call_to(&mut self, goal: GoalId, robot: RobotId) {
+    pub(super) fn call_to(&mut self, goal: GoalId, robot: AgentId) {
         let now_s = self.now_s;
         let Some(owned) = self
             .goal_mut(goal)

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{Bid, GoalId, RobotId};
+use brain::{AgentId, Bid, GoalId};
 
 /// A bid is valid for this time, in seconds: robots repeat it.
 const LIFE_S: f64 = 10.0;
@@ -20,7 +20,7 @@ pub(super) struct Bids {
 /// The bid of a robot.
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Standing {
-    pub(super) robot: RobotId,
+    pub(super) robot: AgentId,
     pub(super) bid: Bid,
     pub(super) confidence: f64,
     received_s: f64,
@@ -31,13 +31,13 @@ impl Bids {
         self.list.iter()
     }
 
-    pub(super) fn get(&self, robot: RobotId, goal: GoalId) -> Option<&Standing> {
+    pub(super) fn get(&self, robot: AgentId, goal: GoalId) -> Option<&Standing> {
         let mut list = self.list.iter();
         list.find(|standing| standing.robot == robot && standing.bid.goal == goal)
     }
 
     /// Takes a bid; it replaces the one of the robot for the same goal.
-    pub(super) fn put(&mut self, robot: RobotId, bid: Bid, confidence: f64, now_s: f64) {
+    pub(super) fn put(&mut self, robot: AgentId, bid: Bid, confidence: f64, now_s: f64) {
         let is_same =
             |standing: &Standing| standing.robot == robot && standing.bid.goal == bid.goal;
         self.list.retain(|standing| !is_same(standing));
@@ -58,7 +58,7 @@ impl Bids {
     }
 
     /// Removes the bids of a robot: its path has changed.
-    pub(super) fn remove_of(&mut self, robot: RobotId) {
+    pub(super) fn remove_of(&mut self, robot: AgentId) {
         self.list.retain(|standing| standing.robot != robot);
     }
 

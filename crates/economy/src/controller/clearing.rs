@@ -8,7 +8,7 @@ use super::lane_work::{LaneWork, Planned};
 use super::owned::Owned;
 use crate::clearance::plan::{Circumstances, Plan, Subject};
 use alloc::vec::Vec;
-use brain::{Act, Dispatch, GoalId, Percept, RobotId};
+use brain::{Act, AgentId, Dispatch, GoalId, Percept, Receiver};
 
 /// Time between two plans, and between two messages about the lane, in seconds.
 const PLAN_PERIOD_S: f64 = 1.0;
@@ -28,7 +28,7 @@ impl Controller {
         if now_s >= work.next_lane_s {
             work.next_lane_s = now_s + LANE_PERIOD_S;
             let lane = work.picture.clearance().lane;
-            self.send(RobotId::EVERYONE, Dispatch::Lane(lane));
+            self.send(Receiver::All, Dispatch::Lane(lane));
             if let Some(gain) = work.gain {
                 self.report_gain(gain);
             }
@@ -84,7 +84,7 @@ impl Controller {
     fn report_gain(&mut self, gain: f64) {
         #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
         let gain = gain as f32;
-        let others: Vec<RobotId> = self.colleagues.on_lane_of(self.own).collect();
+        let others: Vec<AgentId> = self.colleagues.on_lane_of(self.own).collect();
         for other in others {
             self.send(other, Dispatch::LaneGain(gain));
         }
@@ -126,7 +126,7 @@ impl Controller {
                 };
                 *free -= 1;
             }
-            let issuer = self.own;
+            let issuer = self.own.into();
             let number = self.numbers.next(percept);
             let goal = GoalId { issuer, number };
             self.own(proposal.task(goal));
@@ -179,8 +179,8 @@ impl Controller {
     /// Its turn among the controllers in range that share the lane, and the number of turns.
     fn turn(&self) -> (u32, u32) {
         let others = self.colleagues.on_lane_of(self.own);
-        let (before, after): (Vec<RobotId>, Vec<RobotId>) = others.partition(|id| *id < self.own);
-        let count = |ids: &[RobotId]| u32::try_from(ids.len()).unwrap_or(u32::MAX);
+        let (before, after): (Vec<AgentId>, Vec<AgentId>) = others.partition(|id| *id < self.own);
+        let count = |ids: &[AgentId]| u32::try_from(ids.len()).unwrap_or(u32::MAX);
         let turn = count(&before);
         (turn, turn.saturating_add(count(&after)).saturating_add(1))
     }

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::RobotId;
+use brain::AgentId;
 
 /// A controller is out of range when nothing has been received of it for this time, in seconds.
 const LIFE_S: f64 = 8.0;
@@ -18,7 +18,7 @@ pub(super) struct Colleagues {
 
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Colleague {
-    pub(super) id: RobotId,
+    pub(super) id: AgentId,
     serial: u32,
     received_s: f64,
     /// The expected number of mines of a lane that its goals may still find or destroy, once it has reported it.
@@ -39,7 +39,7 @@ impl Hashed for LaneGain {
 }
 
 impl Colleagues {
-    pub(super) fn note(&mut self, id: RobotId, serial: u32, now_s: f64) {
+    pub(super) fn note(&mut self, id: AgentId, serial: u32, now_s: f64) {
         let known = self.list.iter().position(|colleague| colleague.id == id);
         let known = known.map(|index| self.list.remove(index));
         self.list.push(Colleague {
@@ -53,7 +53,7 @@ impl Colleagues {
     }
 
     /// Takes what the goals of another controller in range may still find or destroy of a lane.
-    pub(super) fn note_lane_gain(&mut self, id: RobotId, gain: f64) {
+    pub(super) fn note_lane_gain(&mut self, id: AgentId, gain: f64) {
         let mut list = self.list.iter_mut();
         if let Some(colleague) = list.find(|colleague| colleague.id == id) {
             colleague.lane_gain = LaneGain(Some(gain).filter(|gain| *gain >= 0.0));
@@ -61,7 +61,7 @@ impl Colleagues {
     }
 
     /// Those that share a lane with a controller: they are of the same kind.
-    pub(super) fn on_lane_of(&self, own: RobotId) -> impl Iterator<Item = RobotId> {
+    pub(super) fn on_lane_of(&self, own: AgentId) -> impl Iterator<Item = AgentId> {
         let same = self
             .list
             .iter()
@@ -70,7 +70,7 @@ impl Colleagues {
     }
 
     /// What the goals of those that share a lane may still find or destroy; infinite until all have reported it.
-    pub(super) fn lane_gain(&self, own: RobotId) -> f64 {
+    pub(super) fn lane_gain(&self, own: AgentId) -> f64 {
         let same = self.list.iter().filter(|other| other.id.kind == own.kind);
         let gains = same.map(|colleague| colleague.lane_gain.0.unwrap_or(f64::INFINITY));
         gains.sum()
@@ -81,12 +81,12 @@ impl Colleagues {
         self.list.retain(is_near);
     }
 
-    pub(super) fn is_near(&self, id: RobotId) -> bool {
+    pub(super) fn is_near(&self, id: AgentId) -> bool {
         self.list.iter().any(|colleague| colleague.id == id)
     }
 
     /// The one with the highest serial number.
-    pub(super) fn highest(&self) -> Option<RobotId> {
+    pub(super) fn highest(&self) -> Option<AgentId> {
         let all = self.list.iter();
         let highest = all.max_by_key(|colleague| (colleague.serial, colleague.id));
         highest.map(|colleague| colleague.id)

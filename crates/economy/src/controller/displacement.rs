@@ -8,7 +8,7 @@
 use super::Controller;
 use super::owned::{Assigned, Owned, Reservation};
 use super::picture::Robot;
-use brain::{Fitness, GoalId, RobotId};
+use brain::{AgentId, Fitness, GoalId};
 
 /// For this time, in seconds, the robot is reserved for the valuable goal, which displaces no other
 /// for as long again and more.
@@ -33,7 +33,7 @@ impl Controller {
     }
 
     /// A robot answers that it could serve a goal if it were not full.
-    pub(super) fn displace(&mut self, robot: RobotId, goal: GoalId) {
+    pub(super) fn displace(&mut self, robot: AgentId, goal: GoalId) {
         let mut goals = self.goals.iter();
         let index = goals.position(|owned| owned.task.id == goal);
         let Some(index) = index.filter(|index| self.waits_for(*index) == Some(robot)) else {
@@ -48,7 +48,7 @@ impl Controller {
     }
 
     /// Calls a robot that has released a goal for the goal that displaced it.
-    pub(super) fn call_reserved(&mut self, robot: RobotId) {
+    pub(super) fn call_reserved(&mut self, robot: AgentId) {
         let now_s = self.now_s;
         let mut goals = self.goals.iter_mut();
         let waiting = goals.find(|owned| {
@@ -63,7 +63,7 @@ impl Controller {
     }
 
     /// Whether a robot is reserved for another goal than this one.
-    pub(super) fn is_reserved(&self, robot: RobotId, goal: GoalId) -> bool {
+    pub(super) fn is_reserved(&self, robot: AgentId, goal: GoalId) -> bool {
         let mut waiting = self.goals.iter().filter(|owned| {
             let is_due =
                 |reserved: Reservation| reserved.robot == robot && self.now_s < reserved.until_s;
@@ -73,7 +73,7 @@ impl Controller {
     }
 
     /// Notes when a robot begins the service of a goal.
-    pub(super) fn note_progress(&mut self, robot: RobotId, fitness: &Fitness) {
+    pub(super) fn note_progress(&mut self, robot: AgentId, fitness: &Fitness) {
         let now_s = self.now_s;
         let speed_m_s = self.picture.get(robot).map_or(1.0, |robot| robot.speed_m_s);
         let Some(owned) = self.goal_mut(fitness.goal) else {
@@ -88,7 +88,7 @@ impl Controller {
 
     /// The robot that serves the least valuable goal which a waiting one can displace. It waits if all
     /// robots that have not declined it are full.
-    fn waits_for(&self, index: usize) -> Option<RobotId> {
+    fn waits_for(&self, index: usize) -> Option<AgentId> {
         let (owned, now_s) = (&self.goals[index], self.now_s);
         let is_ripe = |called_s: f64| now_s >= called_s + self.settings.auction_s;
         let has_rested = |reserved: Reservation| now_s >= reserved.until_s + REST_S;
@@ -112,7 +112,7 @@ impl Controller {
     }
 
     /// The least valuable goal of a robot that a waiting one can displace.
-    fn displaceable(&self, index: usize, robot: RobotId) -> Option<&Owned> {
+    fn displaceable(&self, index: usize, robot: AgentId) -> Option<&Owned> {
         let value = self.goals[index].task.value;
         let can_stop = |assigned: Assigned| {
             let is_kept = assigned.is_committed && !assigned.is_withdrawn;

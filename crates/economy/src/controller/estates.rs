@@ -5,11 +5,11 @@ use super::Controller;
 use super::heirs::{MAX_LEASE_S, RETRY_S};
 use super::owned::{Heir, Owned, note_assignee};
 use super::wards::Ward;
-use brain::{Assignment, Award, Claim, Dispatch, GoalId, Percept, Renewal, RobotId, Task, wait_s};
+use brain::{AgentId, Assignment, Award, Claim, Dispatch, GoalId, Percept, Renewal, Task, wait_s};
 
 impl Controller {
     /// Takes the description of a goal of which it is to be the heir.
-    pub(super) fn take_entrusted(&mut self, from: RobotId, task: Task, percept: &Percept) {
+    pub(super) fn take_entrusted(&mut self, from: AgentId, task: Task, percept: &Percept) {
         self.hand_over(from, task.id);
         let is_own = self
             .goals
@@ -35,7 +35,7 @@ impl Controller {
 
     /// A goal that it has inherited belongs to its previous owner again, to which a person has issued it
     /// meanwhile: two controllers own it. It gives it up if no robot serves it for it.
-    fn hand_over(&mut self, origin: RobotId, goal: GoalId) {
+    fn hand_over(&mut self, origin: AgentId, goal: GoalId) {
         if self.services.grant_of(goal).is_none() {
             self.goals.retain(|owned| {
                 let is_free = owned.heir == Heir::None && !owned.is_done;
@@ -45,7 +45,7 @@ impl Controller {
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-    pub(super) fn confirm(&mut self, owner: RobotId, goal: GoalId, number: u32) {
+    pub(super) fn confirm(&mut self, owner: AgentId, goal: GoalId, number: u32) {
         let lease_s = self.settings.owner_lease_s as f32;
         self.send(
             owner,
@@ -58,7 +58,7 @@ impl Controller {
     }
 
     /// An owner is bound: its lease begins. A binding that names another answer has no effect.
-    pub(super) fn take_binding(&mut self, from: RobotId, binding: Award) {
+    pub(super) fn take_binding(&mut self, from: AgentId, binding: Award) {
         let Award {
             goal,
             number,
@@ -90,9 +90,9 @@ impl Controller {
 
     /// Notes a robot to which the owner of a goal has awarded it: it may report that the goal is done
     /// after this controller has inherited it. The message may arrive after the inheritance.
-    pub(super) fn take_assignment(&mut self, from: RobotId, assignment: Assignment) {
+    pub(super) fn take_assignment(&mut self, from: AgentId, assignment: Assignment) {
         let Assignment { goal, robot } = assignment;
-        if !self.settings.is_robot(robot, self.own) {
+        if !robot.is_robot() {
             return;
         }
         let mut wards = self.wards.iter_mut();
@@ -124,7 +124,7 @@ impl Controller {
 
     /// An inherited goal that no robot serves becomes a ward of its previous owner, which answered
     /// that it owns the goal again.
-    fn release_to_origin(&mut self, origin: RobotId, goal: GoalId, number: u32) {
+    fn release_to_origin(&mut self, origin: AgentId, goal: GoalId, number: u32) {
         let is_free = self.services.grant_of(goal).is_none();
         let mut goals = self.goals.iter();
         let index = goals.position(|owned| {
@@ -145,7 +145,7 @@ impl Controller {
     }
 
     /// Renews the leases by which the sender owns its goals.
-    pub(super) fn renew_estates(&mut self, from: RobotId, renewal: Renewal) {
+    pub(super) fn renew_estates(&mut self, from: AgentId, renewal: Renewal) {
         let answer = if self.estates.renew(from, renewal, self.now_s) {
             Dispatch::Renewed(renewal.number)
         } else {
@@ -155,7 +155,7 @@ impl Controller {
     }
 
     /// Renews one lease. A controller that is not the heir answers that.
-    pub(super) fn renew_estate(&mut self, from: RobotId, claim: Claim) {
+    pub(super) fn renew_estate(&mut self, from: AgentId, claim: Claim) {
         if self.estates.renew_one(from, claim, self.now_s) {
             self.send(from, Dispatch::RenewedOne(claim));
         } else {
@@ -164,7 +164,7 @@ impl Controller {
     }
 
     /// It is the heir no longer, unless it owns the goal by now.
-    pub(super) fn take_relief(&mut self, from: RobotId, claim: Claim) {
+    pub(super) fn take_relief(&mut self, from: AgentId, claim: Claim) {
         if self
             .goals
             .iter()

@@ -21,7 +21,7 @@
 
 use super::owned::Heir;
 use super::{Controller, short};
-use brain::{Assignment, Award, Claim, Dispatch, GoalId, Percept, RobotId};
+use brain::{AgentId, Assignment, Award, Claim, Dispatch, GoalId, Percept};
 
 /// A message without an answer is repeated after this time, in seconds.
 pub(super) const RETRY_S: f64 = 2.0;
@@ -110,7 +110,7 @@ impl Controller {
         }
     }
 
-    fn relieve(&mut self, index: usize, heir: RobotId, percept: &Percept) {
+    fn relieve(&mut self, index: usize, heir: AgentId, percept: &Percept) {
         let (goal, now_s) = (self.goals[index].task.id, self.now_s);
         let next_s = now_s + RETRY_S;
         self.goals[index].heir = Heir::Relieving { heir, next_s };
@@ -120,7 +120,7 @@ impl Controller {
     }
 
     /// From now on, the goal is owned only under a lease.
-    pub(super) fn bind(&mut self, goal: GoalId, heir: RobotId, number: u32) {
+    pub(super) fn bind(&mut self, goal: GoalId, heir: AgentId, number: u32) {
         let (now_s, lease_s) = (self.now_s, self.settings.service_lease_s);
         if let Some(owned) = self.goal_mut(goal) {
             owned.heir = Heir::Bound {
@@ -134,7 +134,7 @@ impl Controller {
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
-    pub(super) fn send_binding(&mut self, goal: GoalId, heir: RobotId, number: u32, lease_s: f64) {
+    pub(super) fn send_binding(&mut self, goal: GoalId, heir: AgentId, number: u32, lease_s: f64) {
         let lease_s = lease_s as f32;
         self.send(
             heir,
@@ -148,7 +148,7 @@ impl Controller {
 
     /// Takes the answer of an heir: that it is ready, that it knows that it is bound, or that it
     /// returns the goal.
-    pub(super) fn take_answer(&mut self, from: RobotId, answer: Award) {
+    pub(super) fn take_answer(&mut self, from: AgentId, answer: Award) {
         let Award {
             goal,
             number,
@@ -207,7 +207,7 @@ impl Controller {
     }
 
     /// The heir is relieved: the goal is owned without a lease, if the lease has not ended.
-    pub(super) fn take_relieved(&mut self, from: RobotId, claim: Claim) {
+    pub(super) fn take_relieved(&mut self, from: AgentId, claim: Claim) {
         let is_held = self.tenures.is_held(claim.goal, self.now_s);
         if !self.tenures.is_answer(from, claim) || !is_held {
             return;

@@ -10,7 +10,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::{Dispatch, GoalId, RobotId, Task};
+use brain::{AgentId, Dispatch, GoalId, Task};
 
 /// Messages of a robot that has served a goal arrive within this time, in seconds: what it has searched
 /// is not searched again before.
@@ -120,7 +120,7 @@ impl Clearing {
     }
 
     /// Takes a message of a robot about the lane.
-    pub(super) fn receive(&mut self, from: RobotId, dispatch: &Dispatch) {
+    pub(super) fn receive(&mut self, from: AgentId, dispatch: &Dispatch) {
         let Some(work) = &mut self.work else {
             return;
         };

@@ -5,7 +5,7 @@
 
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::RobotId;
+use brain::AgentId;
 
 /// Bids do not count for this time, in seconds; each further lapse doubles it, up to a maximum.
 const MIN_REST_S: f64 = 10.0;
@@ -20,7 +20,7 @@ pub(super) struct Lapses(Vec<Lapse>);
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Lapse {
-    robot: RobotId,
+    robot: AgentId,
     rest_s: f64,
     until_s: f64,
 }
@@ -33,7 +33,7 @@ impl base::hashed::Hashed for Lapses {
 
 impl Lapses {
     /// Notes a lapse.
-    pub(super) fn add(&mut self, robot: RobotId, now_s: f64) {
+    pub(super) fn add(&mut self, robot: AgentId, now_s: f64) {
         let known = self.0.iter().position(|lapse| lapse.robot == robot);
         let rest_s = known.map_or(MIN_REST_S, |place| {
             (2.0 * self.0.remove(place).rest_s).min(MAX_REST_S)
@@ -49,7 +49,7 @@ impl Lapses {
     }
 
     /// Whether the bids of a robot count.
-    pub(super) fn may_bid(&self, robot: RobotId, now_s: f64) -> bool {
+    pub(super) fn may_bid(&self, robot: AgentId, now_s: f64) -> bool {
         let mut lapses = self.0.iter();
         !lapses.any(|lapse| lapse.robot == robot && now_s < lapse.until_s)
     }

@@ -45,8 +45,10 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 use bids::Bids;
-use brain::{About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept};
-use brain::{Reason, RobotId, Task, wait_s};
+use brain::{
+    About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept, Receiver,
+};
+use brain::{AgentId, Reason, Task, wait_s};
 use colleagues::Colleagues;
 use lane_work::Clearing;
 use owned::{Heir, Owned};
@@ -58,7 +60,7 @@ use wards::{Orphan, Ward};
 pub struct Controller {
     #[hashed(skip)]
     settings: Arc<Settings>,
-    own: RobotId,
+    own: AgentId,
     /// Its clock, and the time since the last step.
     now_s: f64,
     step_s: f64,
@@ -93,11 +95,11 @@ pub struct OwnedGoal {
     /// The goal.
     pub task: Task,
     /// The robot that serves it, and the remaining time of its lease in seconds; `None` if there is none.
-    pub assignee: Option<(RobotId, f64)>,
+    pub assignee: Option<(AgentId, f64)>,
     /// The controller that renews the lease of the owner and inherits the goal, and the remaining time
     /// of that lease in seconds; `None` if there is none: the controller then owns the goal without a
     /// lease.
-    pub heir: Option<(RobotId, f64)>,
+    pub heir: Option<(AgentId, f64)>,
     /// Why no robot can serve it at present, if that is so.
     pub unserved: Option<Reason>,
 }
@@ -109,7 +111,7 @@ impl Controller {
         Self {
             clearing: Clearing::new(settings.clearance.as_ref()),
             settings,
-            own: RobotId::default(),
+            own: AgentId::default(),
             now_s: f64::NEG_INFINITY,
             step_s: 0.0,
             silent_until_s: Some(f64::NEG_INFINITY),
@@ -325,7 +327,7 @@ impl Controller {
         goals.find(|owned| owned.task.id == goal)
     }
 
-    fn send(&mut self, to: RobotId, dispatch: Dispatch) {
+    fn send(&mut self, to: impl Into<Receiver>, dispatch: Dispatch) {
         self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
     }
 
@@ -357,7 +359,7 @@ impl Controller {
     /// A goal is no longer on offer to any robot.
     fn close_offer(&mut self, goal: GoalId) {
         let claim = Claim { goal, number: 0 };
-        self.send(RobotId::EVERYONE, Dispatch::Withdraw(claim));
+        self.send(Receiver::All, Dispatch::Withdraw(claim));
     }
 }
 
@@ -369,7 +371,7 @@ fn short(duration_s: f64) -> f32 {
 
 /// The part of an heir that [`OwnedGoal`] shows.
 impl Heir {
-    fn bound(&self) -> Option<RobotId> {
+    fn bound(&self) -> Option<AgentId> {
         match self {
             Self::Bound { heir, .. } | Self::Relieving { heir, .. } => Some(*heir),
             Self::None | Self::Offered { .. } => None,

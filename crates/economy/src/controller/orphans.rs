@@ -2,7 +2,7 @@
 
 use super::Controller;
 use alloc::vec::Vec;
-use brain::{Dispatch, GoalId, Reason, Refusal, RobotId};
+use brain::{AgentId, Dispatch, GoalId, Reason, Refusal};
 
 impl Controller {
     /// Reports the goals that it has lost to the operator, except for the first `known` ones.
@@ -15,7 +15,7 @@ impl Controller {
                 number: 0,
                 reason: Reason::Orphaned,
             };
-            self.send(RobotId::OPERATOR, Dispatch::Stuck(refusal));
+            self.send(AgentId::OPERATOR, Dispatch::Stuck(refusal));
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::lapses::Lapses;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{Reason, RobotId, Task};
+use brain::{AgentId, Reason, Task};
 
 /// Maximum number of robots that are remembered for a goal: those that have been awarded it, and those that
 /// cannot serve it.
@@ -11,7 +11,7 @@ const MAX_ROBOTS: usize = 64;
 const MAX_DECLINED: usize = 1024;
 
 /// Adds a robot to those that have been awarded a goal; the first one is forgotten first.
-pub(super) fn note_assignee(assignees: &mut Vec<RobotId>, robot: RobotId) {
+pub(super) fn note_assignee(assignees: &mut Vec<AgentId>, robot: AgentId) {
     if !assignees.contains(&robot) {
         if assignees.len() == MAX_ROBOTS {
             assignees.remove(0);
@@ -33,7 +33,7 @@ pub(super) struct Owned {
     pub(super) due_at_s: f64,
     pub(super) is_done: bool,
     /// The owner from which it was inherited.
-    pub(super) origin: Option<RobotId>,
+    pub(super) origin: Option<AgentId>,
     /// When it is offered to that owner again; minus infinity if it never was.
     pub(super) next_return_s: f64,
     /// From when on it can be awarded.
@@ -48,11 +48,11 @@ pub(super) struct Owned {
     pub(super) without_bid_s: f64,
     pub(super) next_probe_s: f64,
     /// The robots that cannot serve it, until when, and the last reason.
-    pub(super) declined: Vec<(RobotId, f64)>,
+    pub(super) declined: Vec<(AgentId, f64)>,
     pub(super) reason: Reason,
     pub(super) rest: Rest,
     /// The robots that have been awarded it.
-    pub(super) assignees: Vec<RobotId>,
+    pub(super) assignees: Vec<AgentId>,
     pub(super) lapses: Lapses,
     /// The robot that is to be awarded it next, as it has displaced another goal of the robot.
     pub(super) reserved: Option<Reservation>,
@@ -61,7 +61,7 @@ pub(super) struct Owned {
 /// The award of a goal.
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Assigned {
-    pub(super) robot: RobotId,
+    pub(super) robot: AgentId,
     /// Number of the bid.
     pub(super) number: u32,
     pub(super) is_committed: bool,
@@ -85,7 +85,7 @@ pub(super) struct Assigned {
 /// A robot that is to be awarded a goal first.
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Reservation {
-    pub(super) robot: RobotId,
+    pub(super) robot: AgentId,
     pub(super) until_s: f64,
 }
 
@@ -103,17 +103,17 @@ pub(super) enum Heir {
     /// There is none.
     None,
     /// It is to be one, and has not answered.
-    Offered { heir: RobotId, next_s: f64 },
+    Offered { heir: AgentId, next_s: f64 },
     /// The controller owns the goal only while the heir renews its lease.
     Bound {
-        heir: RobotId,
+        heir: AgentId,
         /// The number that the heir gave its answer, and whether it knows that it is bound.
         number: u32,
         is_confirmed: bool,
         next_s: f64,
     },
     /// It is to be the heir no longer, and has not answered.
-    Relieving { heir: RobotId, next_s: f64 },
+    Relieving { heir: AgentId, next_s: f64 },
 }
 
 impl Owned {
@@ -169,7 +169,7 @@ impl Owned {
     }
 
     /// Notes that a robot cannot serve it.
-    pub(super) fn decline(&mut self, robot: RobotId, until_s: f64, reason: Reason) {
+    pub(super) fn decline(&mut self, robot: AgentId, until_s: f64, reason: Reason) {
         self.declined.retain(|(declined, _)| *declined != robot);
         if self.declined.len() == MAX_DECLINED {
             self.declined.remove(0);
@@ -178,7 +178,7 @@ impl Owned {
         self.reason = reason;
     }
 
-    pub(super) fn is_declined_by(&self, robot: RobotId, now_s: f64) -> bool {
+    pub(super) fn is_declined_by(&self, robot: AgentId, now_s: f64) -> bool {
         let mut declined = self.declined.iter();
         declined.any(|(declined, until_s)| *declined == robot && now_s < *until_s)
     }

@@ -9,7 +9,7 @@ use super::trust::Trust;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
-use brain::{Report, RobotId, Task};
+use brain::{AgentId, Report, Task};
 
 /// A robot is forgotten when nothing has been received of it for this time, in seconds, except for
 /// the trust in it.
@@ -30,7 +30,7 @@ pub(super) struct Picture {
 /// A robot, as a controller knows it.
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Robot {
-    pub(super) id: RobotId,
+    pub(super) id: AgentId,
     pub(super) at: Option<Point>,
     /// The weight of the position when it was received, and that time.
     weight: f64,
@@ -67,19 +67,19 @@ impl Picture {
         self.robots.iter().filter(|robot| robot.is_present)
     }
 
-    pub(super) fn get(&self, id: RobotId) -> Option<&Robot> {
+    pub(super) fn get(&self, id: AgentId) -> Option<&Robot> {
         self.robots.iter().find(|robot| robot.id == id)
     }
 
     /// Notes a message of a robot; returns whether it was not present before.
-    pub(super) fn note(&mut self, id: RobotId, now_s: f64) -> bool {
+    pub(super) fn note(&mut self, id: AgentId, now_s: f64) -> bool {
         let robot = self.robot(id, now_s);
         robot.received_s = now_s;
         !core::mem::replace(&mut robot.is_present, true)
     }
 
     /// Takes the report of a robot, with the confidence of the message.
-    pub(super) fn report(&mut self, id: RobotId, report: &Report, confidence: f64, now_s: f64) {
+    pub(super) fn report(&mut self, id: AgentId, report: &Report, confidence: f64, now_s: f64) {
         let robot = self.robot(id, now_s);
         let at = Point::from(report.at_m.map(f64::from));
         robot.place(at, robot.trust.value() * confidence, now_s);
@@ -88,22 +88,22 @@ impl Picture {
     }
 
     /// Notes where a robot is seen, by this controller or another, and with what confidence.
-    pub(super) fn see(&mut self, id: RobotId, at: Point, confidence: f64, now_s: f64) {
+    pub(super) fn see(&mut self, id: AgentId, at: Point, confidence: f64, now_s: f64) {
         self.robot(id, now_s).place(at, confidence, now_s);
     }
 
     /// A robot has refused a goal because it serves the maximum number.
-    pub(super) fn is_full(&mut self, id: RobotId, now_s: f64) {
+    pub(super) fn is_full(&mut self, id: AgentId, now_s: f64) {
         self.robot(id, now_s).payload = 0;
     }
 
     /// A robot has been taken out of service: its next report is that of a robot that returns.
-    pub(super) fn is_gone(&mut self, id: RobotId, now_s: f64) {
+    pub(super) fn is_gone(&mut self, id: AgentId, now_s: f64) {
         self.robot(id, now_s).is_present = false;
     }
 
     /// An award to a robot has been served, or not.
-    pub(super) fn learn(&mut self, id: RobotId, is_served: bool, now_s: f64) {
+    pub(super) fn learn(&mut self, id: AgentId, is_served: bool, now_s: f64) {
         self.robot(id, now_s).trust.learn(is_served);
     }
 
@@ -113,7 +113,7 @@ impl Picture {
         }
     }
 
-    fn robot(&mut self, id: RobotId, now_s: f64) -> &mut Robot {
+    fn robot(&mut self, id: AgentId, now_s: f64) -> &mut Robot {
         let known = self.robots.iter().position(|robot| robot.id == id);
         let index = known.unwrap_or_else(|| {
             if self.robots.len() == MAX_ROBOTS {
@@ -144,7 +144,7 @@ impl Picture {
 mod tests {
     use super::*;
 
-    const ROBOT: RobotId = RobotId { kind: 0, index: 0 };
+    const ROBOT: AgentId = AgentId::robot(0, 0);
 
     fn reported(x: f32) -> Report {
         Report {

@@ -3,7 +3,7 @@
 use super::Controller;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use brain::{Dispatch, Percept, RobotId, Seen};
+use brain::{AgentId, Dispatch, Percept, Receiver, Seen};
 
 /// Time between two messages of presence, in seconds.
 const PRESENCE_PERIOD_S: f64 = 2.0;
@@ -12,7 +12,7 @@ const PRESENCE_PERIOD_S: f64 = 2.0;
 const MAX_SEEN: usize = 4;
 
 /// The serial number of a controller: that of its kind, then that within the kind.
-fn serial(id: RobotId) -> u32 {
+fn serial(id: AgentId) -> u32 {
     u32::from(id.kind) << 24 | id.index & 0x00ff_ffff
 }
 
@@ -22,7 +22,7 @@ impl Controller {
         for (id, at) in seen(percept) {
             let is_new = self.picture.get(id).is_none();
             self.picture.see(id, at, 1.0, self.now_s);
-            if is_new && self.settings.is_robot(id, self.own) {
+            if is_new && id.is_robot() {
                 self.send(id, Dispatch::Query {});
             }
         }
@@ -39,9 +39,9 @@ impl Controller {
             return;
         }
         self.colleagues.next_s = Some(self.now_s + PRESENCE_PERIOD_S);
-        self.send(RobotId::EVERYONE, Dispatch::Serial(serial(self.own)));
+        self.send(Receiver::All, Dispatch::Serial(serial(self.own)));
         let others = self.colleagues.list.iter();
-        let others: Vec<RobotId> = others.map(|colleague| colleague.id).collect();
+        let others: Vec<AgentId> = others.map(|colleague| colleague.id).collect();
         for (robot, at) in seen(percept).take(MAX_SEEN) {
             let at_m = [at.x as f32, at.y as f32];
             for other in &others {
@@ -52,7 +52,7 @@ impl Controller {
 }
 
 /// The robots that its sensors detect, and their positions in the world.
-fn seen(percept: &Percept) -> impl Iterator<Item = (RobotId, Point)> {
+fn seen(percept: &Percept) -> impl Iterator<Item = (AgentId, Point)> {
     let own = percept.position.map(|position| position.value);
     let heading_rad = percept.heading_rad.map_or(0.0, |heading| heading.value);
     percept.neighbours.iter().filter_map(move |neighbour| {

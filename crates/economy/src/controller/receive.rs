@@ -2,8 +2,10 @@
 
 use super::Controller;
 use base::geometry::Point;
-use brain::{About, Bid, Claim, Dispatch, Percept, Reason, ReceivedMessage, Refusal, Renewal};
-use brain::{GoalId, Report, RobotId, Verdict};
+use brain::{
+    About, AgentRole, Bid, Claim, Dispatch, Percept, Reason, ReceivedMessage, Refusal, Renewal,
+};
+use brain::{AgentId, GoalId, Report, Verdict};
 
 /// A robot that refuses a goal is not called again for it for this time, in seconds, and as much for
 /// each robot that is present, which is at least the time between two calls.
@@ -19,20 +21,24 @@ impl Controller {
             return;
         };
         let from = received.from;
-        if from == RobotId::OPERATOR {
+        if from == AgentId::OPERATOR {
             if let Dispatch::Issue(task) = dispatch {
                 self.own(task);
             }
             return;
         }
-        if self.settings.is_robot(from, self.own) {
-            self.receive_of_robot(from, dispatch, received.message.confidence);
-        } else if self.settings.is_other_controller(from, self.own) {
-            self.receive_of_controller(received, dispatch, percept);
+        match from.role {
+            AgentRole::Robot => {
+                self.receive_of_robot(from, dispatch, received.message.confidence);
+            }
+            AgentRole::Controller if from != self.own => {
+                self.receive_of_controller(received, dispatch, percept);
+            }
+            AgentRole::Controller | AgentRole::Person => {}
         }
     }
 
-    fn receive_of_robot(&mut self, from: RobotId, dispatch: Dispatch, confidence: f64) {
+    fn receive_of_robot(&mut self, from: AgentId, dispatch: Dispatch, confidence: f64) {
         match dispatch {
             Dispatch::Report(report) => self.take_report(from, &report, confidence),
             Dispatch::Bid(bid) => self.take_bid(from, bid, confidence),
@@ -57,7 +63,7 @@ impl Controller {
     }
 
     /// A robot that was not present is a reason to try goals again that no robot could serve.
-    fn note_robot(&mut self, from: RobotId) {
+    fn note_robot(&mut self, from: AgentId) {
         if self.picture.note(from, self.now_s) {
             let now_s = self.now_s;
             self.goals
@@ -66,14 +72,14 @@ impl Controller {
         }
     }
 
-    fn take_report(&mut self, from: RobotId, report: &Report, confidence: f64) {
+    fn take_report(&mut self, from: AgentId, report: &Report, confidence: f64) {
         self.note_robot(from);
         self.picture.report(from, report, confidence, self.now_s);
     }
 
     /// A bid counts if its goal is on offer under the number of the bid. If it is not, the robot is to
     /// know that.
-    fn take_bid(&mut self, from: RobotId, bid: Bid, confidence: f64) {
+    fn take_bid(&mut self, from: AgentId, bid: Bid, confidence: f64) {
         let is_possible = confidence > 0.0 && confidence <= 1.0;
         if !is_possible || !(0.0..=MAX_TIME_S).contains(&bid.time_s) {
             return;
@@ -101,7 +107,7 @@ impl Controller {
         }
     }
 
-    fn take_commitment(&mut self, from: RobotId, claim: Claim) {
+    fn take_commitment(&mut self, from: AgentId, claim: Claim) {
         let Some(owned) = self.goal_mut(claim.goal) else {
             return;
         };
@@ -115,7 +121,7 @@ impl Controller {
         }
     }
 
-    fn take_refusal(&mut self, from: RobotId, refusal: Refusal) {
+    fn take_refusal(&mut self, from: AgentId, refusal: Refusal) {
         let Refusal {
             goal,
             number,
@@ -145,7 +151,7 @@ impl Controller {
     }
 
     /// A robot returns what it was awarded: its bids for it do not count for a time.
-    fn note_failure(&mut self, from: RobotId, goal: GoalId) {
+    fn note_failure(&mut self, from: AgentId, goal: GoalId) {
         let now_s = self.now_s;
         let owned = self.goal_mut(goal);
         let kept = owned.filter(|owned| !owned.assigned.is_some_and(|it| it.is_withdrawn));
@@ -161,7 +167,7 @@ impl Controller {
         self.now_s + DECLINED_S + DECLINED_PER_ROBOT_S * robots
     }
 
-    fn take_release(&mut self, from: RobotId, claim: Claim) {
+    fn take_release(&mut self, from: AgentId, claim: Claim) {
         if self.services.release(from, claim).is_some() {
             self.note_failure(from, claim.goal);
             self.reopen(claim);
@@ -171,7 +177,7 @@ impl Controller {
 
     /// A goal is done if a robot to which it was awarded reports it. Of an inherited goal, the previous
     /// owner has reported its awards; a robot of which no such message arrived has served it in vain.
-    fn take_done(&mut self, from: RobotId, claim: Claim) {
+    fn take_done(&mut self, from: AgentId, claim: Claim) {
         let (now_s, until_s) = (self.now_s, self.declined_until_s());
         self.restore_orphan(from, claim.goal);
         let Some(owned) = self.goal_mut(claim.goal) else {
@@ -194,7 +200,7 @@ impl Controller {
         self.send(from, Dispatch::Withdraw(claim));
     }
 
-    fn renew_services(&mut self, from: RobotId, renewal: Renewal) {
+    fn renew_services(&mut self, from: AgentId, renewal: Renewal) {
         self.note_robot(from);
         let answer = if self.services.renew(from, renewal, self.now_s) {
             Dispatch::Renewed(renewal.number)
@@ -205,7 +211,7 @@ impl Controller {
     }
 
     /// A lease that the robot does not have, or is to release, is withdrawn.
-    fn renew_service(&mut self, from: RobotId, claim: Claim) {
+    fn renew_service(&mut self, from: AgentId, claim: Claim) {
         let answer = if self.services.renew_one(from, claim, self.now_s) {
             Dispatch::RenewedOne(claim)
         } else if self.goals.iter().any(|owned| owned.task.id == claim.goal) {

@@ -4,7 +4,7 @@ use super::Controller;
 use super::owned::{Heir, Owned};
 use super::wards::{Orphan, Request};
 use alloc::vec::Vec;
-use brain::{Claim, Dispatch, GoalId, Lease, Percept, RobotId, Task};
+use brain::{AgentId, Claim, Dispatch, GoalId, Lease, Percept, Task};
 
 /// Leases are renewed when this part of their duration is left.
 const RENEWED_AT: f64 = 2.0 / 3.0;
@@ -20,7 +20,7 @@ impl Controller {
     pub(super) fn renew_tenures(&mut self, percept: &Percept) {
         let is_due = |lease: &&Lease| lease.until_s - self.now_s < RENEWED_AT * lease.lasts_s;
         let heirs = self.tenures.leases().iter().filter(is_due);
-        let mut heirs: Vec<RobotId> = heirs.map(|lease| lease.grantor).collect();
+        let mut heirs: Vec<AgentId> = heirs.map(|lease| lease.grantor).collect();
         heirs.sort_unstable();
         heirs.dedup();
         if self.now_s < self.next_renewal_s || heirs.is_empty() {
@@ -39,7 +39,7 @@ impl Controller {
     /// The lists of leases differ: those that end first are renewed one by one.
     pub(super) fn renew_tenures_one_by_one(
         &mut self,
-        from: RobotId,
+        from: AgentId,
         number: u32,
         percept: &Percept,
     ) {
@@ -80,7 +80,7 @@ impl Controller {
     }
 
     /// An orphaned goal that has been served is orphaned no longer.
-    pub(super) fn restore_orphan(&mut self, from: RobotId, goal: GoalId) {
+    pub(super) fn restore_orphan(&mut self, from: AgentId, goal: GoalId) {
         let mut orphans = self.orphans.iter();
         let index = orphans.position(|orphan| {
             orphan.owned.task.id == goal && orphan.owned.assignees.contains(&from)
@@ -94,7 +94,7 @@ impl Controller {
 
     /// An heir returns a goal: the answer is the request of the lease. A repeated offer has the same answer
     /// for a time, because the messages of both may take longer than the heir waits.
-    pub(super) fn take_return(&mut self, from: RobotId, task: Task, percept: &Percept) {
+    pub(super) fn take_return(&mut self, from: AgentId, task: Task, percept: &Percept) {
         self.rejoin(from, task.id);
         let is_own = self.goals.iter().any(|owned| owned.task.id == task.id);
         let is_full = self.orphans.len() >= self.settings.max_goals as usize;
@@ -128,7 +128,7 @@ impl Controller {
     }
 
     /// An heir returns a goal that a person has issued here again meanwhile: it is to be the heir of that.
-    fn rejoin(&mut self, heir: RobotId, goal: GoalId) {
+    fn rejoin(&mut self, heir: AgentId, goal: GoalId) {
         let next_s = self.now_s;
         let owned = self.goal_mut(goal).filter(|owned| !owned.is_done);
         if let Some(owned) = owned.filter(|owned| owned.heir == Heir::None) {
@@ -137,7 +137,7 @@ impl Controller {
     }
 
     /// An heir has granted the ownership of a goal that it returns.
-    pub(super) fn take_back(&mut self, heir: RobotId, claim: Claim, lease_s: f64) {
+    pub(super) fn take_back(&mut self, heir: AgentId, claim: Claim, lease_s: f64) {
         let Claim { goal, number } = claim;
         let mut orphans = self.orphans.iter();
         let orphan = orphans.position(|orphan| {

@@ -4,7 +4,7 @@ use super::Controller;
 use super::picture::Robot;
 use crate::allocation::Allocation;
 use alloc::vec::Vec;
-use brain::{Dispatch, GoalId, Reason, Refusal, RobotId};
+use brain::{AgentId, Dispatch, GoalId, Reason, Refusal};
 
 /// A goal for which no robot has bid for this time, in seconds, is offered to each robot alone.
 const PATIENCE_S: f64 = 10.0;
@@ -90,7 +90,7 @@ impl Controller {
                 number,
                 reason,
             };
-            self.send(RobotId::OPERATOR, Dispatch::Stuck(refusal));
+            self.send(AgentId::OPERATOR, Dispatch::Stuck(refusal));
         }
     }
 }

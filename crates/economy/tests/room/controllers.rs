@@ -7,14 +7,14 @@ use crate::hand::{
 use crate::team::goal_id;
 use base::geometry::Point;
 use brain::{
-    About, Bid, Dispatch, Fitness, Message, Percept, Reason, Renewal, Report, RobotId, Seen, Task,
-    Verdict,
+    About, AgentId, Bid, Dispatch, Fitness, Message, Percept, Reason, Receiver, Renewal, Report,
+    Seen, Task, Verdict,
 };
 use economy::{Controller, Settings};
 
 #[test]
 fn issue_of_the_operator_alone_makes_a_controller_own_a_goal_and_call_for_bids() {
-    for (from, count) in [(RobotId::OPERATOR, 1), (ROBOT, 0), (HEIR, 0)] {
+    for (from, count) in [(AgentId::OPERATOR, 1), (ROBOT, 0), (HEIR, 0)] {
         let mut owner = controller(OWNER);
         let sent = owner.take(from, Dispatch::Issue(TASK));
         assert_eq!(owner.agent.goals().count(), count);
@@ -77,7 +77,7 @@ fn bids_with_absurd_numbers_or_of_an_earlier_call_win_nothing() {
     });
     for bid in [absurd(f32::NAN), absurd(-1.0), absurd(f32::INFINITY), old] {
         let mut owner = controller(OWNER);
-        owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+        owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
         owner.take(ROBOT, bid);
         owner.wait(2.0);
         assert_eq!(assignee_of(&owner), None, "{bid:?}");
@@ -87,10 +87,10 @@ fn bids_with_absurd_numbers_or_of_an_earlier_call_win_nothing() {
 #[test]
 fn an_award_is_repeated_until_the_commitment_and_expires_without_one() {
     let mut owner = awarder();
-    assert!(owner.wait(2.0).contains(&(ROBOT, award(7))));
+    assert!(owner.wait(2.0).contains(&(ROBOT.into(), award(7))));
     let sent = owner.take(ROBOT, Dispatch::Commit(claim(7)));
-    assert!(sent.contains(&(RobotId::EVERYONE, Dispatch::Withdraw(claim(0)))));
-    assert!(!owner.wait(2.0).contains(&(ROBOT, award(7))));
+    assert!(sent.contains(&(Receiver::All, Dispatch::Withdraw(claim(0)))));
+    assert!(!owner.wait(2.0).contains(&(ROBOT.into(), award(7))));
     let mut silent = awarder();
     silent.wait(21.0);
     assert_eq!(assignee_of(&silent), None);
@@ -102,9 +102,9 @@ fn done_of_the_assignee_alone_ends_a_goal_and_is_acknowledged() {
     owner.take(OTHER, Dispatch::Done(claim(7)));
     assert_eq!(owner.agent.done().count(), 0);
     let sent = owner.take(ROBOT, Dispatch::Done(claim(7)));
-    assert!(sent.contains(&(ROBOT, Dispatch::Withdraw(claim(7)))));
+    assert!(sent.contains(&(ROBOT.into(), Dispatch::Withdraw(claim(7)))));
     assert!(owner.agent.done().eq([goal_id(0)]));
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     assert_eq!(owner.agent.goals().count(), 0);
 }
 
@@ -129,7 +129,7 @@ fn a_stuck_robot_keeps_its_goal_until_another_one_bids() {
     });
     let sent = owner.take(OTHER, other);
     assert!(
-        sent.contains(&(ROBOT, Dispatch::Withdraw(claim(7)))),
+        sent.contains(&(ROBOT.into(), Dispatch::Withdraw(claim(7)))),
         "{sent:?}"
     );
     owner.take(ROBOT, Dispatch::Release(claim(7)));
@@ -148,7 +148,7 @@ fn a_robot_that_approaches_again_keeps_its_goal() {
         remaining_s: 5.0,
     };
     let sent = owner.take(ROBOT, Dispatch::Fitness(fitness));
-    assert!(sent.contains(&(RobotId::EVERYONE, Dispatch::Withdraw(claim(0)))));
+    assert!(sent.contains(&(Receiver::All, Dispatch::Withdraw(claim(0)))));
     owner.take(OTHER, bid_of(3));
     owner.wait(2.0);
     assert_eq!(assignee_of(&owner), Some(ROBOT));
@@ -159,7 +159,7 @@ fn a_renewal_is_granted_only_to_the_assignee() {
     let mut owner = awarder();
     let mut renewal = |from, number| {
         let sent = owner.take(from, Dispatch::RenewOne(claim(number)));
-        sent.contains(&(from, Dispatch::RenewedOne(claim(number))))
+        sent.contains(&(from.into(), Dispatch::RenewedOne(claim(number))))
     };
     assert!(renewal(ROBOT, 8) && !renewal(OTHER, 9));
     let renewal_of = |count| {
@@ -170,9 +170,9 @@ fn a_renewal_is_granted_only_to_the_assignee() {
         })
     };
     let sent = owner.take(ROBOT, renewal_of(1));
-    assert!(sent.contains(&(ROBOT, Dispatch::Differs(10))));
+    assert!(sent.contains(&(ROBOT.into(), Dispatch::Differs(10))));
     let sent = owner.take(OTHER, renewal_of(0));
-    assert!(sent.contains(&(OTHER, Dispatch::Renewed(10))));
+    assert!(sent.contains(&(OTHER.into(), Dispatch::Renewed(10))));
 }
 
 #[test]
@@ -182,7 +182,7 @@ fn a_report_or_a_sighting_of_another_controller_makes_a_robot_known() {
         capability: 3,
         ..TASK
     };
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(special));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(special));
     owner.wait(15.0);
     let unserved = |owner: &Hand<Controller>| owner.agent.goals().next().unwrap().unserved;
     assert_eq!(unserved(&owner), Some(Reason::NoRobot));
@@ -205,8 +205,8 @@ fn a_report_or_a_sighting_of_another_controller_makes_a_robot_known() {
     let sent = owner.wait(15.0);
     let alone = sent
         .iter()
-        .find(|(to, sent)| *to != RobotId::EVERYONE && matches!(sent, Dispatch::Call { .. }));
-    assert_eq!(alone.map(|(to, _)| *to), Some(OTHER));
+        .find(|(to, sent)| *to != Receiver::All && matches!(sent, Dispatch::Call { .. }));
+    assert_eq!(alone.map(|(to, _)| *to), Some(OTHER.into()));
 }
 
 #[test]
@@ -258,7 +258,7 @@ fn a_controller_that_restarts_awards_nothing_for_the_longest_lease() {
     let restarted = Controller::restarted(std::sync::Arc::new(settings));
     let mut owner = controller(OWNER);
     owner.agent = restarted;
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     owner.take(ROBOT, bid_of(7));
     let is_call = |sent: &Dispatch| matches!(sent, Dispatch::Call { .. });
     assert!(!sent_any(&owner.wait(39.0), is_call));

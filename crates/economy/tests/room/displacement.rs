@@ -10,7 +10,6 @@ use economy::Settings;
 fn team(later: Task) -> Team {
     let settings = Settings {
         max_drift: 0.0,
-        robot_kinds: 1,
         ..Settings::default()
     };
     let mut team = Team::new([1, 1], &settings, Weather::default(), 3);
@@ -93,7 +92,6 @@ fn among_many_goals_of_many_values_awards_are_few_and_all_are_served() {
     for seed in 0..10 {
         let settings = Settings {
             max_drift: 0.0,
-            robot_kinds: 1,
             ..Settings::default()
         };
         let mut team = Team::new([2, 1], &settings, Weather::default(), seed);

@@ -4,12 +4,12 @@ use crate::hand::{
     OTHER, OWNER, ROBOT, TASK, awarder, bid_of, claim, controller, refusal, sent_any,
 };
 use crate::team::{goal_id, robot_id};
-use brain::{Dispatch, Reason, Report, RobotId, Task};
+use brain::{AgentId, Dispatch, Reason, Receiver, Report, Task};
 
 /// A goal that is reported to the operator.
-fn reports(sent: &[(RobotId, Dispatch)]) -> Vec<Reason> {
+fn reports(sent: &[(Receiver, Dispatch)]) -> Vec<Reason> {
     let reports = sent.iter().filter_map(|(to, sent)| match sent {
-        Dispatch::Stuck(refusal) if *to == RobotId::OPERATOR => Some(refusal.reason),
+        Dispatch::Stuck(refusal) if *to == AgentId::OPERATOR.into() => Some(refusal.reason),
         _ => None,
     });
     reports.collect()
@@ -31,7 +31,7 @@ fn a_goal_of_a_robot_that_stays_stuck_is_withdrawn_and_reported_once() {
     owner.take(ROBOT, Dispatch::Commit(claim(7)));
     let stuck = Dispatch::Stuck(refusal(7, Reason::Unreachable));
     let mut sent = owner.take(ROBOT, stuck);
-    let withdrawn = (ROBOT, Dispatch::Withdraw(claim(7)));
+    let withdrawn = (ROBOT.into(), Dispatch::Withdraw(claim(7)));
     for _ in 0..80 {
         // It renews its lease and reports, and cannot reach the goal.
         sent.extend(owner.take(ROBOT, report(0)));
@@ -76,7 +76,7 @@ fn a_robot_that_approaches_again_keeps_its_goal() {
 /// The number of awards to a robot that returns each of them, while another robot bids, too.
 fn awards_of_a_liar(answer: impl Fn(u32) -> Dispatch) -> [usize; 2] {
     let mut owner = controller(OWNER);
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     let (mut number, mut awards, mut call) = (0, [0, 0], 0);
     for _ in 0..600 {
         number += 1;
@@ -98,11 +98,11 @@ fn awards_of_a_liar(answer: impl Fn(u32) -> Dispatch) -> [usize; 2] {
         for (to, sent) in sent {
             match sent {
                 Dispatch::Call { number, .. } => call = number,
-                Dispatch::Award(award) if to == ROBOT => {
+                Dispatch::Award(award) if to == ROBOT.into() => {
                     awards[0] += 1;
                     owner.take(ROBOT, answer(award.number));
                 }
-                Dispatch::Award(award) if to == OTHER => {
+                Dispatch::Award(award) if to == OTHER.into() => {
                     awards[1] += 1;
                     owner.take(OTHER, Dispatch::Commit(claim(award.number)));
                     return awards;
@@ -134,7 +134,7 @@ fn expired_goals_are_reported_once_and_make_room_for_others() {
     let mut owner = controller(OWNER);
     owner.agent = economy::Controller::new(std::sync::Arc::new(settings));
     owner.take(
-        RobotId::OPERATOR,
+        AgentId::OPERATOR,
         Dispatch::Issue(Task { due_s: 5.0, ..TASK }),
     );
     owner.take(ROBOT, report(1));
@@ -144,7 +144,7 @@ fn expired_goals_are_reported_once_and_make_room_for_others() {
         id: goal_id(1),
         ..TASK
     };
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(later));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(later));
     assert_eq!(owner.agent.refused(), 0);
     let sent = owner.wait(400.0);
     let is_call =
@@ -155,19 +155,19 @@ fn expired_goals_are_reported_once_and_make_room_for_others() {
 #[test]
 fn a_goal_that_seventy_robots_cannot_serve_is_reported() {
     let mut owner = controller(OWNER);
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     let mut sent = Vec::new();
     let present: Vec<_> = (0..70)
-        .map(|index| (robot_id(index), OWNER, report(1)))
+        .map(|index| (robot_id(index), OWNER.into(), report(1)))
         .collect();
     let mut inbox = present.clone();
     for _ in 0..2000 {
         let new = owner.step(&inbox);
         inbox = present.clone();
         for (to, call) in &new {
-            if let (Dispatch::Call { number, .. }, true) = (call, *to != RobotId::EVERYONE) {
+            if let (Dispatch::Call { number, .. }, Some(robot)) = (call, to.agent()) {
                 let refused = refusal((*number).into(), Reason::Unreachable);
-                inbox.push((*to, OWNER, Dispatch::Refuse(refused)));
+                inbox.push((robot, OWNER.into(), Dispatch::Refuse(refused)));
             }
         }
         sent.extend(new);
@@ -178,13 +178,13 @@ fn a_goal_that_seventy_robots_cannot_serve_is_reported() {
 #[test]
 fn a_robot_that_is_back_in_service_is_a_reason_to_try_again() {
     let mut owner = controller(OWNER);
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     owner.take(ROBOT, report(1));
     let mut sent = Vec::new();
     while reports(&sent).is_empty() {
         for (to, call) in owner.wait(0.5) {
             sent.push((to, call));
-            if let (Dispatch::Call { number, .. }, true) = (call, to == ROBOT) {
+            if let (Dispatch::Call { number, .. }, true) = (call, to == ROBOT.into()) {
                 let refused = refusal(number.into(), Reason::OutOfService);
                 sent.extend(owner.take(ROBOT, Dispatch::Refuse(refused)));
             }

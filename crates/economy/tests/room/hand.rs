@@ -3,21 +3,21 @@
 use crate::team::{STEP_S, brain, goal_id, robot_id, station_id};
 use base::geometry::Point;
 use brain::{
-    About, Award, Bid, Brain, Claim, Command, Dispatch, Message, Percept, Reading, Reason,
-    ReceivedMessage, Refusal, RobotId, Task,
+    About, AgentId, Award, Bid, Brain, Claim, Command, Dispatch, Message, Percept, Reading, Reason,
+    ReceivedMessage, Receiver, Refusal, Task,
 };
 use economy::{Controller, Settings};
 use std::sync::Arc;
 
-pub(crate) const ROBOT: RobotId = robot_id(0);
-pub(crate) const OTHER: RobotId = robot_id(1);
-pub(crate) const OWNER: RobotId = station_id(0);
-pub(crate) const HEIR: RobotId = station_id(1);
+pub(crate) const ROBOT: AgentId = robot_id(0);
+pub(crate) const OTHER: AgentId = robot_id(1);
+pub(crate) const OWNER: AgentId = station_id(0);
+pub(crate) const HEIR: AgentId = station_id(1);
 
 /// An agent that is stepped by hand.
 pub(crate) struct Hand<A> {
     pub(crate) agent: A,
-    id: RobotId,
+    id: AgentId,
     pub(crate) now_s: f64,
 }
 
@@ -43,8 +43,8 @@ impl<A: Agent> Hand<A> {
     /// A step with messages; returns those that it sends about goals, and their receivers.
     pub(crate) fn step(
         &mut self,
-        inbox: &[(RobotId, RobotId, Dispatch)],
-    ) -> Vec<(RobotId, Dispatch)> {
+        inbox: &[(AgentId, Receiver, Dispatch)],
+    ) -> Vec<(Receiver, Dispatch)> {
         self.now_s += STEP_S;
         let inbox = inbox.iter().map(|(from, to, dispatch)| ReceivedMessage {
             from: *from,
@@ -68,12 +68,12 @@ impl<A: Agent> Hand<A> {
     }
 
     /// The same with one message to the agent.
-    pub(crate) fn take(&mut self, from: RobotId, dispatch: Dispatch) -> Vec<(RobotId, Dispatch)> {
-        self.step(&[(from, self.id, dispatch)])
+    pub(crate) fn take(&mut self, from: AgentId, dispatch: Dispatch) -> Vec<(Receiver, Dispatch)> {
+        self.step(&[(from, self.id.into(), dispatch)])
     }
 
     /// Steps without messages for a time; returns what it sends.
-    pub(crate) fn wait(&mut self, time_s: f64) -> Vec<(RobotId, Dispatch)> {
+    pub(crate) fn wait(&mut self, time_s: f64) -> Vec<(Receiver, Dispatch)> {
         let end_s = self.now_s + time_s;
         let mut sent = Vec::new();
         while self.now_s < end_s {
@@ -88,7 +88,7 @@ pub(crate) const fn now<T>(value: T) -> Option<Reading<T>> {
     Some(Reading { value, age_s: 0.0 })
 }
 
-pub(crate) fn controller(id: RobotId) -> Hand<Controller> {
+pub(crate) fn controller(id: AgentId) -> Hand<Controller> {
     let settings = Settings {
         max_drift: 0.0,
         ..Settings::default()
@@ -119,7 +119,7 @@ pub(crate) const CALL: Dispatch = Dispatch::Call {
 
 pub(crate) const TASK: Task = Task {
     id: brain::GoalId {
-        issuer: RobotId::OPERATOR,
+        issuer: brain::Issuer::Agent(AgentId::OPERATOR),
         number: 0,
     },
     at_m: [10.0, 0.0],
@@ -155,7 +155,7 @@ pub(crate) fn refusal(number: u32, reason: Reason) -> Refusal {
 }
 
 /// The first bid of what is sent.
-pub(crate) fn bid(sent: &[(RobotId, Dispatch)]) -> Option<Bid> {
+pub(crate) fn bid(sent: &[(Receiver, Dispatch)]) -> Option<Bid> {
     sent.iter().find_map(|(_, dispatch)| match dispatch {
         Dispatch::Bid(bid) => Some(*bid),
         _ => None,
@@ -165,25 +165,28 @@ pub(crate) fn bid(sent: &[(RobotId, Dispatch)]) -> Option<Bid> {
 /// A robot that serves the goal, and the number of its bid.
 pub(crate) fn assignee() -> (Hand<Brain>, u32) {
     let mut robot = robot();
-    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let sent = robot.step(&[(OWNER, Receiver::All, CALL)]);
     let number = bid(&sent).unwrap().number;
     assert!(
         robot
             .take(OWNER, award(number))
-            .contains(&(OWNER, Dispatch::Commit(claim(number))))
+            .contains(&(OWNER.into(), Dispatch::Commit(claim(number))))
     );
     (robot, number)
 }
 
-pub(crate) fn sent_any(sent: &[(RobotId, Dispatch)], is_meant: impl Fn(&Dispatch) -> bool) -> bool {
+pub(crate) fn sent_any(
+    sent: &[(Receiver, Dispatch)],
+    is_meant: impl Fn(&Dispatch) -> bool,
+) -> bool {
     sent.iter().any(|(_, dispatch)| is_meant(dispatch))
 }
 
 /// A controller that owns the goal, and has received a bid of a robot.
 pub(crate) fn owner() -> Hand<Controller> {
     let mut owner = controller(OWNER);
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
-    owner.step(&[(ROBOT, OWNER, bid_of(7))]);
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
+    owner.step(&[(ROBOT, OWNER.into(), bid_of(7))]);
     owner
 }
 
@@ -200,10 +203,10 @@ pub(crate) fn bid_of(number: u32) -> Dispatch {
 /// A controller that has awarded the goal to a robot.
 pub(crate) fn awarder() -> Hand<Controller> {
     let mut owner = owner();
-    assert!(owner.wait(2.0).contains(&(ROBOT, award(7))));
+    assert!(owner.wait(2.0).contains(&(ROBOT.into(), award(7))));
     owner
 }
 
-pub(crate) fn assignee_of(owner: &Hand<Controller>) -> Option<RobotId> {
+pub(crate) fn assignee_of(owner: &Hand<Controller>) -> Option<AgentId> {
     Some(owner.agent.goals().next()?.assignee?.0)
 }

@@ -4,7 +4,7 @@ use crate::hand::{
     HEIR, Hand, OTHER, OWNER, ROBOT, TASK, awarder, bid_of, claim, controller, sent_any,
 };
 use crate::team::{goal_id, station_id};
-use brain::{Assignment, Award, Dispatch, Reason, RobotId, Task};
+use brain::{AgentId, Assignment, Award, Dispatch, Reason, Receiver, Task};
 use economy::{Controller, Settings};
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ fn inheritor(reports: &[Dispatch]) -> Hand<Controller> {
     heir
 }
 
-fn assigned(robot: RobotId) -> Dispatch {
+fn assigned(robot: AgentId) -> Dispatch {
     let goal = goal_id(0);
     Dispatch::Assigned(Assignment { goal, robot })
 }
@@ -44,7 +44,7 @@ fn an_inherited_goal_is_done_only_by_a_robot_to_which_the_owner_has_awarded_it()
     assert_eq!(heir.agent.done().count(), 0);
     let sent = heir.take(ROBOT, Dispatch::Done(claim(7)));
     assert!(heir.agent.done().eq([goal_id(0)]));
-    assert!(sent.contains(&(ROBOT, Dispatch::Withdraw(claim(7)))));
+    assert!(sent.contains(&(ROBOT.into(), Dispatch::Withdraw(claim(7)))));
     // If the messages of the owner were lost, the goal is awarded again.
     let mut heir = inheritor(&[]);
     heir.take(ROBOT, Dispatch::Done(claim(7)));
@@ -56,7 +56,7 @@ fn an_inherited_goal_is_done_only_by_a_robot_to_which_the_owner_has_awarded_it()
 
 #[test]
 fn an_owner_reports_each_award_to_its_heir() {
-    let report = (HEIR, assigned(ROBOT));
+    let report = (HEIR.into(), assigned(ROBOT));
     let mut owner = bound();
     owner.take(ROBOT, bid_of(7));
     assert!(owner.wait(2.0).contains(&report));
@@ -72,7 +72,7 @@ fn an_owner_reports_each_award_to_its_heir() {
 /// An owner that is bound to its heir.
 fn bound() -> Hand<Controller> {
     let mut owner = controller(OWNER);
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     let sent = owner.take(HEIR, Dispatch::Serial(9));
     assert!(sent_any(&sent, |sent| matches!(sent, Dispatch::Entrust(_))));
     let sent = owner.take(HEIR, entrusted(5));
@@ -115,7 +115,7 @@ fn an_owner_without_an_answer_of_its_heir_loses_the_goal_and_one_that_is_relieve
 fn an_answer_with_an_absurd_lease_or_of_no_controller_makes_no_heir() {
     for lease_s in [1e-6, 2.9, -1.0, 1e9, f32::NAN, f32::INFINITY] {
         let mut owner = controller(OWNER);
-        owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+        owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
         owner.take(HEIR, Dispatch::Serial(9));
         let answer = Award {
             goal: goal_id(0),
@@ -127,9 +127,9 @@ fn an_answer_with_an_absurd_lease_or_of_no_controller_makes_no_heir() {
         owner.wait(60.0);
         assert_eq!(owner.agent.goals().count(), 1, "{lease_s}");
     }
-    for from in [RobotId::OPERATOR, RobotId::EVERYONE, ROBOT, OWNER] {
+    for from in [AgentId::OPERATOR, ROBOT, OWNER] {
         let mut owner = controller(OWNER);
-        owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+        owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
         let sent = owner.take(from, Dispatch::Serial(u32::MAX));
         assert!(!sent_any(&sent, |sent| matches!(
             sent,
@@ -161,7 +161,7 @@ fn an_heir_answers_grants_and_inherits() {
     heir.take(OWNER, bind(number));
     heir.wait(20.0);
     let sent = heir.take(OWNER, Dispatch::RenewOne(claim(77)));
-    assert!(sent.contains(&(OWNER, Dispatch::RenewedOne(claim(77)))));
+    assert!(sent.contains(&(OWNER.into(), Dispatch::RenewedOne(claim(77)))));
     heir.wait(29.0);
     assert_eq!(heir.agent.goals().count(), 0);
     // The owner's lease has ended, but those of its assignees may not have.
@@ -192,7 +192,7 @@ fn an_heir_that_is_relieved_does_not_inherit() {
     };
     heir.take(OWNER, Dispatch::Bind(award));
     let sent = heir.take(OWNER, Dispatch::Relieve(claim(3)));
-    assert!(sent.contains(&(OWNER, Dispatch::Relieved(claim(3)))));
+    assert!(sent.contains(&(OWNER.into(), Dispatch::Relieved(claim(3)))));
     heir.wait(100.0);
     assert_eq!(heir.agent.goals().count(), 0);
 }
@@ -235,7 +235,7 @@ fn a_controller_that_restarts_takes_no_goal_back_for_the_longest_lease() {
 #[test]
 fn an_owner_answers_repeated_offers_of_its_goal_with_one_request() {
     let mut owner = controller(OWNER);
-    let request = |sent: &[(RobotId, Dispatch)]| {
+    let request = |sent: &[(Receiver, Dispatch)]| {
         sent.iter().find_map(|(_, sent)| match sent {
             Dispatch::Bind(award) => Some(award.number),
             _ => None,
@@ -254,16 +254,16 @@ fn an_owner_answers_repeated_offers_of_its_goal_with_one_request() {
 #[test]
 fn a_goal_that_was_issued_again_and_inherited_has_one_owner_when_they_meet() {
     let mut owner = controller(OWNER);
-    owner.take(RobotId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
     let mut heir = inheritor(&[]);
-    let mut to_heir = vec![(OWNER, HEIR, Dispatch::Serial(8))];
+    let mut to_heir = vec![(OWNER, HEIR.into(), Dispatch::Serial(8))];
     for _ in 0..200 {
         let sent = heir.step(&to_heir);
-        let mut to_owner = vec![(HEIR, OWNER, Dispatch::Serial(9))];
-        to_owner.extend(sent.iter().map(|(_, sent)| (HEIR, OWNER, *sent)));
+        let mut to_owner = vec![(HEIR, OWNER.into(), Dispatch::Serial(9))];
+        to_owner.extend(sent.iter().map(|(_, sent)| (HEIR, OWNER.into(), *sent)));
         let sent = owner.step(&to_owner);
-        to_heir = vec![(OWNER, HEIR, Dispatch::Serial(8))];
-        to_heir.extend(sent.iter().map(|(_, sent)| (OWNER, HEIR, *sent)));
+        to_heir = vec![(OWNER, HEIR.into(), Dispatch::Serial(8))];
+        to_heir.extend(sent.iter().map(|(_, sent)| (OWNER, HEIR.into(), *sent)));
     }
     let owners = [&owner, &heir].map(|it| it.agent.goals().count());
     assert_eq!(owners, [1, 0]);
@@ -277,9 +277,9 @@ fn a_renewal_of_a_lease_is_sent_before_the_offers_of_the_step() {
             id: goal_id(number),
             ..TASK
         };
-        owner.take(RobotId::OPERATOR, Dispatch::Issue(task))
+        owner.take(AgentId::OPERATOR, Dispatch::Issue(task))
     });
-    let place = |sent: &[(RobotId, Dispatch)], is_meant: fn(&Dispatch) -> bool| {
+    let place = |sent: &[(Receiver, Dispatch)], is_meant: fn(&Dispatch) -> bool| {
         sent.iter().position(|(_, dispatch)| is_meant(dispatch))
     };
     let places = steps.filter_map(|sent| {
@@ -304,5 +304,5 @@ fn a_goal_that_is_lost_is_reported_to_the_operator() {
         _ => None,
     });
     let reports: Vec<_> = reports.collect();
-    assert_eq!(reports, [(RobotId::OPERATOR, goal_id(0))]);
+    assert_eq!(reports, [(AgentId::OPERATOR.into(), goal_id(0))]);
 }

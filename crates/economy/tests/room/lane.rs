@@ -1,13 +1,13 @@
 //! A controller with a mined lane, and robots that only send messages.
 
 use brain::{
-    About, Command, Coverage, Dispatch, Lane, Message, Percept, ReceivedMessage, Report, RobotId,
+    About, AgentId, Command, Coverage, Dispatch, Lane, Message, Percept, ReceivedMessage, Report,
     Task, Work,
 };
 use economy::{Clearance, Controller, RobotModel, Settings, Skill};
 use std::sync::Arc;
 
-const OAV: RobotId = RobotId { kind: 0, index: 0 };
+const OAV: AgentId = AgentId::robot(0, 0);
 
 fn settings() -> Settings {
     let clearance = Clearance {
@@ -32,7 +32,6 @@ fn settings() -> Settings {
         neutralise: None,
     };
     Settings {
-        robot_kinds: 1,
         clearance: Some(Arc::new(clearance)),
         ..Settings::default()
     }
@@ -41,7 +40,7 @@ fn settings() -> Settings {
 /// A controller at a time, with the messages that it receives.
 struct Station {
     controller: Controller,
-    id: RobotId,
+    id: AgentId,
     step: u32,
 }
 
@@ -49,12 +48,12 @@ impl Station {
     fn new(index: u32) -> Self {
         Self {
             controller: Controller::new(Arc::new(settings())),
-            id: RobotId { kind: 1, index },
+            id: AgentId::controller(1, index),
             step: 0,
         }
     }
 
-    fn step(&mut self, inbox: &[(RobotId, Dispatch)]) -> Vec<Dispatch> {
+    fn step(&mut self, inbox: &[(AgentId, Dispatch)]) -> Vec<Dispatch> {
         self.step += 1;
         let inbox = inbox.iter().map(|(from, dispatch)| ReceivedMessage {
             from: *from,
@@ -89,7 +88,7 @@ impl Station {
     }
 }
 
-fn report() -> (RobotId, Dispatch) {
+fn report() -> (AgentId, Dispatch) {
     let report = Report {
         at_m: [0.0; 2],
         speed_m_s: 1.0,
@@ -100,7 +99,7 @@ fn report() -> (RobotId, Dispatch) {
     (OAV, Dispatch::Report(report))
 }
 
-fn searched(first: u32) -> (RobotId, Dispatch) {
+fn searched(first: u32) -> (AgentId, Dispatch) {
     let coverage = Coverage {
         first,
         marks: 0,
@@ -148,10 +147,7 @@ fn two_controllers_in_range_plan_different_tiles_and_one_that_is_lost_is_replace
     let mut stations = [Station::new(0), Station::new(1)];
     for _ in 0..40 {
         for (index, station) in (0..).zip(&mut stations) {
-            let other = RobotId {
-                kind: 1,
-                index: 1 - index,
-            };
+            let other = AgentId::controller(1, 1 - index);
             station.step(&[report(), (other, Dispatch::Serial(index))]);
         }
     }
@@ -166,7 +162,7 @@ fn two_controllers_in_range_plan_different_tiles_and_one_that_is_lost_is_replace
 #[test]
 fn a_controller_of_another_kind_shares_no_lane() {
     let mut station = Station::new(0);
-    let other = RobotId { kind: 2, index: 0 };
+    let other = AgentId::controller(2, 0);
     for _ in 0..700 {
         station.step(&[(other, Dispatch::Serial(7))]);
     }
@@ -182,7 +178,7 @@ fn a_controller_of_another_kind_shares_no_lane() {
 /// Whether a station without robots in range, which another one reports a gain to, gives its lane up within two minutes.
 fn gives_up(gain: Option<f32>) -> bool {
     let mut station = Station::new(0);
-    let other = RobotId { kind: 1, index: 1 };
+    let other = AgentId::controller(1, 1);
     for _ in 0..1200 {
         let mut inbox = vec![(other, Dispatch::Serial(1))];
         inbox.extend(gain.map(|gain| (other, Dispatch::LaneGain(gain))));
@@ -203,7 +199,7 @@ fn a_lane_is_given_up_when_no_controller_in_range_has_a_goal_that_lowers_the_ris
 #[test]
 fn controllers_report_what_their_goals_may_find_to_each_other_only() {
     let mut station = Station::new(0);
-    let other = RobotId { kind: 1, index: 1 };
+    let other = AgentId::controller(1, 1);
     let mut gains = Vec::new();
     for _ in 0..200 {
         let sent = station.step(&[report(), (other, Dispatch::Serial(1))]);

@@ -35,7 +35,6 @@ fn settings(service_lease_s: f64, owner_lease_s: f64) -> Settings {
         service_lease_s,
         owner_lease_s,
         max_drift: 0.01,
-        robot_kinds: 1,
         ..Settings::default()
     }
 }

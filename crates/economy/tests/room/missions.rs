@@ -8,7 +8,6 @@ use economy::{Allocation, Settings};
 fn settings() -> Settings {
     Settings {
         max_drift: 0.01,
-        robot_kinds: 1,
         ..Settings::default()
     }
 }

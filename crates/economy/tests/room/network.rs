@@ -1,7 +1,7 @@
 //! A radio that loses, delays, duplicates and reorders messages.
 
 use base::random::{Entity, Purpose, Stream, stream};
-use brain::{Message, ReceivedMessage, RobotId};
+use brain::{AgentId, Message, ReceivedMessage};
 
 /// What the radio does to a message.
 #[derive(Debug, Clone, Copy, Default)]
@@ -15,7 +15,7 @@ pub(crate) struct Weather {
 pub(crate) struct Network {
     pub(crate) weather: Weather,
     random: Stream,
-    sent: Vec<(f64, RobotId, ReceivedMessage)>,
+    sent: Vec<(f64, AgentId, ReceivedMessage)>,
 }
 
 /// A stream of random numbers.
@@ -38,7 +38,7 @@ impl Network {
     }
 
     /// Sends a message of one agent to another, at a true time.
-    pub(crate) fn send(&mut self, from: RobotId, to: RobotId, message: Message, now_s: f64) {
+    pub(crate) fn send(&mut self, from: AgentId, to: AgentId, message: Message, now_s: f64) {
         if unit(&mut self.random) < self.weather.loss {
             return;
         }
@@ -56,12 +56,12 @@ impl Network {
     }
 
     /// The messages that arrive at an agent by a true time.
-    pub(crate) fn arrived(&mut self, to: RobotId, now_s: f64) -> Vec<ReceivedMessage> {
+    pub(crate) fn arrived(&mut self, to: AgentId, now_s: f64) -> Vec<ReceivedMessage> {
         let (arrived, waiting) = std::mem::take(&mut self.sent)
             .into_iter()
             .partition(|(at_s, receiver, _)| *receiver == to && *at_s < now_s);
         self.sent = waiting;
-        let mut arrived: Vec<(f64, RobotId, ReceivedMessage)> = arrived;
+        let mut arrived: Vec<(f64, AgentId, ReceivedMessage)> = arrived;
         arrived.sort_by(|one, other| one.0.total_cmp(&other.0));
         arrived
             .into_iter()

@@ -6,13 +6,13 @@ use crate::hand::{
 use crate::network::Weather;
 use crate::team::{Team, goal_id, task};
 use base::geometry::Point;
-use brain::{Dispatch, Reason, Renewal, RobotId, Task};
+use brain::{AgentId, Dispatch, Reason, Receiver, Renewal, Task};
 use economy::Settings;
 
 #[test]
 fn a_call_is_answered_by_a_bid_with_the_time_and_the_number_of_the_call() {
     let mut robot = robot();
-    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let sent = robot.step(&[(OWNER, Receiver::All, CALL)]);
     let bid = bid(&sent).unwrap();
     assert_eq!((bid.goal, bid.call), (goal_id(0), 4));
     assert!((f64::from(bid.time_s) - 6.0).abs() < 1e-6, "{bid:?}");
@@ -30,7 +30,7 @@ fn a_call_of_a_robot_or_with_absurd_numbers_is_no_offer() {
     };
     for (from, call) in [(OTHER, CALL), (OWNER, absurd)] {
         let mut robot = robot();
-        assert_eq!(bid(&robot.step(&[(from, RobotId::EVERYONE, call)])), None);
+        assert_eq!(bid(&robot.step(&[(from, Receiver::All, call)])), None);
     }
 }
 
@@ -44,7 +44,7 @@ fn a_call_to_one_robot_is_answered_by_a_refusal_with_the_reason() {
     for (task, reason) in [(late, Reason::Deadline), (special, Reason::Capability)] {
         let sent = robot().take(OWNER, Dispatch::Call { number: 4, task });
         assert!(
-            sent.contains(&(OWNER, Dispatch::Refuse(refusal(4, reason)))),
+            sent.contains(&(OWNER.into(), Dispatch::Refuse(refusal(4, reason)))),
             "{sent:?}"
         );
     }
@@ -55,7 +55,7 @@ fn an_award_makes_a_robot_drive_and_one_that_answers_no_bid_is_refused() {
     let (mut driver, _) = assignee();
     assert_eq!(driver.agent.served_goals().len(), 1);
     let sent = robot().take(OWNER, award(5));
-    assert!(sent.contains(&(OWNER, Dispatch::Refuse(refusal(5, Reason::Lease)))));
+    assert!(sent.contains(&(OWNER.into(), Dispatch::Refuse(refusal(5, Reason::Lease)))));
     driver.wait(1.0);
     assert!(driver.agent.last_command().motion.speed_m_s > 0.0);
 }
@@ -85,20 +85,20 @@ fn a_release_has_the_number_of_the_award_also_after_renewals() {
     });
     robot.take(OWNER, Dispatch::Renewed(renewal.unwrap()));
     let sent = robot.take(OWNER, Dispatch::Withdraw(claim(number)));
-    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(number)))));
+    assert!(sent.contains(&(OWNER.into(), Dispatch::Release(claim(number)))));
     // A robot that never held the lease answers with the number of the withdrawal.
     let sent = robot.take(OWNER, Dispatch::Withdraw(claim(99)));
-    assert!(sent.contains(&(OWNER, Dispatch::Release(claim(99)))));
+    assert!(sent.contains(&(OWNER.into(), Dispatch::Release(claim(99)))));
 }
 
 #[test]
 fn a_withdrawal_to_all_ends_the_offer_and_not_the_service() {
     let mut bidder = robot();
-    bidder.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
-    bidder.step(&[(OWNER, RobotId::EVERYONE, Dispatch::Withdraw(claim(0)))]);
+    bidder.step(&[(OWNER, Receiver::All, CALL)]);
+    bidder.step(&[(OWNER, Receiver::All, Dispatch::Withdraw(claim(0)))]);
     assert_eq!(bid(&bidder.wait(6.0)), None);
     let (mut robot, _) = assignee();
-    robot.step(&[(OWNER, RobotId::EVERYONE, Dispatch::Withdraw(claim(0)))]);
+    robot.step(&[(OWNER, Receiver::All, Dispatch::Withdraw(claim(0)))]);
     assert_eq!(robot.agent.served_goals().len(), 1);
 }
 
@@ -147,18 +147,18 @@ fn a_robot_out_of_service_returns_its_goals_and_bids_again_when_it_is_back() {
     robot.take(OWNER, Dispatch::Service(false));
     robot.take(OTHER, Dispatch::Service(false));
     assert_eq!(robot.agent.served_goals().len(), 1);
-    let sent = robot.take(RobotId::OPERATOR, Dispatch::Service(false));
+    let sent = robot.take(AgentId::OPERATOR, Dispatch::Service(false));
     let returned = Dispatch::Refuse(refusal(number, Reason::OutOfService));
-    assert!(sent.contains(&(OWNER, returned)), "{sent:?}");
+    assert!(sent.contains(&(OWNER.into(), returned)), "{sent:?}");
     assert_eq!(robot.agent.served_goals().len(), 0);
     let sent = robot.take(OWNER, CALL);
     let refused = Dispatch::Refuse(refusal(4, Reason::OutOfService));
-    assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
+    assert!(sent.contains(&(OWNER.into(), refused)), "{sent:?}");
     let sent = robot.wait(6.0);
     assert_eq!(bid(&sent), None);
     let is_report = |sent: &Dispatch| matches!(sent, Dispatch::Report(_));
     assert!(!sent_any(&sent, is_report));
-    let sent = robot.take(RobotId::OPERATOR, Dispatch::Service(true));
+    let sent = robot.take(AgentId::OPERATOR, Dispatch::Service(true));
     assert!(sent_any(&sent, is_report), "it is present again");
     assert!(bid(&robot.wait(6.0)).is_some());
 }
@@ -166,12 +166,12 @@ fn a_robot_out_of_service_returns_its_goals_and_bids_again_when_it_is_back() {
 #[test]
 fn an_award_that_arrives_out_of_service_is_refused() {
     let mut robot = robot();
-    let sent = robot.step(&[(OWNER, RobotId::EVERYONE, CALL)]);
+    let sent = robot.step(&[(OWNER, Receiver::All, CALL)]);
     let number = bid(&sent).unwrap().number;
-    robot.take(RobotId::OPERATOR, Dispatch::Service(false));
+    robot.take(AgentId::OPERATOR, Dispatch::Service(false));
     let sent = robot.take(OWNER, award(number));
     let refused = Dispatch::Refuse(refusal(number, Reason::OutOfService));
-    assert!(sent.contains(&(OWNER, refused)), "{sent:?}");
+    assert!(sent.contains(&(OWNER.into(), refused)), "{sent:?}");
 }
 
 #[test]

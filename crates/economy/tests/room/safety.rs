@@ -56,7 +56,6 @@ fn settings(adversary: &Adversary) -> Settings {
         owner_lease_s: adversary.owner_lease_s,
         auction_s: 0.3,
         max_drift: 0.1,
-        robot_kinds: 1,
         ..Settings::default()
     }
 }

@@ -5,8 +5,8 @@ use base::geometry::{Point, Rectangle};
 use base::random::Stream;
 use base::trig::wrapped;
 use brain::{
-    Body, Brain, BrainSpec, Command, Contact, Detector, Lane, Observation, Other, Percept, Reading,
-    RobotId,
+    AgentId, Body, Brain, BrainSpec, Command, Contact, Detector, Lane, Observation, Other, Percept,
+    Reading, Receiver,
 };
 use economy::{Clearance, Controller, LaneStatement, RobotModel, Settings, Skill};
 use std::sync::Arc;
@@ -16,7 +16,7 @@ const RANGE_M: f64 = 3.0;
 const DETECTION: f64 = 0.3;
 const FALSE_ALARMS_PER_M2: f64 = 1e-5;
 const NOISE_M: f64 = 0.2;
-const STATION: RobotId = RobotId { kind: 1, index: 0 };
+const STATION: AgentId = AgentId::controller(1, 0);
 
 /// A lane of 30 m x 10 m with two expected mines, in tiles of 10 m.
 fn clearance() -> Clearance {
@@ -76,7 +76,7 @@ fn brain() -> Brain {
 }
 
 struct Robot {
-    id: RobotId,
+    id: AgentId,
     brain: Brain,
     at: Point,
     heading_rad: f64,
@@ -148,7 +148,6 @@ fn normal(random: &mut Stream) -> f64 {
 /// Two robots and a controller, until it states something about the lane; at most for 15 minutes.
 fn cleared(mines: &[Point], loss: f64, seed: u64) -> Option<LaneStatement> {
     let settings = Settings {
-        robot_kinds: 1,
         clearance: Some(Arc::new(clearance())),
         ..Settings::default()
     };
@@ -159,7 +158,7 @@ fn cleared(mines: &[Point], loss: f64, seed: u64) -> Option<LaneStatement> {
     };
     let (mut network, mut random) = (Network::new(weather, seed), random(seed ^ 0x5eed));
     let robots = [0, 1].map(|index| Robot {
-        id: RobotId { kind: 0, index },
+        id: AgentId::robot(0, index),
         brain: brain(),
         at: Point {
             x: -1.0,
@@ -189,7 +188,7 @@ fn cleared(mines: &[Point], loss: f64, seed: u64) -> Option<LaneStatement> {
             }
             for message in command.outbox {
                 for to in ids.into_iter().filter(|to| *to != id) {
-                    if message.to == RobotId::EVERYONE || message.to == to {
+                    if message.to == Receiver::All || message.to == to.into() {
                         network.send(id, to, message, now_s);
                     }
                 }

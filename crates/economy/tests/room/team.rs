@@ -4,8 +4,8 @@ use crate::network::{Network, Weather, random, unit};
 use base::geometry::Point;
 use base::random::Stream;
 use brain::{
-    About, Body, Brain, BrainSpec, Command, Dispatch, GoalId, Message, Other, Percept, Reading,
-    ReceivedMessage, RobotId, Task, Work,
+    About, AgentId, Body, Brain, BrainSpec, Command, Dispatch, GoalId, Message, Other, Percept,
+    Reading, ReceivedMessage, Task, Work,
 };
 use economy::{Controller, Settings};
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ impl Clock {
 
 /// A robot that moves at once as it is commanded.
 pub(crate) struct Robot {
-    pub(crate) id: RobotId,
+    pub(crate) id: AgentId,
     pub(crate) brain: Option<Brain>,
     pub(crate) at: Point,
     heading_rad: f64,
@@ -38,7 +38,7 @@ pub(crate) struct Robot {
 }
 
 pub(crate) struct Station {
-    pub(crate) id: RobotId,
+    pub(crate) id: AgentId,
     pub(crate) controller: Option<Controller>,
     pub(crate) clock: Clock,
     pub(crate) is_cut_off: bool,
@@ -52,7 +52,7 @@ pub(crate) struct Team {
     pub(crate) network: Network,
     pub(crate) settings: Arc<Settings>,
     /// The robots that have reported that they served a goal, and the number of messages so far.
-    pub(crate) served: BTreeSet<(GoalId, RobotId)>,
+    pub(crate) served: BTreeSet<(GoalId, AgentId)>,
     pub(crate) messages: usize,
     /// Messages of controllers to the operator.
     pub(crate) to_operator: Vec<Message>,
@@ -65,17 +65,20 @@ pub(crate) struct Team {
     random_stream: Stream,
 }
 
-pub(crate) const fn robot_id(index: u32) -> RobotId {
-    RobotId { kind: 0, index }
+pub(crate) const fn robot_id(index: u32) -> AgentId {
+    AgentId::robot(0, index)
 }
 
-pub(crate) const fn station_id(index: u32) -> RobotId {
-    RobotId { kind: 1, index }
+pub(crate) const fn station_id(index: u32) -> AgentId {
+    AgentId::controller(1, index)
 }
 
 pub(crate) fn goal_id(number: u32) -> GoalId {
-    let issuer = RobotId::OPERATOR;
-    GoalId { issuer, number }
+    let issuer = AgentId::OPERATOR;
+    GoalId {
+        issuer: issuer.into(),
+        number,
+    }
 }
 
 pub(crate) fn task(number: u32, at_m: [f32; 2]) -> Task {
@@ -307,7 +310,7 @@ impl Team {
         let mut inbox = self.network.arrived(id, self.now_s);
         let issued = self.issued.iter().filter(|(station, _)| *station == index);
         inbox.extend(issued.map(|(_, task)| ReceivedMessage {
-            from: RobotId::OPERATOR,
+            from: AgentId::OPERATOR,
             age_s: 0.0,
             message: Message::to(id, About::Dispatch(Dispatch::Issue(*task))),
         }));
@@ -317,7 +320,7 @@ impl Team {
             return;
         };
         if station.is_cut_off {
-            inbox.retain(|received| received.from == RobotId::OPERATOR);
+            inbox.retain(|received| received.from == AgentId::OPERATOR);
         }
         let percept = Percept {
             time_s: Some(station.clock.read(self.now_s)),
@@ -332,7 +335,7 @@ impl Team {
         self.send_all(id, is_cut_off, &command);
     }
 
-    fn send_all(&mut self, from: RobotId, is_cut_off: bool, command: &Command) {
+    fn send_all(&mut self, from: AgentId, is_cut_off: bool, command: &Command) {
         for message in &command.outbox {
             if let About::Dispatch(Dispatch::Done(claim)) = message.about {
                 self.served.insert((claim.goal, from));
@@ -340,7 +343,7 @@ impl Team {
             if let About::Dispatch(Dispatch::Call { task, .. }) = message.about {
                 self.calls.push((self.now_s, task.id));
             }
-            if message.to == RobotId::OPERATOR {
+            if message.to == AgentId::OPERATOR.into() {
                 self.to_operator.push(*message);
             }
             self.messages += 1;
@@ -350,9 +353,8 @@ impl Team {
             let robots = self.robots.iter().map(|robot| robot.id);
             let all = robots.chain(self.stations.iter().map(|station| station.id));
             let receivers = all.filter(|to| *to != from);
-            let receivers =
-                receivers.filter(|to| message.to == RobotId::EVERYONE || message.to == *to);
-            let receivers: Vec<RobotId> = receivers.collect();
+            let receivers = receivers.filter(|to| message.to.includes(*to));
+            let receivers: Vec<AgentId> = receivers.collect();
             for to in receivers {
                 self.network.send(from, to, *message, self.now_s);
             }

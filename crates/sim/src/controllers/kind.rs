@@ -46,8 +46,6 @@ impl ControllerKind {
         let ClockSpec {
             step_s, max_drift, ..
         } = scenario.clock;
-        let kinds = [scenario.robots.len(), scenario.controllers.len()];
-        let kinds = kinds.map(|kinds| u8::try_from(kinds).unwrap_or(u8::MAX));
         let clearance = spec.clearance.as_ref();
         let clearance = clearance.map(|clearance| {
             let clearance = clearance.ready(scenario);
@@ -58,7 +56,7 @@ impl ControllerKind {
         });
         let settings = Settings {
             clearance,
-            ..spec.settings(max_drift, kinds)
+            ..spec.settings(max_drift)
         };
         let carrier = spec.aboard.as_ref();
         let mut robots = scenario.robots.keys();

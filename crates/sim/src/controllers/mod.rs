@@ -65,12 +65,8 @@ pub struct ControllerSpec {
 }
 
 impl ControllerSpec {
-    /// Its settings, where clocks drift by at most `max_drift`, with the numbers of kinds of robots and controllers.
-    pub(crate) fn settings(
-        &self,
-        max_drift: f64,
-        [robot_kinds, controller_kinds]: [u8; 2],
-    ) -> Settings {
+    /// Its settings, where clocks drift by at most `max_drift`.
+    pub(crate) fn settings(&self, max_drift: f64) -> Settings {
         Settings {
             allocation: self.allocation,
             service_lease_s: self.service_lease_s,
@@ -78,8 +74,6 @@ impl ControllerSpec {
             auction_s: self.auction_s,
             max_goals: self.max_goals,
             max_drift,
-            robot_kinds,
-            controller_kinds,
             clearance: None,
             passage: None,
             is_called_off: self.clearance.as_ref().is_some_and(|lane| lane.called_off),

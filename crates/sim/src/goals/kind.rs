@@ -5,10 +5,7 @@ use crate::schedule::steps_of;
 use base::geometry::Point;
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
-use brain::{GoalId, RobotId, Task, Work, issuer_of};
-
-/// The kind of ids of those that issue goals and are no robots, as in [`GoalId`].
-const NO_ROBOT: u8 = u8::MAX;
+use brain::{GoalId, GoalList, Issuer, Task, Work, issuer_of};
 
 /// What all goals of a kind have in common.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +21,7 @@ pub(crate) struct GoalKind {
     pub(crate) deadline_steps: Option<u64>,
     /// Number of the kind of controllers that own them.
     pub(crate) owner: Option<u8>,
-    pub(crate) issuer: RobotId,
+    pub(crate) issuer: Issuer,
     work: Work,
     value: f64,
     service_s: f64,
@@ -141,13 +138,11 @@ fn number_of(name: &str, names: &[String]) -> Option<u8> {
 
 /// The issuer of the goals of a kind. At random positions it follows from the name, so that goals keep their ids when
 /// others are added.
-fn issuer(name: &str, placement: &Placement) -> RobotId {
+fn issuer(name: &str, placement: &Placement) -> Issuer {
     match placement {
         Placement::Fixed { at_m, .. } => issuer_of(at_m),
-        _ => RobotId {
-            kind: NO_ROBOT,
-            // 0 is the index of the operator, and the highest one that of a message to all.
-            index: kind_key(name).clamp(1, u32::MAX - 1),
-        },
+        _ => Issuer::List(GoalList {
+            list: kind_key(name).clamp(1, u32::MAX - 1),
+        }),
     }
 }

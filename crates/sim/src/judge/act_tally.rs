@@ -8,14 +8,14 @@ use crate::world::items::{Items, MARK_TOLERANCE_M};
 use base::geometry::Point;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::{Act, ActKind, RobotId};
+use brain::{Act, ActKind, AgentId};
 use std::collections::BTreeMap;
 
 /// An act that was completed.
 #[derive(Debug, Clone)]
 pub(crate) struct Done {
     pub(crate) act: Act,
-    pub(crate) by: RobotId,
+    pub(crate) by: AgentId,
     /// The numbers of the items that it concerns.
     pub(crate) items: Vec<u32>,
     pub(crate) is_success: bool,
@@ -53,7 +53,7 @@ impl ItemActs {
         self.firsts[kind as usize]
     }
 
-    fn renumbered(self, new_id: impl Fn(RobotId) -> Option<RobotId>) -> Self {
+    fn renumbered(self, new_id: impl Fn(AgentId) -> Option<AgentId>) -> Self {
         let renumbered = |first: Detection| Detection {
             by: first.by.and_then(&new_id),
             ..first
@@ -128,7 +128,7 @@ impl ActTally {
     pub(super) fn continued(
         &self,
         kept: &[(usize, usize)],
-        new_id: impl Fn(RobotId) -> Option<RobotId>,
+        new_id: impl Fn(AgentId) -> Option<AgentId>,
     ) -> Self {
         let of = |(now, was): &(usize, usize)| {
             let [now, was] = [now, was].map(|number| u32::try_from(*number).ok());

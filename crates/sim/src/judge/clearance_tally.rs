@@ -3,7 +3,7 @@
 use crate::scenario::Scenario;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::{About, Dispatch, GoalId, Message, RobotId};
+use brain::{About, Dispatch, GoalId, Message, Receiver};
 use std::collections::BTreeMap;
 
 /// How far a controller has come with the lane.
@@ -62,7 +62,7 @@ pub(crate) struct ClearanceTally {
     /// Awards of a goal to another robot than before.
     pub(super) reallocations: u64,
     /// The robot to which each goal was last awarded.
-    awarded: BTreeMap<GoalId, RobotId>,
+    awarded: BTreeMap<GoalId, Receiver>,
 }
 
 impl ClearanceTally {

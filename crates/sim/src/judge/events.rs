@@ -8,7 +8,7 @@ use crate::bodies::body_state::{BodyState, Status};
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{ActKind, GoalId, MarkVerdict, Reason, RobotId};
+use brain::{ActKind, AgentId, GoalId, MarkVerdict, Reason, Receiver};
 use std::mem::replace;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
@@ -37,21 +37,21 @@ pub enum EventKind {
         /// The number of its kind, and its index.
         item: (u16, u32),
         /// The robot.
-        by: RobotId,
+        by: AgentId,
     },
     /// A goal was served for the first time, or again by another robot for the first time.
     Served {
         /// The number of its kind, and its index.
         goal: (u8, u32),
         /// The robot that served it.
-        by: RobotId,
+        by: AgentId,
     },
     /// A robot acted on an item or a place with one of its tools: the first time so, or with a charge.
     Acted {
         /// What it did.
         act: ActKind,
         /// The robot.
-        by: RobotId,
+        by: AgentId,
         /// The place that it named.
         at: Point,
         /// The number of the kind of the nearest item there, and its index.
@@ -62,7 +62,7 @@ pub enum EventKind {
     /// An item has destroyed a robot.
     Destroyed {
         /// The robot.
-        robot: RobotId,
+        robot: AgentId,
         /// The number of the kind of the item, and its index.
         item: (u16, u32),
     },
@@ -81,14 +81,14 @@ pub enum EventKind {
     /// A robot ran into something, or something into it.
     Collided {
         /// The robot.
-        robot: RobotId,
+        robot: AgentId,
         /// Its collisions so far.
         total: u32,
     },
     /// The status of a robot changed.
     Status {
         /// The robot.
-        robot: RobotId,
+        robot: AgentId,
         /// Its status now.
         status: Status,
     },
@@ -114,26 +114,26 @@ pub enum EventKind {
         /// The goal.
         goal: GoalName,
         /// The controller.
-        by: RobotId,
+        by: AgentId,
         /// The robot.
-        to: RobotId,
+        to: AgentId,
     },
     /// A controller has lost a goal that it owned: its lease has ended.
     Orphaned {
         /// The goal.
         goal: GoalName,
         /// The controller.
-        by: RobotId,
+        by: AgentId,
     },
     /// A controller has failed, or the robot that carries it.
     Failed {
         /// The controller.
-        controller: RobotId,
+        controller: AgentId,
     },
     /// A controller has learned of a mark in its lane, or of a verdict on one.
     Marked {
         /// The controller.
-        by: RobotId,
+        by: AgentId,
         /// Its number of the mark.
         number: u32,
         /// The verdict.
@@ -142,7 +142,7 @@ pub enum EventKind {
     /// A controller has declared its lane clear, or given it up.
     Stated {
         /// The controller.
-        by: RobotId,
+        by: AgentId,
         /// Whether it has declared it clear.
         is_clear: bool,
         /// The risk that it states; none if the decision was made elsewhere.
@@ -152,9 +152,9 @@ pub enum EventKind {
     /// renewals and information, which are repeated, are no events.
     Sent {
         /// The sender.
-        from: RobotId,
-        /// The receiver, or [`RobotId::EVERYONE`].
-        to: RobotId,
+        from: AgentId,
+        /// The receiver.
+        to: Receiver,
         /// The name of its content.
         about: &'static str,
         /// The goal that it is about.
@@ -241,7 +241,7 @@ impl EventLog {
 
     /// Notes the collisions of robots in a step, and then the changes of their status.
     #[inline]
-    pub(crate) fn end_step(&self, tick: u64, ids: &[RobotId], body_states: &[BodyState]) {
+    pub(crate) fn end_step(&self, tick: u64, ids: &[AgentId], body_states: &[BodyState]) {
         if !self.has_readers() {
             return;
         }

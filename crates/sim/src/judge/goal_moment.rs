@@ -5,7 +5,7 @@ use crate::bodies::body_state::BodyState;
 use crate::goals::placed::{Goal, Goals};
 use crate::scenario::Scenario;
 use base::geometry::Disc;
-use brain::RobotId;
+use brain::AgentId;
 
 /// A step of a run, as the judge of goals sees it: what robots decided, and where they decided it.
 #[derive(Clone, Copy)]
@@ -13,7 +13,7 @@ pub(crate) struct GoalMoment<'a> {
     pub(crate) scenario: &'a Scenario,
     pub(crate) tick: u64,
     pub(crate) goals: &'a Goals,
-    pub(crate) ids: &'a [RobotId],
+    pub(crate) ids: &'a [AgentId],
     pub(crate) discs: &'a [Disc],
     pub(crate) body_states: &'a [BodyState],
 }

@@ -7,7 +7,7 @@ use super::stays::Stays;
 use crate::bodies::body_state::Status;
 use crate::radio::channel::Outgoing;
 use base::hashed::Hashed;
-use brain::{About, CommitmentStatus, Dispatch, GoalId, Reason, RobotId};
+use brain::{About, AgentId, CommitmentStatus, Dispatch, GoalId, Reason};
 use std::mem::replace;
 
 /// Counts of the goals of a run, and of its messages.
@@ -28,7 +28,7 @@ pub(crate) struct GoalTally {
 pub(crate) struct GoalRecord {
     pub(crate) issued_at: Option<u64>,
     /// The controller that it was issued to.
-    pub(crate) issued_to: Option<RobotId>,
+    pub(crate) issued_to: Option<AgentId>,
     /// When it was first awarded to a robot.
     pub(crate) awarded_at: Option<u64>,
     /// When a robot first drove there.
@@ -50,6 +50,16 @@ impl GoalTally {
             journeys: vec![Journey::default(); robots],
             ..Self::default()
         }
+    }
+
+    /// Takes over how long robots have been at goals; `robot` and `goal` return their numbers now.
+    pub(crate) fn keep_stays(
+        &mut self,
+        before: &Self,
+        robot: impl Fn(usize) -> Option<usize>,
+        goal: impl Fn(usize) -> Option<usize>,
+    ) {
+        self.stays = before.stays.renumbered(robot, goal);
     }
 
     /// Notes where robots are, and the messages that they send; returns whether any of it counts.
@@ -101,7 +111,7 @@ impl GoalTally {
         let is_of_controller = self.journeys.len() <= outgoing.from as usize;
         if let About::Dispatch(Dispatch::Stuck(refusal)) = message.about
             && let Some(goal) = moment.goals.number(refusal.goal)
-            && message.to == RobotId::OPERATOR
+            && message.to == AgentId::OPERATOR.into()
             && is_of_controller
         {
             self.records[goal].unserved = Some(refusal.reason);

@@ -1,7 +1,7 @@
 //! What happened to each item of a run.
 
 use base::hash::Hash;
-use brain::RobotId;
+use brain::AgentId;
 
 /// What happened to one item so far. Another thing that can happen to items is a field here, with its
 /// part of [`ItemRecord::add_to`] and, if it names robots, of [`ItemRecord::renumbered`].
@@ -17,7 +17,7 @@ pub(crate) struct Detection {
     /// The step in which it was reported.
     pub(crate) at: u64,
     /// The robot; `None` if it was removed.
-    pub(crate) by: Option<RobotId>,
+    pub(crate) by: Option<AgentId>,
 }
 
 impl ItemRecord {
@@ -27,7 +27,7 @@ impl ItemRecord {
     }
 
     /// The record in a run whose robots have other ids; `None` for those that were removed.
-    pub(super) fn renumbered(self, new_id: impl Fn(RobotId) -> Option<RobotId>) -> Self {
+    pub(super) fn renumbered(self, new_id: impl Fn(AgentId) -> Option<AgentId>) -> Self {
         let detected = self.detected.map(|detection| Detection {
             by: detection.by.and_then(new_id),
             ..detection

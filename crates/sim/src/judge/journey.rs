@@ -2,7 +2,7 @@
 
 use crate::bodies::body_state::BodyState;
 use base::hashed::Hashed;
-use brain::RobotId;
+use brain::AgentId;
 
 /// The way of a robot to the goal that it last reported to drive to; all times are steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
@@ -20,7 +20,7 @@ pub(crate) struct Journey {
 #[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Service {
     /// The robot; `None` if it was removed.
-    pub(crate) by: Option<RobotId>,
+    pub(crate) by: Option<AgentId>,
     /// When the robot set out for it, for the last time.
     pub(crate) began_at: u64,
     pub(crate) arrived_at: u64,
@@ -69,7 +69,7 @@ impl Journey {
     }
 
     /// The service that ends it, of a goal that was issued at a time.
-    pub(super) fn service(&self, by: RobotId, issued_at: u64, now: u64) -> Service {
+    pub(super) fn service(&self, by: AgentId, issued_at: u64, now: u64) -> Service {
         let began_at = self.began_at.max(issued_at);
         let arrived_at = self.arrived_at.unwrap_or(now).max(began_at);
         Service {

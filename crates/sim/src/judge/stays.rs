@@ -46,6 +46,22 @@ impl Stays {
         }
     }
 
+    /// The stays at goals and of robots that have other numbers now; `robot` and `goal` return them.
+    pub(super) fn renumbered(
+        &self,
+        robot: impl Fn(usize) -> Option<usize>,
+        goal: impl Fn(usize) -> Option<usize>,
+    ) -> Self {
+        let kept = self.0.iter().filter_map(|stay| {
+            Some(Stay {
+                goal: goal(stay.goal)?,
+                robot: robot(stay.robot)?,
+                since: stay.since,
+            })
+        });
+        Self(kept.collect())
+    }
+
     /// The step in which a robot arrived at a goal where it still is.
     pub(super) fn since(&self, robot: usize, goal: usize) -> Option<u64> {
         let mut stays = self.0.iter();

@@ -14,7 +14,7 @@ use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::RobotId;
+use brain::AgentId;
 use std::collections::BTreeMap;
 use std::iter;
 
@@ -72,7 +72,7 @@ impl Tally {
     pub(crate) fn detected(
         &mut self,
         detections: &Detections,
-        (tick, items, ids): (u64, &Items, &[RobotId]),
+        (tick, items, ids): (u64, &Items, &[AgentId]),
         events: &EventLog,
     ) -> bool {
         self.false_alarms += detections.false_alarms;
@@ -108,7 +108,7 @@ impl Tally {
     pub(crate) fn ground_detected(
         &mut self,
         detections: &Detections,
-        (scenario, ids): (&Scenario, &[RobotId]),
+        (scenario, ids): (&Scenario, &[AgentId]),
     ) {
         let Some(acts) = &mut self.acts else {
             return;
@@ -131,7 +131,7 @@ impl Tally {
     /// Notes that an item has destroyed a robot.
     pub(crate) fn lost(
         &mut self,
-        (robot, item): (RobotId, u32),
+        (robot, item): (AgentId, u32),
         (tick, items): (u64, &Items),
         events: &EventLog,
     ) {
@@ -186,7 +186,7 @@ impl Tally {
         &self,
         (scenario, items): (&Scenario, &Items),
         kept: &[(usize, usize)],
-        (removed, ids): (&[(u32, BodyState)], &BTreeMap<RobotId, RobotId>),
+        (removed, ids): (&[(u32, BodyState)], &BTreeMap<AgentId, AgentId>),
     ) -> Self {
         let mut next = Self {
             removed: self.removed.and(removed.iter().map(|(_, state)| state)),

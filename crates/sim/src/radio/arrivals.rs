@@ -1,7 +1,7 @@
 //! Which messages a radio receives if more arrive in a step than it can receive.
 
 use crate::sensors::pending::Pending;
-use brain::{ReceivedMessage, RobotId};
+use brain::{AgentId, ReceivedMessage};
 use std::cmp::Reverse;
 
 /// Scratch of the selection; kept so that nothing is allocated.
@@ -29,8 +29,8 @@ impl Arrivals {
     pub(crate) fn select(
         &mut self,
         arrived: &[Pending<ReceivedMessage>],
-        (own, maximum): (RobotId, usize),
-        draw: impl Fn(RobotId) -> u32,
+        (own, maximum): (AgentId, usize),
+        draw: impl Fn(AgentId) -> u32,
     ) -> &[Arrival] {
         self.all.clear();
         let mut previous = None;
@@ -42,7 +42,7 @@ impl Arrivals {
                 .map_or(0, |(_, number)| number + 1);
             previous = Some((from, number));
             self.all.push(Arrival {
-                is_addressed: Reverse(late.what.message.to == own),
+                is_addressed: Reverse(late.what.message.to.agent() == Some(own)),
                 number,
                 draw: draw(from),
                 place,

@@ -7,7 +7,7 @@ use crate::bodies::external::ExternalBody;
 use crate::bodies::kind::Kind;
 use crate::sensors::backlog::Backlog;
 use base::noise::Noise;
-use brain::{Brain, Motion, Percept, RobotId, SensorRequest};
+use brain::{AgentId, Brain, Motion, Percept, SensorRequest};
 use std::collections::BTreeMap;
 
 /// The deciding part of one robot.
@@ -39,7 +39,7 @@ pub(crate) struct Inputs {
 
 impl Agent {
     /// The agent of the robot of a number, which is the `index`th of its kind.
-    pub(crate) fn new(kind: &Kind, id: RobotId, number: usize, noise: Noise) -> Self {
+    pub(crate) fn new(kind: &Kind, id: AgentId, number: usize, noise: Noise) -> Self {
         #[expect(
             clippy::cast_possible_truncation,
             reason = "robots have 32-bit numbers"
@@ -135,10 +135,10 @@ impl Agent {
     }
 
     /// Renumbers robots; detections and messages of robots that were removed are dropped.
-    pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
+    pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<AgentId, AgentId>) {
         self.brain.renumber(|id| numbers.get(&id).copied());
         if let Some(backlog) = &mut self.inputs.backlog {
-            let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
+            let renumber = |id: &mut AgentId| numbers.get(id).map(|now| *id = *now).is_some();
             let neighbours = &mut backlog.neighbours.entries;
             neighbours.retain_mut(|late| renumber(&mut late.what.id));
         }

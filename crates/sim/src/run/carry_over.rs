@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::bodies::body_state::BodyState;
 use crate::scenario::Scenario;
-use brain::{About, ReceivedMessage, RobotId};
+use brain::{About, AgentId, ReceivedMessage, Receiver};
 use std::collections::BTreeMap;
 
 /// For each robot of `next` its number in `before`, by the name of its kind and its index; `None`
@@ -17,7 +17,7 @@ pub(super) fn previous_numbers(
     let old = before.ids.iter().enumerate();
     let old = old.map(|(robot, id)| ((from.kind_of(*id).name.as_str(), id.index), robot));
     let old: BTreeMap<(&str, u32), usize> = old.collect();
-    let was = |id: &RobotId| old.get(&(to.kind_of(*id).name.as_str(), id.index)).copied();
+    let was = |id: &AgentId| old.get(&(to.kind_of(*id).name.as_str(), id.index)).copied();
     next.ids.iter().map(was).collect()
 }
 
@@ -28,7 +28,7 @@ pub(super) fn previous_controllers(
     next: &State,
     to: &Scenario,
 ) -> Vec<Option<usize>> {
-    let name = |scenario: &Scenario, id: RobotId| {
+    let name = |scenario: &Scenario, id: AgentId| {
         let kind = scenario.controller_kind_of(id);
         (kind.name.clone(), id.index)
     };
@@ -64,7 +64,7 @@ pub(super) fn new_ids(
     before: &State,
     next: &State,
     old: &[Option<usize>],
-) -> BTreeMap<RobotId, RobotId> {
+) -> BTreeMap<AgentId, AgentId> {
     let pairs = old.iter().zip(&next.ids);
     pairs
         .filter_map(|(was, id)| Some((before.ids[(*was)?], *id)))
@@ -76,7 +76,7 @@ pub(super) fn new_controller_ids(
     before: &State,
     next: &State,
     old: &[Option<usize>],
-) -> BTreeMap<RobotId, RobotId> {
+) -> BTreeMap<AgentId, AgentId> {
     let pairs = old.iter().zip(&next.controllers);
     let pairs = pairs.filter_map(|(was, agent)| Some((before.controllers.get((*was)?)?, agent)));
     pairs
@@ -88,21 +88,26 @@ pub(super) fn new_controller_ids(
 /// name no longer exists.
 pub(super) fn renumber_message(
     message: &mut ReceivedMessage,
-    ids: &BTreeMap<RobotId, RobotId>,
+    ids: &BTreeMap<AgentId, AgentId>,
     from: &Scenario,
     to: &Scenario,
 ) -> bool {
     let Some(sender) = ids.get(&message.from) else {
         return false;
     };
-    let receiver = ids.get(&message.message.to).unwrap_or(&RobotId::EVERYONE);
+    let receiver = message
+        .message
+        .to
+        .agent()
+        .and_then(|to| ids.get(&to).copied());
+    let receiver = Receiver::from(receiver);
     let is_dispatch = matches!(message.message.about, About::Dispatch(_));
-    if is_dispatch && (*sender, *receiver) != (message.from, message.message.to) {
+    if is_dispatch && (*sender, receiver) != (message.from, message.message.to) {
         // It belongs to leases between agents that had other ids.
         return false;
     }
     message.from = *sender;
-    message.message.to = *receiver;
+    message.message.to = receiver;
     let About::Item {
         kind, provenance, ..
     } = &mut message.message.about

@@ -12,7 +12,7 @@ use crate::bodies::kind::Kind;
 use crate::scenario::Scenario;
 use crate::world::items::Item;
 use base::placement::{DiscIndex, EntityClass, PlacementError, TeamPlacementError};
-use brain::RobotId;
+use brain::AgentId;
 use std::collections::BTreeMap;
 
 /// Whether the place of a robot is still valid.
@@ -79,7 +79,7 @@ impl State {
         before: &Self,
         to: &Scenario,
         old: &[Option<usize>],
-        ids: &BTreeMap<RobotId, RobotId>,
+        ids: &BTreeMap<AgentId, AgentId>,
     ) {
         let has_same_ids = ids.iter().all(|(was, now)| was == now);
         for (agent, was) in self.controllers.iter_mut().zip(old) {

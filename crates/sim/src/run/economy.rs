@@ -6,7 +6,7 @@ use crate::clock::seconds;
 use crate::judge::goal_moment::is_late;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{GoalId, Reason, RobotId, Task};
+use brain::{AgentId, GoalId, Reason, Task};
 use economy::OwnedGoal;
 
 /// A goal of a run; times are `None` for what has not happened.
@@ -35,7 +35,7 @@ pub struct Goal {
     /// Time in which that robot stood under way.
     pub blocked_s: Option<f64>,
     /// The robot that served it; `None` also if it was removed.
-    pub served_by: Option<RobotId>,
+    pub served_by: Option<AgentId>,
     /// Whether several robots served it.
     pub is_served_twice: bool,
     /// Whether its deadline is over and no robot served it.
@@ -48,11 +48,11 @@ pub struct Goal {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Controller {
     /// Its id: its kind is numbered after all kinds of robots.
-    pub id: RobotId,
+    pub id: AgentId,
     /// Its position.
     pub at: Point,
     /// The robot that carries it.
-    pub aboard: Option<RobotId>,
+    pub aboard: Option<AgentId>,
     /// Range of its radio.
     pub range_m: f64,
     /// Whether it sends and receives: it has not failed, and neither has the robot that carries it.

@@ -4,7 +4,7 @@ use super::state::State;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
 use crate::scenario::Scenario;
-use brain::{About, Dispatch, Message, Reason, ReceivedMessage, RobotId};
+use brain::{About, AgentId, Dispatch, Message, Reason, ReceivedMessage};
 use std::collections::BTreeMap;
 
 impl State {
@@ -38,7 +38,7 @@ impl State {
         let participant = &mut self.controllers[owner].participant;
         let task = scenario.goals[usize::from(goal.kind)].task(goal.id, goal.at);
         let order = ReceivedMessage {
-            from: RobotId::OPERATOR,
+            from: AgentId::OPERATOR,
             age_s: 0.0,
             message: Message::to(participant.id, About::Dispatch(Dispatch::Issue(task))),
         };
@@ -69,7 +69,7 @@ impl State {
         (before, from): (&Self, &Scenario),
         to: &Scenario,
         old: &[Option<usize>],
-        ids: &BTreeMap<RobotId, RobotId>,
+        ids: &BTreeMap<AgentId, AgentId>,
     ) {
         let Some(mut tally) = self.tally.goals.take() else {
             return;
@@ -120,12 +120,12 @@ impl State {
 impl Scenario {
     /// The controller that is first in turn to own a goal, and the number of controllers of its kind; `None` if there
     /// are none of the kind that owns it.
-    fn first_owner(&self, goal: &Goal) -> Option<(RobotId, u32)> {
+    fn first_owner(&self, goal: &Goal) -> Option<(AgentId, u32)> {
         let owner = usize::from(self.goals[usize::from(goal.kind)].owner?);
         let count = self.controllers[owner].count;
         let index = goal.index.checked_rem(count)?;
         let kind = self.controller_number(owner);
-        Some((RobotId { kind, index }, count))
+        Some((AgentId::controller(kind, index), count))
     }
 }
 
@@ -136,11 +136,11 @@ impl GoalTally {
         before: &Self,
         numbers: &BTreeMap<usize, usize>,
         old: &[Option<usize>],
-        ids: &BTreeMap<RobotId, RobotId>,
+        ids: &BTreeMap<AgentId, AgentId>,
     ) {
         self.messages_sent = before.messages_sent;
         self.messages_dropped = before.messages_dropped;
-        let new_id = |id: RobotId| ids.get(&id).copied();
+        let new_id = |id: AgentId| ids.get(&id).copied();
         for (was, now) in numbers {
             let record = &mut self.records[*now];
             *record = before.records[*was];
@@ -150,6 +150,8 @@ impl GoalTally {
                 served.by = served.by.and_then(new_id);
             }
         }
+        let robot = |was: usize| old.iter().position(|old| *old == Some(was));
+        self.keep_stays(before, robot, |was| numbers.get(&was).copied());
         for (journey, was) in self.journeys.iter_mut().zip(old) {
             let kept = was.and_then(|was| before.journeys.get(was));
             let goal = kept.and_then(|kept| numbers.get(&kept.goal?));

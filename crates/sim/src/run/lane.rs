@@ -5,7 +5,7 @@ use crate::judge::clearance_tally::Remains;
 use crate::passage::Vehicle;
 use crate::scenario::Scenario;
 use base::geometry::{Point, Rectangle};
-use brain::{Lane, RobotId};
+use brain::{AgentId, Lane};
 use core::f64::consts::FRAC_1_SQRT_2;
 use economy::{BelievedMark, ClearedShare, LanePicture, LaneStatement, PlannedPassage, Risk};
 
@@ -13,7 +13,7 @@ use economy::{BelievedMark, ClearedShare, LanePicture, LaneStatement, PlannedPas
 #[derive(Debug, Clone, PartialEq)]
 pub struct BelievedLane {
     /// The controller.
-    pub controller: RobotId,
+    pub controller: AgentId,
     /// The lane and its cells.
     pub lane: Lane,
     /// Expected number of mines without a mark in each cell, row by row from the lower left corner.
@@ -162,7 +162,7 @@ mod tests {
             hazards: 1,
         };
         BelievedLane {
-            controller: RobotId { kind: 0, index: 0 },
+            controller: AgentId::controller(0, 0),
             lane,
             unmarked: vec![1e-3; lane.cells()],
             marks: vec![BelievedMark {

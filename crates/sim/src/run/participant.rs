@@ -14,13 +14,13 @@ use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
 use base::noise::Noise;
 use base::random::Entity;
-use brain::{ReceivedMessage, RobotId};
+use brain::{AgentId, ReceivedMessage};
 use std::collections::BTreeMap;
 
 /// A participant in communication: a robot that has a radio, or a controller.
 #[derive(Debug, Clone)]
 pub(crate) struct Participant {
-    pub(crate) id: RobotId,
+    pub(crate) id: AgentId,
     pub(crate) place: Place,
     pub(crate) radio: Radio,
     /// Its key in the random streams of other participants.
@@ -44,7 +44,7 @@ pub(crate) enum Place {
 impl Participant {
     /// A participant of a run without any messages; `key` is its key in random streams.
     pub(crate) fn new(
-        id: RobotId,
+        id: AgentId,
         place: Place,
         radio: Radio,
         (key, noise): (Entity, Noise),
@@ -119,9 +119,9 @@ impl Participant {
     }
 
     /// Renumbers the senders of its messages; those of participants that were removed are dropped.
-    pub(crate) fn renumber(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
-        let renumber = |id: &mut RobotId| {
-            *id == RobotId::OPERATOR || numbers.get(id).map(|now| *id = *now).is_some()
+    pub(crate) fn renumber(&mut self, numbers: &BTreeMap<AgentId, AgentId>) {
+        let renumber = |id: &mut AgentId| {
+            *id == AgentId::OPERATOR || numbers.get(id).map(|now| *id = *now).is_some()
         };
         let inbox = &mut self.inbox.entries;
         inbox.retain_mut(|late| renumber(&mut late.what.from));

@@ -13,7 +13,7 @@ use base::placement::{
     EntityClass, Group, PlacementContext, PlacementError, TeamPlacementError, team,
 };
 use base::random::Entity;
-use brain::{GoalId, RobotId};
+use brain::{AgentId, GoalId};
 use economy::Controller;
 
 /// An item, goal, robot or controller for which a run has no room.
@@ -43,7 +43,7 @@ pub enum NoRoom {
     #[error("controller {} of kind {}: {why}", .id.index, .id.kind)]
     Controller {
         /// Its id.
-        id: RobotId,
+        id: AgentId,
         /// The reason.
         why: PlacementError,
     },
@@ -151,17 +151,14 @@ pub(super) fn place_goals(scenario: &Scenario, seed: u64, run: u64) -> Result<Go
 pub(super) fn place_controllers(
     scenario: &Scenario,
     (seed, run): (u64, u64),
-    robots: &[RobotId],
+    robots: &[AgentId],
 ) -> Result<Vec<ControllerAgent>, NoRoom> {
     let draws = draws(scenario, seed, run, EntityClass::Robots);
     let mut controllers = Vec::new();
     for (number, kind) in scenario.controllers.iter().enumerate() {
         let number = scenario.controller_number(number);
         for index in 0..kind.count {
-            let id = RobotId {
-                kind: number,
-                index,
-            };
+            let id = AgentId::controller(number, index);
             let place = place_of(scenario, &draws, (kind, index), robots);
             let place = place.map_err(|why| NoRoom::Controller { id, why })?;
             let entity = kind.entity(index);
@@ -180,7 +177,7 @@ fn place_of(
     scenario: &Scenario,
     draws: &PlacementContext,
     (kind, index): (&ControllerKind, u32),
-    robots: &[RobotId],
+    robots: &[AgentId],
 ) -> Result<Place, PlacementError> {
     match &kind.base {
         ControllerBase::Placed(placement) => {
@@ -189,10 +186,7 @@ fn place_of(
             Ok(Place::Fixed(scenario.home(place), Layer::Ground))
         }
         ControllerBase::Aboard(carriers) => {
-            let carrier = RobotId {
-                kind: *carriers,
-                index,
-            };
+            let carrier = AgentId::robot(*carriers, index);
             let robot = robots.binary_search(&carrier).ok();
             let robot = robot.and_then(|robot| u32::try_from(robot).ok());
             // A valid scenario has a carrier for each.

@@ -2,7 +2,7 @@
 
 use super::state::State;
 use crate::scenario::Scenario;
-use brain::{About, Dispatch, Message, ReceivedMessage, RobotId};
+use brain::{About, AgentId, Dispatch, Message, ReceivedMessage};
 
 impl State {
     /// Orders the robots out of service that the scenario names.
@@ -35,7 +35,7 @@ impl State {
         let (id, now) = (self.ids[robot], self.tick);
         if let Some(participant) = &mut self.agents[robot].inputs.participant {
             let order = ReceivedMessage {
-                from: RobotId::OPERATOR,
+                from: AgentId::OPERATOR,
                 age_s: 0.0,
                 message: Message::to(id, About::Dispatch(Dispatch::Service(is_in))),
             };
@@ -44,6 +44,6 @@ impl State {
     }
 }
 
-fn is_out(scenario: &Scenario, id: RobotId) -> bool {
+fn is_out(scenario: &Scenario, id: AgentId) -> bool {
     scenario.kind_of(id).out_of_service.contains(&id.index)
 }

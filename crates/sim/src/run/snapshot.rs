@@ -6,13 +6,13 @@ use crate::bodies::body_state::Status;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{AssignedGoal, BeliefState, BelievedMap, Motion, RobotId, ServedGoal};
+use brain::{AgentId, AssignedGoal, BeliefState, BelievedMap, Motion, ServedGoal};
 
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot {
     /// Its id.
-    pub id: RobotId,
+    pub id: AgentId,
     /// Position of its centre.
     pub at: Point,
     /// Radius of its footprint.
@@ -51,7 +51,7 @@ pub struct Item {
     /// When it was found, if it was.
     pub found_s: Option<f64>,
     /// The robot that detected it first; `None` if none did, or if the robot was removed.
-    pub found_by: Option<RobotId>,
+    pub found_by: Option<AgentId>,
     /// Whether it was destroyed: by a charge, or with a robot.
     pub is_destroyed: bool,
 }
@@ -66,14 +66,14 @@ impl State {
     /// The beliefs and goals of a robot; `None` if there is no such robot, or its brain has no
     /// beliefs.
     #[must_use]
-    pub fn belief_state(&self, id: RobotId) -> Option<BeliefState> {
+    pub fn belief_state(&self, id: AgentId) -> Option<BeliefState> {
         let robot = self.ids.binary_search(&id).ok()?;
         self.agents[robot].brain.belief_state()
     }
 
     /// The goals that a person has assigned to a robot; none if there is no such robot.
     #[must_use]
-    pub fn assigned_goals(&self, id: RobotId) -> Vec<AssignedGoal> {
+    pub fn assigned_goals(&self, id: AgentId) -> Vec<AssignedGoal> {
         let robot = self.ids.binary_search(&id);
         robot.map_or_else(
             |_| Vec::new(),
@@ -84,7 +84,7 @@ impl State {
     /// The goals of controllers that a robot serves, in its order; none if there is no such robot, or it has failed
     /// or has no energy: its leases are not counted down.
     #[must_use]
-    pub fn served_goals(&self, id: RobotId) -> Vec<ServedGoal> {
+    pub fn served_goals(&self, id: AgentId) -> Vec<ServedGoal> {
         let robot = self.ids.binary_search(&id).ok();
         let robot = robot.filter(|robot| self.body_states[*robot].status == Status::Active);
         robot.map_or_else(Vec::new, |robot| self.agents[robot].brain.served_goals())
@@ -92,7 +92,7 @@ impl State {
 
     /// The map of a robot; `None` if there is no such robot, or it has none.
     #[must_use]
-    pub fn map(&self, id: RobotId) -> Option<BelievedMap> {
+    pub fn map(&self, id: AgentId) -> Option<BelievedMap> {
         let robot = self.ids.binary_search(&id).ok()?;
         self.agents[robot].brain.map()
     }

@@ -19,7 +19,7 @@ use base::geometry::{Disc, Point};
 use base::noise::Noise;
 use base::placement::EntityClass;
 use base::random::Entity;
-use brain::RobotId;
+use brain::AgentId;
 use economy::Controller;
 
 /// One run, between two steps.
@@ -30,7 +30,7 @@ pub struct State {
     /// Number of steps taken.
     pub(crate) tick: u64,
     /// Robots in the order of their kinds and indices; each array below has one entry per robot.
-    pub(crate) ids: Vec<RobotId>,
+    pub(crate) ids: Vec<AgentId>,
     /// Their footprints.
     pub(crate) discs: Vec<Disc>,
     pub(crate) orientations: Vec<Orientation>,
@@ -90,10 +90,7 @@ impl State {
         let places = start_places(scenario, self.seed, self.run)?;
         for (group, places) in groups(scenario).iter().zip(places) {
             for (index, place) in (0..).zip(places) {
-                let id = RobotId {
-                    kind: group.kind,
-                    index,
-                };
+                let id = AgentId::robot(group.kind, index);
                 let entity = Entity {
                     kind: group.key,
                     index,
@@ -105,7 +102,7 @@ impl State {
         Ok(())
     }
 
-    fn add(&mut self, scenario: &Scenario, id: RobotId, centre: Point, heading_rad: f64) {
+    fn add(&mut self, scenario: &Scenario, id: AgentId, centre: Point, heading_rad: f64) {
         let kind = scenario.kind_of(id);
         let noise = Noise::of(self.seed, self.run, kind.entity(id.index));
         self.agents.push(Agent::new(kind, id, self.robots(), noise));

@@ -4,7 +4,7 @@ use super::ready::Scenario;
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::controllers::kind::ControllerKind;
-use brain::{Brain, RobotId};
+use brain::{AgentId, Brain};
 use economy::Settings;
 use std::sync::Arc;
 
@@ -64,7 +64,7 @@ impl Scenario {
     /// The kind of a robot of a run. Ids from anywhere else, such as the senders of messages, may
     /// have no kind of robots.
     #[inline]
-    pub(crate) fn kind_of(&self, robot: RobotId) -> &Kind {
+    pub(crate) fn kind_of(&self, robot: AgentId) -> &Kind {
         &self.kinds[usize::from(robot.kind)]
     }
 
@@ -81,7 +81,7 @@ impl Scenario {
     }
 
     /// The kind of a controller of a run.
-    pub(crate) fn controller_kind_of(&self, controller: RobotId) -> &ControllerKind {
+    pub(crate) fn controller_kind_of(&self, controller: AgentId) -> &ControllerKind {
         &self.controllers[usize::from(controller.kind) - self.kinds.len()]
     }
 }

@@ -9,7 +9,7 @@ use crate::step::measurement::gather;
 use crate::step::view::View;
 use base::geometry::Point;
 use base::trig::sin_cos;
-use brain::RobotId;
+use brain::AgentId;
 use std::f64::consts::TAU;
 
 /// Bearings per radian along which a sector is evaluated: one per degree.
@@ -54,7 +54,7 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such robot.
-    pub fn footprints(&mut self, id: RobotId, of: Sensors) -> Result<Vec<Footprint>, NoRobot> {
+    pub fn footprints(&mut self, id: AgentId, of: Sensors) -> Result<Vec<Footprint>, NoRobot> {
         let robot = self.number(id)?;
         let (view, agents) = self.view();
         if !view.is_simulated(robot) {

@@ -6,13 +6,13 @@
 use super::Simulation;
 use super::probe::{Last, Probe};
 use crate::bodies::body_state::Status;
-use brain::{Decision, Percept, RobotId};
+use brain::{AgentId, Decision, Percept};
 
 /// A percept of a robot, and the decision of its brain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inspected {
     /// The robot.
-    pub robot: RobotId,
+    pub robot: AgentId,
     /// Number of the step in which it decided.
     pub tick: u64,
     /// The percept.
@@ -24,7 +24,7 @@ pub struct Inspected {
 impl Simulation {
     /// Inspects a robot from now on, or none. Nothing in the run changes. A change of scenario ends the
     /// inspection, because it renumbers robots.
-    pub fn inspect(&mut self, robot: Option<RobotId>) {
+    pub fn inspect(&mut self, robot: Option<AgentId>) {
         if self.probe.robot != robot {
             self.probe = Probe { robot, last: None };
         }
@@ -32,7 +32,7 @@ impl Simulation {
 
     /// The inspected robot.
     #[must_use]
-    pub fn inspected_robot(&self) -> Option<RobotId> {
+    pub fn inspected_robot(&self) -> Option<AgentId> {
         self.probe.robot
     }
 
@@ -58,7 +58,7 @@ impl Simulation {
         }
     }
 
-    fn record_decision_of(&mut self, id: RobotId) {
+    fn record_decision_of(&mut self, id: AgentId) {
         let number = self.number(id).ok();
         let can_go_on = |robot: &usize| {
             let body_state = &self.state.body_states[*robot];

@@ -2,7 +2,7 @@
 
 use super::{NoRobot, Simulation};
 use crate::step::communicate::Participants;
-use brain::RobotId;
+use brain::AgentId;
 
 /// Two robots or controllers of which at least one receives the other's messages, unless they are lost by chance.
 ///
@@ -24,7 +24,7 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such robot.
-    pub fn links(&mut self, of: Option<RobotId>, most: usize) -> Result<Vec<Link>, NoRobot> {
+    pub fn links(&mut self, of: Option<AgentId>, most: usize) -> Result<Vec<Link>, NoRobot> {
         of.map(|id| self.number(id)).transpose()?;
         let radios = self.scenario().kinds.iter().filter_map(|kind| kind.radio);
         let controllers = self.scenario().controllers.iter().map(|kind| kind.radio);

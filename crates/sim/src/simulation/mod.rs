@@ -26,7 +26,7 @@ use crate::step::neighbours::Neighbours;
 use crate::step::pending_decisions::PendingDecision;
 use crate::step::tick::StepScratch;
 use crate::step::view::View;
-use brain::{Command, Percept, RobotId};
+use brain::{AgentId, Command, Percept};
 use probe::Probe;
 use std::collections::BTreeMap;
 use std::mem;
@@ -52,7 +52,7 @@ pub struct Simulation {
 /// There is no such robot or controller in the run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("there is no robot or controller {} of kind {}", .0.index, .0.kind)]
-pub struct NoRobot(pub RobotId);
+pub struct NoRobot(pub AgentId);
 
 impl Simulation {
     /// A new run. Threads share the work of its steps if there are thousands of robots.
@@ -76,7 +76,7 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such robot.
-    pub fn with_external(mut self, robots: &[RobotId]) -> Result<Self, NoRobot> {
+    pub fn with_external(mut self, robots: &[AgentId]) -> Result<Self, NoRobot> {
         for id in robots {
             let robot = self.number(*id)?;
             self.make_external(robot);
@@ -98,9 +98,9 @@ impl Simulation {
     /// If there is no such robot or controller; then no step is taken.
     pub fn step_with(
         &mut self,
-        percepts: BTreeMap<RobotId, Percept>,
-        commands: BTreeMap<RobotId, Command>,
-    ) -> Result<BTreeMap<RobotId, Command>, NoRobot> {
+        percepts: BTreeMap<AgentId, Percept>,
+        commands: BTreeMap<AgentId, Command>,
+    ) -> Result<BTreeMap<AgentId, Command>, NoRobot> {
         let external = self.external_inputs(percepts, commands)?;
         Ok(self.finish_step(external))
     }
@@ -114,8 +114,8 @@ impl Simulation {
     /// If there is no such robot.
     pub fn begin_step(
         &mut self,
-        percepts: BTreeMap<RobotId, Percept>,
-        commands: BTreeMap<RobotId, Command>,
+        percepts: BTreeMap<AgentId, Percept>,
+        commands: BTreeMap<AgentId, Command>,
         kinds: &[u8],
     ) -> Result<ExternalInputs, NoRobot> {
         let mut external = self.external_inputs(percepts, commands)?;
@@ -126,7 +126,7 @@ impl Simulation {
 
     /// Takes the step that [`Simulation::begin_step`] began, which must be the last call on this run;
     /// returns the commands that brains decided for external bodies.
-    pub fn finish_step(&mut self, mut external: ExternalInputs) -> BTreeMap<RobotId, Command> {
+    pub fn finish_step(&mut self, mut external: ExternalInputs) -> BTreeMap<AgentId, Command> {
         external.decisions.settle(&mut self.state.agents);
         self.probe.forget();
         self.scratch
@@ -159,7 +159,7 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such robot or controller.
-    pub fn percept(&mut self, id: RobotId) -> Result<Option<Percept>, NoRobot> {
+    pub fn percept(&mut self, id: AgentId) -> Result<Option<Percept>, NoRobot> {
         let number = self.participant(id)?;
         let (scenario, state) = (&self.scenario, &mut self.state);
         Ok(match number.checked_sub(state.robots()) {
@@ -272,8 +272,8 @@ impl Simulation {
     /// The external inputs of a step; moves external bodies to the poses of their percepts.
     fn external_inputs(
         &mut self,
-        percepts: BTreeMap<RobotId, Percept>,
-        commands: BTreeMap<RobotId, Command>,
+        percepts: BTreeMap<AgentId, Percept>,
+        commands: BTreeMap<AgentId, Command>,
     ) -> Result<ExternalInputs, NoRobot> {
         let mut external = ExternalInputs {
             percepts: numbered(percepts, |id| self.number(id))?,
@@ -325,7 +325,7 @@ impl Simulation {
     }
 
     /// The number of a robot or controller among all participants.
-    fn participant(&self, id: RobotId) -> Result<usize, NoRobot> {
+    fn participant(&self, id: AgentId) -> Result<usize, NoRobot> {
         let controllers = &self.state.controllers;
         self.number(id).or_else(|no_robot| {
             let place = controllers.binary_search_by_key(&id, |agent| agent.participant.id);
@@ -334,14 +334,14 @@ impl Simulation {
         })
     }
 
-    pub(super) fn number(&self, id: RobotId) -> Result<usize, NoRobot> {
+    pub(super) fn number(&self, id: AgentId) -> Result<usize, NoRobot> {
         self.state.ids.binary_search(&id).map_err(|_| NoRobot(id))
     }
 }
 
 fn numbered<T>(
-    given: BTreeMap<RobotId, T>,
-    number: impl Fn(RobotId) -> Result<usize, NoRobot>,
+    given: BTreeMap<AgentId, T>,
+    number: impl Fn(AgentId) -> Result<usize, NoRobot>,
 ) -> Result<BTreeMap<usize, T>, NoRobot> {
     let entries = given.into_iter();
     entries.map(|(id, what)| Ok((number(id)?, what))).collect()

@@ -1,11 +1,11 @@
 //! The robot that is inspected, and what its brain had before its last step.
 
-use brain::{Brain, Percept, RobotId};
+use brain::{AgentId, Brain, Percept};
 
 /// The inspected robot, and what its brain had before its last step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Probe {
-    pub(super) robot: Option<RobotId>,
+    pub(super) robot: Option<AgentId>,
     pub(super) last: Option<Box<Last>>,
 }
 

@@ -16,7 +16,7 @@ use crate::bodies::path::Orientation;
 use crate::run::state::State;
 use crate::scenario::Scenario;
 use base::geometry::Disc;
-use brain::RobotId;
+use brain::AgentId;
 use rayon::prelude::*;
 
 /// The plans of all robots, kept between steps so that nothing is allocated.
@@ -100,7 +100,7 @@ fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -
 
 type Bodies<'a> = (
     &'a [Plan],
-    &'a [RobotId],
+    &'a [AgentId],
     &'a mut [Disc],
     &'a mut [Orientation],
     &'a mut [BodyState],

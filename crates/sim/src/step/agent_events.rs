@@ -4,7 +4,7 @@ use crate::judge::events::{EventKind, EventLog, GoalName};
 use crate::radio::channel::Outgoing;
 use crate::run::state::State;
 use crate::scenario::Scenario;
-use brain::{About, Dispatch, GoalId, MarkVerdict, Reason, RobotId};
+use brain::{About, AgentId, Dispatch, GoalId, MarkVerdict, Reason};
 use economy::LanePicture;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -64,12 +64,12 @@ struct Held {
     /// By the kind and the index of the goal.
     goals: BTreeMap<(u8, u32), GoalState>,
     /// The robots to which controllers have awarded goals.
-    awarded: BTreeMap<(RobotId, GoalName), RobotId>,
-    orphaned: BTreeSet<(RobotId, GoalName)>,
+    awarded: BTreeMap<(AgentId, GoalName), AgentId>,
+    orphaned: BTreeSet<(AgentId, GoalName)>,
     /// By the controller and the number of the mark.
-    marks: BTreeMap<(RobotId, u32), Option<MarkVerdict>>,
-    stated: BTreeMap<RobotId, (bool, Option<f64>)>,
-    failed: BTreeSet<RobotId>,
+    marks: BTreeMap<(AgentId, u32), Option<MarkVerdict>>,
+    stated: BTreeMap<AgentId, (bool, Option<f64>)>,
+    failed: BTreeSet<AgentId>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]

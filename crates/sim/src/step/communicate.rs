@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
 use base::noise::share;
-use brain::{Message, ReceivedMessage, RobotId};
+use brain::{Message, ReceivedMessage};
 
 /// The participants of a run at the beginning of a step.
 #[derive(Clone, Copy)]
@@ -164,7 +164,7 @@ impl<'a> Participants<'a> {
 
 /// Whether a participant is a receiver that a message names.
 fn is_for(message: &Message, receiver: &Participant) -> bool {
-    message.to == RobotId::EVERYONE || message.to == receiver.id
+    message.to.includes(receiver.id)
 }
 
 /// Whether a message is lost on the way to one receiver, in the step `now`.
@@ -186,7 +186,7 @@ mod tests {
     use crate::scenario::ScenarioSpec;
     use crate::simulation::Simulation;
     use base::document::Document;
-    use brain::{About, Command, Message, Provenance, RobotId};
+    use brain::{About, AgentId, Command, Message, Provenance, Receiver};
     use std::sync::Arc;
 
     const ONE: &str = "
@@ -203,8 +203,8 @@ count = 1
 radio = { range_m = 15, needs_line_of_sight = true }
 ";
 
-    const ROVER: RobotId = RobotId { kind: 0, index: 0 };
-    const CONTROLLER: RobotId = RobotId { kind: 1, index: 0 };
+    const ROVER: AgentId = AgentId::robot(0, 0);
+    const CONTROLLER: AgentId = AgentId::controller(1, 0);
 
     /// A run with one robot at [10, 10], and a controller with the same radio.
     fn with_controller(place: Place) -> Simulation {
@@ -217,7 +217,7 @@ radio = { range_m = 15, needs_line_of_sight = true }
 
     fn message() -> Message {
         Message {
-            to: RobotId::EVERYONE,
+            to: Receiver::All,
             about: About::Item {
                 kind: 0,
                 at: Point::default(),
@@ -229,15 +229,15 @@ radio = { range_m = 15, needs_line_of_sight = true }
     }
 
     /// The senders of the messages that the controller has after the robot has sent one.
-    fn received_at(place: Place) -> Vec<RobotId> {
+    fn received_at(place: Place) -> Vec<AgentId> {
         received(place, &[message()])
     }
 
-    fn received_of(sent: &[Message]) -> Vec<RobotId> {
+    fn received_of(sent: &[Message]) -> Vec<AgentId> {
         received(Place::Aboard(0), sent)
     }
 
-    fn received(place: Place, sent: &[Message]) -> Vec<RobotId> {
+    fn received(place: Place, sent: &[Message]) -> Vec<AgentId> {
         let mut simulation = with_controller(place);
         let command = Command {
             outbox: sent.to_vec(),
@@ -263,7 +263,13 @@ radio = { range_m = 15, needs_line_of_sight = true }
     #[test]
     fn a_message_reaches_only_the_receiver_that_it_names() {
         for (to, received) in [(CONTROLLER, vec![ROVER]), (ROVER, vec![])] {
-            assert_eq!(received_of(&[Message { to, ..message() }]), received);
+            assert_eq!(
+                received_of(&[Message {
+                    to: to.into(),
+                    ..message()
+                }]),
+                received
+            );
         }
     }
 

@@ -50,7 +50,7 @@ mod tests {
     use crate::simulation::Simulation;
     use base::document::Document;
     use base::geometry::Point;
-    use brain::{About, Message, Provenance, RobotId};
+    use brain::{About, AgentId, Message, Provenance, Receiver};
     use std::sync::Arc;
 
     const TWO: &str = "
@@ -74,12 +74,12 @@ radio = { range_m = 5 }
         of(TWO)
     }
 
-    const HERE: RobotId = RobotId { kind: 0, index: 0 };
-    const OUT: RobotId = RobotId { kind: 0, index: 1 };
+    const HERE: AgentId = AgentId::robot(0, 0);
+    const OUT: AgentId = AgentId::robot(0, 1);
 
     fn saying(messages: usize) -> Command {
         let message = Message {
-            to: RobotId::EVERYONE,
+            to: Receiver::All,
             about: About::Item {
                 kind: 0,
                 at: Point::default(),

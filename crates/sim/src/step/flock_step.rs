@@ -13,14 +13,14 @@ use crate::run::state::State;
 use crate::scenario::Scenario;
 use base::geometry::Disc;
 use base::noise::Noise;
-use brain::{Motion, RobotId};
+use brain::{AgentId, Motion};
 use rayon::prelude::*;
 
 /// Consecutive point robots, from the first on.
 type Points<'a> = (
     usize,
     (
-        (&'a [RobotId], &'a [Noise]),
+        (&'a [AgentId], &'a [Noise]),
         (&'a mut [Disc], &'a mut [Orientation]),
         (&'a mut [BodyState], &'a mut [Agent]),
     ),

@@ -12,7 +12,7 @@ mod gather;
 use crate::bodies::path::Orientation;
 use crate::sensors::rays::GROUP;
 use base::geometry::{Disc, Point, Torus};
-use brain::RobotId;
+use brain::AgentId;
 use rayon::prelude::*;
 
 /// Robots of a periodic world, sorted by cells.
@@ -84,7 +84,7 @@ impl Flock {
     /// Sorts robots by place; threads may share the work.
     pub(crate) fn fill(
         &mut self,
-        ids: &[RobotId],
+        ids: &[AgentId],
         discs: &[Disc],
         orientations: &[Orientation],
         is_shared: bool,

@@ -10,7 +10,7 @@ use crate::world::buckets::Buckets;
 use crate::world::grid::Still;
 use crate::world::static_geometry::StaticGeometry;
 use base::geometry::{Disc, Point, Torus};
-use brain::RobotId;
+use brain::AgentId;
 use rayon::prelude::*;
 
 /// Robots whose lists are stored together: a task for a thread.
@@ -99,7 +99,7 @@ impl Neighbours {
     pub(crate) fn refresh(
         &mut self,
         scenario: &Scenario,
-        ids: &[RobotId],
+        ids: &[AgentId],
         discs: &[Disc],
         is_shared: bool,
     ) {
@@ -187,7 +187,7 @@ impl Piece {
         &mut self,
         scenario: &Scenario,
         (buckets, reach_m): (&Buckets, &[f64]),
-        (ids, discs): (&[RobotId], &[Disc]),
+        (ids, discs): (&[AgentId], &[Disc]),
         robot: usize,
     ) {
         let (id, centre) = (ids[robot], discs[robot].centre);

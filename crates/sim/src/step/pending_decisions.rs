@@ -2,13 +2,13 @@
 
 use crate::judge::detections::Detections;
 use crate::run::agent::{Agent, Inputs};
-use brain::{Command, Percept, RobotId};
+use brain::{AgentId, Command, Percept};
 
 /// A robot whose brain would step now, or a controller, whose decision is made elsewhere.
 #[derive(Debug, Clone, Default)]
 pub struct PendingDecision {
     /// The robot or controller.
-    pub robot: RobotId,
+    pub robot: AgentId,
     /// Its percept.
     pub percept: Percept,
     /// The decision; initially zero motion.

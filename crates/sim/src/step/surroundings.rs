@@ -9,7 +9,7 @@ use crate::sensors::{Measure, Sensor};
 use base::geometry::Point;
 use base::noise::share;
 use base::random::Entity;
-use brain::{Neighbour, RobotId};
+use brain::{AgentId, Neighbour};
 
 /// The direction in which a controller faces.
 const FRONT: Point = Point { x: 1.0, y: 0.0 };
@@ -21,7 +21,7 @@ pub(super) struct Surroundings(Vec<Detectable>);
 /// A robot or a controller.
 #[derive(Debug, Clone, Copy)]
 struct Detectable {
-    id: RobotId,
+    id: AgentId,
     key: Entity,
     at: Point,
     heading_rad: f64,

@@ -13,14 +13,14 @@ use crate::sensors::sensor_frame::SensorFrame;
 use crate::world::items::Items;
 use base::geometry::Disc;
 use base::noise::Noise;
-use brain::RobotId;
+use brain::AgentId;
 
 /// The world at the beginning of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View<'a> {
     pub(crate) scenario: &'a Scenario,
     pub(crate) tick: u64,
-    pub(crate) ids: &'a [RobotId],
+    pub(crate) ids: &'a [AgentId],
     pub(crate) discs: &'a [Disc],
     pub(crate) orientations: &'a [Orientation],
     pub(crate) body_states: &'a [BodyState],

@@ -10,8 +10,8 @@ use allocation_counter::measure;
 use base::document::Document;
 use base::geometry::Point;
 use brain::{
-    About, Body, Brain, BrainSpec, Command, Contact, Detector, Message, Neighbour, Observation,
-    Percept, Provenance, RangeRing, Reading, ReceivedMessage, RobotId, Scan,
+    About, AgentId, Body, Brain, BrainSpec, Command, Contact, Detector, Message, Neighbour,
+    Observation, Percept, Provenance, RangeRing, Reading, ReceivedMessage, Receiver, Scan,
 };
 use sim::scenario::ScenarioSpec;
 use sim::simulation::Simulation;
@@ -65,9 +65,9 @@ fn a_step_of_a_flock_does_not_allocate() {
 }
 
 /// Commands for all rovers, whose messages are allocated before the step.
-fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
+fn commands(messages: usize) -> BTreeMap<AgentId, Command> {
     let message = Message {
-        to: RobotId::EVERYONE,
+        to: Receiver::All,
         about: About::Item {
             kind: 0,
             at: Point::default(),
@@ -80,7 +80,7 @@ fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
         outbox: vec![message; messages],
         ..Command::default()
     };
-    let id = |index| RobotId { kind: 1, index };
+    let id = |index| AgentId::controller(1, index);
     (0..12).map(|index| (id(index), command.clone())).collect()
 }
 
@@ -155,10 +155,7 @@ fn brain_with_beliefs(cells: usize, rays: u32) -> Brain {
 /// this age.
 fn crowded_percept(step: u32, rays: u32, age_s: f64) -> Percept {
     let spread = |number: u32| f64::from((number * 7919 + step * 104_729) % 1000) / 1000.0;
-    let id = |number: u32| RobotId {
-        kind: 0,
-        index: 1 + (number * 31 + step * 17) % 200,
-    };
+    let id = |number: u32| AgentId::robot(0, 1 + (number * 31 + step * 17) % 200);
     let place = |number: u32| Point {
         x: 40.0 * spread(number) - 20.0,
         y: 40.0 * spread(number + 500) - 20.0,
@@ -167,7 +164,7 @@ fn crowded_percept(step: u32, rays: u32, age_s: f64) -> Percept {
         from: id(number),
         age_s: 0.0,
         message: Message {
-            to: RobotId::EVERYONE,
+            to: Receiver::All,
             about: if number.is_multiple_of(2) {
                 About::Sender {
                     at: place(number),

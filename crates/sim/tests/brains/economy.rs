@@ -1,7 +1,7 @@
 //! Goals that controllers award to robots.
 
 use crate::scenarios::{scenario, with};
-use brain::RobotId;
+use brain::AgentId;
 use sim::judge::GoalOutcome;
 use sim::run::Goal;
 use sim::simulation::Simulation;
@@ -40,7 +40,7 @@ fn every_goal_of_a_controller_is_served_once() {
     assert_eq!((outcome.served, outcome.served_twice), (9, 0));
     assert!(goals.iter().all(|goal| goal.awarded_s <= goal.began_s));
     let robots = goals.iter().filter_map(|goal| goal.served_by);
-    let robots: std::collections::BTreeSet<RobotId> = robots.collect();
+    let robots: std::collections::BTreeSet<AgentId> = robots.collect();
     assert!(robots.len() > 1, "{robots:?}");
 }
 
@@ -59,7 +59,7 @@ fn stays_s(text: &str) -> (Vec<f64>, GoalOutcome) {
         let goals = simulation.state().each_goal(simulation.scenario());
         goals.collect()
     };
-    let mut arrived_s: BTreeMap<(usize, RobotId), f64> = BTreeMap::new();
+    let mut arrived_s: BTreeMap<(usize, AgentId), f64> = BTreeMap::new();
     let mut stays_s: BTreeMap<usize, f64> = BTreeMap::new();
     while stays_s.len() < 9 && simulation.time_s() < 300.0 {
         simulation.step();

@@ -1,10 +1,10 @@
 //! Moving objects that no detector identifies are distinguished from static ones by their approach.
 
 use crate::scenarios::{scenario, with};
-use brain::{BelievedRobot, RobotId};
+use brain::{AgentId, BelievedRobot};
 use sim::simulation::Simulation;
 
-const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
+const WATCHER: AgentId = AgentId::robot(0, 0);
 
 /// A robot with beliefs among pillars, and another robot that approaches.
 const HALL: &str = "

@@ -3,7 +3,7 @@
 pub(crate) use crate::scenarios::{read, scenario, with};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
-use brain::{About, Command, Message, Motion, Provenance, RobotId};
+use brain::{About, AgentId, Command, Message, Motion, Provenance, Receiver};
 use sim::run::Robot;
 use sim::simulation::Simulation;
 use std::collections::BTreeMap;
@@ -24,8 +24,8 @@ pub(crate) fn first(simulation: &Simulation) -> Robot {
     robots(simulation)[0]
 }
 
-pub(crate) fn id(kind: u8, index: u32) -> RobotId {
-    RobotId { kind, index }
+pub(crate) fn id(kind: u8, index: u32) -> AgentId {
+    AgentId::robot(kind, index)
 }
 
 pub(crate) fn motion(speed_m_s: f64, turn_rate_rad_s: f64) -> Motion {
@@ -55,7 +55,7 @@ pub(crate) fn send(messages: &[Message]) -> Command {
 pub(crate) fn message(number: f64) -> Message {
     let at = Point { x: number, y: 0.0 };
     Message {
-        to: RobotId::EVERYONE,
+        to: Receiver::All,
         about: About::Item {
             kind: 0,
             at,
@@ -78,7 +78,7 @@ pub(crate) fn replaced(text: &str, changes: &[(&str, &str)]) -> String {
 pub(crate) fn drive(
     simulation: &mut Simulation,
     steps: u32,
-    commands: &[(RobotId, f64, f64)],
+    commands: &[(AgentId, f64, f64)],
 ) -> Vec<Vec<Robot>> {
     let step = |_| {
         let commands = commands.iter();
@@ -94,9 +94,9 @@ pub(crate) fn drive(
 /// One step with commands for some robots.
 pub(crate) fn step_with(
     simulation: &mut Simulation,
-    commands: impl IntoIterator<Item = (RobotId, Command)>,
+    commands: impl IntoIterator<Item = (AgentId, Command)>,
 ) {
-    let commands: BTreeMap<RobotId, Command> = commands.into_iter().collect();
+    let commands: BTreeMap<AgentId, Command> = commands.into_iter().collect();
     simulation.step_with(BTreeMap::new(), commands).unwrap();
 }
 

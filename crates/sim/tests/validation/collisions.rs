@@ -3,7 +3,7 @@
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{Random, away, partners, robots, run, scenario, step, whole};
 use base::document::Value;
-use brain::{Command, RobotId};
+use brain::{AgentId, Command};
 use sim::run::Robot;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -57,7 +57,7 @@ fn gas(count: u32, changes: &[(&str, Value)], number: u64) -> Gas {
 
 /// The total distance of robots in a step, without those that have just turned away from a contact:
 /// that contact has not ended, so that touching again in this step does not count as a new one.
-fn gone_free_m(before: &[Robot], now: &[Robot], turned: &BTreeMap<RobotId, Command>) -> f64 {
+fn gone_free_m(before: &[Robot], now: &[Robot], turned: &BTreeMap<AgentId, Command>) -> f64 {
     let pairs = before.iter().zip(now);
     let free = pairs.filter(|(robot, _)| !turned.contains_key(&robot.id));
     free.map(|(before, now)| now.distance_m - before.distance_m)

@@ -4,7 +4,7 @@ use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{circle, places, run, scenario, whole};
 use base::document::Value;
 use base::geometry::Point;
-use brain::{About, Command, Message, Provenance, ReceivedMessage, RobotId};
+use brain::{About, AgentId, Command, Message, Provenance, ReceivedMessage, Receiver};
 use std::collections::BTreeMap;
 
 const TEXT: &str = include_str!("../../../../docs/validation/radio.toml");
@@ -38,13 +38,13 @@ impl Setup {
     /// The messages that each listener receives.
     fn received(&self) -> Vec<Vec<ReceivedMessage>> {
         let mut simulation = run(&scenario(TEXT, &self.changes), 1, 0);
-        let robot = |kind, index| RobotId { kind, index };
+        let robot = |kind, index| AgentId::robot(kind, index);
         let commands = Command {
             outbox: vec![hello(); self.messages],
             ..Command::default()
         };
         let commands = (0..self.callers).map(|caller| (robot(0, caller), commands.clone()));
-        let commands: BTreeMap<RobotId, Command> = commands.collect();
+        let commands: BTreeMap<AgentId, Command> = commands.collect();
         let mut received = vec![Vec::new(); self.listeners as usize];
         for _ in 0..self.steps {
             for (listener, received) in (0..).zip(&mut received) {
@@ -71,7 +71,7 @@ fn hello() -> Message {
         kind_share: None,
     };
     Message {
-        to: RobotId::EVERYONE,
+        to: Receiver::All,
         about,
         confidence: 1.0,
     }

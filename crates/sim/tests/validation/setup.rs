@@ -4,7 +4,7 @@ use base::document::{Document, Node, Value};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::{sin_cos, wrapped};
-use brain::{Command, Motion, RobotId};
+use brain::{AgentId, Command, Motion};
 use sim::run::Robot;
 use sim::scenario::{Scenario, ScenarioSpec};
 use sim::simulation::Simulation;
@@ -66,8 +66,8 @@ pub(crate) fn only(simulation: &Simulation) -> Robot {
 }
 
 /// The id of the first robot of a kind.
-pub(crate) const fn first_of(kind: u8) -> RobotId {
-    RobotId { kind, index: 0 }
+pub(crate) const fn first_of(kind: u8) -> AgentId {
+    AgentId::robot(kind, 0)
 }
 
 /// A command to move.
@@ -88,7 +88,7 @@ pub(crate) fn turning(by_rad: f64, step_s: f64) -> Command {
 }
 
 /// One step with these commands; the brains of other robots decide for them.
-pub(crate) fn step(simulation: &mut Simulation, commands: BTreeMap<RobotId, Command>) {
+pub(crate) fn step(simulation: &mut Simulation, commands: BTreeMap<AgentId, Command>) {
     if commands.is_empty() {
         simulation.step();
     } else {
@@ -136,7 +136,7 @@ pub(crate) fn away(
     simulation: &Simulation,
     radius_m: f64,
     random: &mut Random,
-) -> BTreeMap<RobotId, Command> {
+) -> BTreeMap<AgentId, Command> {
     let scenario = simulation.scenario();
     let touching = robots.iter().filter(|robot| robot.is_touching);
     let turns = touching.filter_map(|robot| {

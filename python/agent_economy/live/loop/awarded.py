@@ -24,9 +24,6 @@ MOVING = ("approaching", "receding")
 DEFAULTS_S = {"auction_s": 1.0, "owner_lease_s": 30.0, "service_lease_s": 20.0}
 """Defaults of keys of controllers."""
 
-OPERATOR = 255
-"""The kind of the issuer of a scenario's goals."""
-
 
 @dataclass
 class AwardedGoals:
@@ -55,8 +52,9 @@ class AwardedGoals:
             if about is None or about["status"] != "done":
                 continue
             goal = about["id"]
-            if goal["issuer"]["kind"] == OPERATOR:
-                self._done.setdefault((goal["issuer"]["index"], goal["number"]), robot)
+            goals = goal["issuer"].get("list")
+            if goals is not None:
+                self._done.setdefault((goals, goal["number"]), robot)
 
     def update(self, now_s: float, *, is_driving: bool) -> None:
         """Take the state of the run; `is_driving` is whether the brain of a real robot steps."""

@@ -16,7 +16,7 @@ Setpoint = tuple[float, float, float | None]
 
 STOP: Setpoint = (0.0, 0.0, None)
 
-OPERATOR = {"kind": 255, "index": 0}
+OPERATOR = {"role": "person", "kind": 0, "index": 0}
 """The id of the operator, which no robot has."""
 
 

@@ -24,12 +24,25 @@ export interface Acted {
   is_success: boolean;
 }
 
+/** The id of an agent: the `index`-th of its kind, both counted from 0. */
+export interface AgentId {
+  /** What it is; without it, a robot. */
+  role?: AgentRole;
+  /** Index of the kind in the scenario, in which kinds of controllers are numbered after those of robots; 0 of persons. */
+  kind: number;
+  /** Index within the kind. */
+  index: number;
+}
+
+/** What an agent is. */
+export type AgentRole = "robot" | "controller" | "person";
+
 /** A robot that has been awarded a goal. */
 export interface Assignment {
   /** The goal. */
   goal: GoalId;
   /** The robot. */
-  robot: RobotId;
+  robot: AgentId;
 }
 
 /** The award of a goal, or the grant of its ownership. */
@@ -71,7 +84,7 @@ export interface BelievedItem {
 /** The estimate of another robot. */
 export interface BelievedRobot {
   /** Its id, if it was identified. */
-  id: RobotId | null;
+  id: AgentId | null;
   /** Its position in the robot's frame: x forwards, y to the left. */
   at: Point;
   /** Its velocity over ground, in the same frame. */
@@ -160,10 +173,16 @@ export interface Fitness {
 
 /** The id of a goal. It alone decides whether two goals are the same: a goal may move, and two goals may lie at one place. */
 export interface GoalId {
-  /** The robot that numbered the goal, by its id at that time. The kind 255 stands for others: with the index 0 for a person, otherwise for a list of waypoints, the same for all robots with the same list. */
-  issuer: RobotId;
+  /** What numbered the goal. */
+  issuer: Issuer;
   /** Its number among the goals of the issuer; in a list of waypoints, its index. */
   number: number;
+}
+
+/** A list of goals. */
+export interface GoalList {
+  /** A number that follows from the waypoints, or from the name of the kind: robots with different lists do not confuse their goals, and robots with the same list share them. */
+  list: number;
 }
 
 /** A goal. */
@@ -220,6 +239,9 @@ export interface HeadingOptions {
   headings: HeadingOption[];
 }
 
+/** What numbers goals. */
+export type Issuer = AgentId | GoalList;
+
 /** A lane to be cleared, as a grid of square cells, row by row from the lower left corner. */
 export interface Lane {
   /** Its lower left corner in the world, in metres. */
@@ -254,7 +276,7 @@ export type MarkVerdict = "confirmed" | "rejected" | "isolated" | "neutralised" 
 /** A message from one robot or controller to others. */
 export interface Message {
   /** The only receiver; without it, all that the message reaches. */
-  to?: RobotId;
+  to?: AgentId | null;
   /** Its content. */
   about: About;
   /** Confidence of the sender, 0 to 1. */
@@ -288,7 +310,7 @@ export interface Neighbour {
   /** Time since the measurement. */
   age_s: number;
   /** Its id. */
-  id: RobotId;
+  id: AgentId;
 }
 
 /** A measurement of an item detector. */
@@ -309,7 +331,7 @@ export interface Percept {
   /** Random bits of this step, the only source of randomness of a brain. */
   random_words: [number, number, number, number];
   /** The id of the robot, known before the mission. */
-  id: RobotId;
+  id: AgentId;
   /** Number of robots of its kind, itself included; 0 if unknown. */
   team_size: number;
   /** Its position in the world. */
@@ -366,7 +388,7 @@ export interface Pose {
 /** The observations of one item by one robot: they count once, whichever robot reports them, and however often. */
 export interface Provenance {
   /** The observer. */
-  observer: RobotId;
+  observer: AgentId;
   /** The number that the observer gave the item. */
   track_id: number;
   /** Number of observations: of two reports with the same track id, the one with more counts. */
@@ -379,7 +401,7 @@ export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "fu
 /** A received message. */
 export interface ReceivedMessage {
   /** The sender. */
-  from: RobotId;
+  from: AgentId;
   /** Time since it was sent. */
   age_s: number;
   /** The message. */
@@ -420,14 +442,6 @@ export interface Report {
   payload: number;
 }
 
-/** The id of a robot: the `index`-th of its kind, both counted from 0. */
-export interface RobotId {
-  /** Index of the kind in the scenario. */
-  kind: number;
-  /** Index within the kind. */
-  index: number;
-}
-
 /** A measurement of a range ring. */
 export interface Scan {
   /** Time since the measurement; `None` without a scan. */
@@ -439,7 +453,7 @@ export interface Scan {
 /** The position of a robot. */
 export interface Seen {
   /** The robot. */
-  robot: RobotId;
+  robot: AgentId;
   /** Its position in the world, in metres. */
   at_m: [number, number];
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::behaviours::BehaviourSpec;
-use crate::{Brain, BrainSpec, Percept, RobotId};
+use crate::{AgentId, Brain, BrainSpec, Percept};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ fn at(x: f64, y: f64, course_rad: f64) -> Neighbour {
         bearing_rad: y.atan2(x),
         course_rad: Some(course_rad),
         age_s: 0.0,
-        id: RobotId::default(),
+        id: AgentId::default(),
     }
 }
 
@@ -232,7 +232,7 @@ prop_compose! {
         range_m in any_number(), bearing_rad in any_number(), age_s in any_number(),
         course_rad in prop::option::of(any_number()), index: u32,
     ) -> Neighbour {
-        Neighbour { range_m, bearing_rad, course_rad, age_s, id: RobotId { kind: 0, index } }
+        Neighbour { range_m, bearing_rad, course_rad, age_s, id: AgentId::robot(0, index) }
     }
 }
 

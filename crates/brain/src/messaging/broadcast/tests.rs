@@ -1,11 +1,11 @@
 use super::*;
 
 /// A step, and the robots that broadcast in it, in order.
-type Senders = (u32, Vec<RobotId>);
+type Senders = (u32, Vec<AgentId>);
 
 /// The robots that broadcast in each step of a duration in seconds; all are stationary and have a
 /// destination.
-fn senders(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Senders> {
+fn senders(own: &[AgentId], period_s: f64, for_s: f64) -> Vec<Senders> {
     let mut sent = vec![BroadcastState::new(period_s); own.len()];
     #[expect(
         clippy::cast_possible_truncation,
@@ -21,8 +21,10 @@ fn senders(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Senders> {
     (1..=steps).map(in_step).collect()
 }
 
-fn robots(kind: u8, count: u32) -> Vec<RobotId> {
-    (0..count).map(|index| RobotId { kind, index }).collect()
+fn robots(kind: u8, count: u32) -> Vec<AgentId> {
+    (0..count)
+        .map(|index| AgentId::robot(kind, index))
+        .collect()
 }
 
 #[test]
@@ -47,8 +49,8 @@ fn each_robot_broadcasts_once_per_second_for_any_period() {
 fn a_receiver_of_four_messages_per_step_receives_all_robots_equally_often() {
     let mates = robots(0, 16);
     let steps = senders(&mates, 0.1, 60.0);
-    let received = |mate: &RobotId| {
-        let receives = |all: &[RobotId]| all.iter().take(2).any(|one| one == mate);
+    let received = |mate: &AgentId| {
+        let receives = |all: &[AgentId]| all.iter().take(2).any(|one| one == mate);
         steps.iter().filter(|(_, all)| receives(all)).count()
     };
     let counts: Vec<usize> = mates.iter().map(received).collect();

@@ -1,6 +1,6 @@
 use super::*;
 
-const MATE: RobotId = RobotId { kind: 0, index: 1 };
+const MATE: AgentId = AgentId::robot(0, 1);
 const HERE: Point = Point { x: 1.0, y: 1.0 };
 const THERE: Point = Point { x: 3.0, y: 1.0 };
 
@@ -13,7 +13,10 @@ const THERE: Point = Point { x: 3.0, y: 1.0 };
 fn goal(at: Point) -> GoalPlace {
     let (issuer, number) = (MATE, at.x as u32);
     GoalPlace {
-        id: GoalId { issuer, number },
+        id: GoalId {
+            issuer: issuer.into(),
+            number,
+        },
         at,
     }
 }
@@ -129,7 +132,7 @@ fn each_visit_is_returned_once() {
 fn memory_is_bounded_for_any_number_of_peers() {
     let mut peers = Peers::default();
     for index in 0..1000 {
-        let id = RobotId { kind: 0, index };
+        let id = AgentId::robot(0, index);
         peers.update_destination(id, goal(HERE), CommitmentStatus::Active, 0.0);
     }
     assert_eq!(peers.mates.len(), MAX_PEERS);

@@ -57,26 +57,26 @@ fn a_report_counts_less_with_its_age() {
 }
 
 /// The trust after nine refuted reports of a robot.
-fn distrust_of(sender: RobotId) -> Trust {
+fn distrust_of(sender: AgentId) -> Trust {
     let mut trust = Trust::new(&TrustSpec::default());
     (0..9).for_each(|_| trust.learn(sender, false));
     trust
 }
 
 /// Calls a function with the initial trust in all robots.
-fn with_initial_trust<T>(own: RobotId, then: impl FnOnce(&Reception) -> T) -> T {
+fn with_initial_trust<T>(own: AgentId, then: impl FnOnce(&Reception) -> T) -> T {
     let trust = &Trust::new(&TrustSpec::default());
     then(&Reception { own, trust })
 }
 
-fn receive(items: &mut Items, own: RobotId, report: &Report) {
+fn receive(items: &mut Items, own: AgentId, report: &Report) {
     with_initial_trust(own, |reception| {
         items.receive(reception, report, 0.01, &[PER_M2]);
     });
 }
 
-fn robot(index: u32) -> RobotId {
-    RobotId { kind: 0, index }
+fn robot(index: u32) -> AgentId {
+    AgentId::robot(0, index)
 }
 
 fn report(observer: u32, confidence: f64) -> Report {
@@ -95,7 +95,7 @@ fn report(observer: u32, confidence: f64) -> Report {
     }
 }
 
-fn confidence(items: &Items, own: RobotId) -> f64 {
+fn confidence(items: &Items, own: AgentId) -> f64 {
     with_initial_trust(own, |reception| items.tracks[0].confidence(reception, None))
 }
 
@@ -474,7 +474,7 @@ fn liar_trust(wanted: &[f64; 3]) -> Trust {
     trust
 }
 
-fn received_from(from: RobotId, message: Message) -> Report {
+fn received_from(from: AgentId, message: Message) -> Report {
     match message.about {
         About::Item {
             kind,
@@ -568,7 +568,7 @@ fn of_reports_that_share_a_robot_only_the_strongest_counts() {
 }
 
 impl Track {
-    fn slot_by(&self, own: RobotId) -> usize {
+    fn slot_by(&self, own: AgentId) -> usize {
         let mut sources = self.sources[..self.count].iter();
         sources
             .position(|source| source.provenance.observer == own)

@@ -1,5 +1,6 @@
 use super::*;
-use crate::io::body::{Other, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Other;
 use crate::io::percept::{Neighbour, Percept};
 use crate::perception::beliefs::displacement::Displacement;
 use crate::perception::beliefs::others::Others;
@@ -65,10 +66,7 @@ impl TestRobot {
                 range_m: way.length(),
                 bearing_rad: wrapped(libm::atan2(way.y, way.x) - self.heading_rad),
                 age_s: 0.0,
-                id: RobotId {
-                    kind: *kind,
-                    index: u32::try_from(number).unwrap(),
-                },
+                id: AgentId::robot(*kind, u32::try_from(number).unwrap()),
             }
         });
         // All were stationary before the first step.

@@ -4,7 +4,7 @@
 
 use super::mover::Mover;
 use super::pose::Pose;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
@@ -20,7 +20,7 @@ pub(super) struct LastPlaces {
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct LastPlace {
-    id: RobotId,
+    id: AgentId,
     /// In the world.
     at: Point,
     /// Time since it came there.
@@ -61,11 +61,11 @@ impl LastPlaces {
     }
 
     /// Changes the ids of the robots; those without a new id are forgotten.
-    pub(super) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+    pub(super) fn renumber(&mut self, keep: impl Fn(&mut AgentId) -> bool) {
         self.list.retain_mut(|place| keep(&mut place.id));
     }
 
-    fn take(&mut self, id: RobotId) -> Option<LastPlace> {
+    fn take(&mut self, id: AgentId) -> Option<LastPlace> {
         let index = self.list.iter().position(|place| place.id == id)?;
         Some(self.list.remove(index))
     }

@@ -1,6 +1,6 @@
 //! A tracked robot or other moving object.
 
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use base::geometry::Point;
 use base::hashed::Hashed;
 
@@ -24,7 +24,7 @@ const SAME_PLACE_DEVIATIONS: f64 = 3.0;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Hashed)]
 pub(crate) struct Mover {
     /// The robot, if it was identified as one.
-    pub(crate) id: Option<RobotId>,
+    pub(crate) id: Option<AgentId>,
     /// Position in this robot's frame.
     pub(crate) at: Point,
     /// Velocity over ground, in this robot's frame.

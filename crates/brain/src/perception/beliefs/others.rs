@@ -6,7 +6,8 @@ use super::mover::Mover;
 use super::own_path::OwnPath;
 use super::pose::{Pose, turned};
 use super::scan_objects::ScanObjects;
-use crate::io::body::{Body, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Body;
 use crate::io::percept::{Neighbour, Percept};
 use crate::perception::rays::Ring;
 use crate::perception::sector::direction;
@@ -175,7 +176,7 @@ impl Others {
     }
 
     /// Changes the ids of the robots; those without a new id are forgotten.
-    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut AgentId) -> bool) {
         self.movers
             .retain_mut(|mover| mover.id.as_mut().is_none_or(&keep));
         self.last_places.renumber(keep);

@@ -12,7 +12,8 @@ use super::pose::Pose;
 use super::scans::new_scans;
 use super::spec::BeliefsSpec;
 use crate::io::act::{ActKind, Acted};
-use crate::io::body::{Body, Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::{Body, Detector};
 use crate::io::dispatch::Dispatch;
 use crate::io::lane::MarkVerdict;
 use crate::io::message::About;
@@ -35,7 +36,7 @@ const STATED_WITHIN_M: f64 = 1.0;
 pub(crate) struct Beliefs {
     /// Prior density of items of each kind; all robots of a kind share it.
     pub(crate) per_m2: Arc<[f64]>,
-    pub(crate) id: RobotId,
+    pub(crate) id: AgentId,
     pub(crate) localisation: Localisation,
     pub(crate) others: Others,
     pub(crate) items: Items,
@@ -56,7 +57,7 @@ impl Beliefs {
         let expected = kinds.map(|kind| spec.prior_count.get(kind).copied().unwrap_or(1.0));
         let per_m2: Arc<[f64]> = expected.map(|expected| expected / area_m2).collect();
         Self {
-            id: RobotId::default(),
+            id: AgentId::default(),
             localisation: Localisation::default(),
             others: Others::default(),
             items: Items::new(spec.max_tracks, KindModel::new(body, &per_m2)),
@@ -94,14 +95,14 @@ impl Beliefs {
     }
 
     /// Renumbers the robots; information about removed robots is dropped.
-    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
-        let keep = |id: &mut RobotId| new_id(*id).map(|new| *id = new).is_some();
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(AgentId) -> Option<AgentId>) {
+        let keep = |id: &mut AgentId| new_id(*id).map(|new| *id = new).is_some();
         self.others.renumber(keep);
         self.items.renumber(keep);
     }
 
     /// The position of another robot in the world, if it is tracked.
-    pub(crate) fn position_of(&self, id: RobotId) -> Option<Point> {
+    pub(crate) fn position_of(&self, id: AgentId) -> Option<Point> {
         let pose = self.pose()?;
         let mut movers = self.others.movers.iter();
         let tracked = movers.find(|mover| mover.id == Some(id))?;

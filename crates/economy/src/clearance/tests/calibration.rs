@@ -4,7 +4,7 @@ use super::simulated::{
     Item, Random, Searcher, Sensor, clearance, items, picture, with_lookalikes,
 };
 use crate::clearance::{Clearance, LanePicture};
-use brain::{GoalId, MarkVerdict, RobotId, Statement};
+use brain::{AgentId, GoalId, MarkVerdict, Statement};
 
 /// Places are neutralised above this probability of a mine: an attempt in vain is rare.
 const NEUTRALISE_ABOVE: f64 = 0.95;
@@ -22,7 +22,7 @@ const LANES: u64 = 30_000;
 
 /// A goal of a controller.
 const GOAL: GoalId = GoalId {
-    issuer: RobotId::OPERATOR,
+    issuer: brain::Issuer::Agent(AgentId::OPERATOR),
     number: 0,
 };
 
@@ -67,7 +67,7 @@ pub(super) fn search(
             let cells = 0..clearance.lane.cells();
             let looks = cells.map(|_| if random.is(share) { passes } else { passes / 2 });
             let searcher = Searcher {
-                id: RobotId { kind, index },
+                id: AgentId::robot(kind, index),
                 sensor: &SENSORS[usize::from(kind)],
                 loss,
                 looks: looks.collect(),
@@ -87,7 +87,7 @@ fn search_again(
     for kind in 0..2 {
         let all = 0..picture.clearance().lane.cells();
         let searcher = Searcher {
-            id: RobotId { kind, index: 2 },
+            id: AgentId::robot(kind, 2),
             sensor: &SENSORS[usize::from(kind)],
             loss: 0.0,
             looks: all

@@ -2,7 +2,7 @@
 
 use super::simulated::{Random, Searcher, Sensor, clearance, items, picture};
 use crate::clearance::{Clearance, LanePicture};
-use brain::{Coverage, RobotId};
+use brain::{AgentId, Coverage};
 
 const SENSOR: Sensor = Sensor {
     detection: 0.3,
@@ -11,7 +11,7 @@ const SENSOR: Sensor = Sensor {
     noise_m: 0.05,
 };
 
-const ROBOT: RobotId = RobotId { kind: 0, index: 0 };
+const ROBOT: AgentId = AgentId::robot(0, 0);
 
 /// A lane without clutter, of which a robot has looked at each cell a number of times.
 fn searched(clearance: &Clearance, kinds: &[u8], looks: impl Fn(usize) -> u32) -> LanePicture {
@@ -27,13 +27,7 @@ fn searched(clearance: &Clearance, kinds: &[u8], looks: impl Fn(usize) -> u32) -
                 }),
                 driven: [0; 16],
             };
-            picture.take_coverage(
-                RobotId {
-                    kind: *kind,
-                    index: 0,
-                },
-                &coverage,
-            );
+            picture.take_coverage(AgentId::robot(*kind, 0), &coverage);
         }
     }
     picture
@@ -66,7 +60,7 @@ fn ground_that_has_been_driven_over_has_fewer_mines() {
                 missed: [0; 16],
                 driven: [Coverage::parts(share); 16],
             };
-            picture.take_coverage(RobotId { kind: 1, index }, &coverage);
+            picture.take_coverage(AgentId::robot(1, index), &coverage);
         }
         picture.risk().expected()
     };

@@ -2,15 +2,15 @@
 
 use super::simulated::{clearance, picture};
 use crate::clearance::LanePicture;
-use brain::{Coverage, GoalId, Mark, MarkVerdict, RobotId, Statement};
+use brain::{AgentId, Coverage, GoalId, Mark, MarkVerdict, Statement};
 
-const OAV: RobotId = RobotId { kind: 0, index: 0 };
-const UGV: RobotId = RobotId { kind: 1, index: 0 };
+const OAV: AgentId = AgentId::robot(0, 0);
+const UGV: AgentId = AgentId::robot(1, 0);
 
-fn mark(robot: RobotId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
+fn mark(robot: AgentId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
     Mark {
         id: GoalId {
-            issuer: robot,
+            issuer: robot.into(),
             number: 0,
         },
         at_m: [x_m, 1.0],
@@ -21,7 +21,7 @@ fn mark(robot: RobotId, x_m: f32, deviation_m: f32, log_ratio: f32) -> Mark {
     }
 }
 
-fn looked(picture: &mut LanePicture, robot: RobotId, nats: f64) {
+fn looked(picture: &mut LanePicture, robot: AgentId, nats: f64) {
     for first in (0..50).step_by(16) {
         let missed = [Coverage::steps(nats); 16];
         picture.take_coverage(
@@ -94,7 +94,7 @@ fn a_mark_that_another_model_misses_is_explained_by_its_blindness_or_by_nothing_
 /// model is no evidence that it can detect it.
 #[test]
 fn a_false_alarm_beside_a_mine_does_not_turn_the_looks_of_that_model_into_evidence_against_it() {
-    let other = RobotId { index: 1, ..OAV };
+    let other = AgentId { index: 1, ..OAV };
     let mine = |has_false_alarm: bool| {
         let mut picture = lane();
         picture.take_mark(UGV, &mark(UGV, 10.0, 0.1, 15.0));
@@ -281,7 +281,7 @@ fn a_statement_about_an_unknown_goal_is_about_the_nearest_place() {
     let mut state = |x_m| {
         picture.take_statement(&Statement {
             mark: GoalId {
-                issuer: RobotId::OPERATOR,
+                issuer: AgentId::OPERATOR.into(),
                 number: 7,
             },
             at_m: [x_m, 1.0],

@@ -5,7 +5,7 @@ use super::simulated::{Item, Random, clearance, picture};
 use crate::clearance::LanePicture;
 use crate::passage::{MineEffect, Passage, PlannedPassage};
 use base::geometry::{Point, Segment};
-use brain::{GoalId, Lane, MARK_KINDS, Mark, MarkVerdict, RobotId, Statement};
+use brain::{AgentId, GoalId, Lane, MARK_KINDS, Mark, MarkVerdict, Statement};
 
 const VEHICLES: u32 = 3;
 const WIDTH_M: f64 = 3.0;
@@ -115,9 +115,9 @@ fn of_vehicles_with_a_stated_risk_that_share_is_lost() {
 
 /// A mark of a mine that has been confirmed at a place.
 fn mark(picture: &mut LanePicture, number: u32, at: Point, verdict: Option<MarkVerdict>) {
-    let robot = RobotId { kind: 1, index: 0 };
+    let robot = AgentId::robot(1, 0);
     let id = GoalId {
-        issuer: robot,
+        issuer: robot.into(),
         number,
     };
     let at_m = [at.x as f32, at.y as f32];

@@ -3,10 +3,10 @@
 use super::simulated::{clearance, picture};
 use crate::clearance::plan::{Circumstances, MAX_INTERROGATIONS, Plan, Subject};
 use crate::clearance::{Charge, Clearance, Decision, LanePicture, Skill};
-use brain::{Coverage, GoalId, Mark, MarkVerdict, RobotId, Statement};
+use brain::{AgentId, Coverage, GoalId, Mark, MarkVerdict, Statement};
 
-const OAV: RobotId = RobotId { kind: 0, index: 0 };
-const UGV: RobotId = RobotId { kind: 1, index: 0 };
+const OAV: AgentId = AgentId::robot(0, 0);
+const UGV: AgentId = AgentId::robot(1, 0);
 
 /// OAVs with capability 1 survey with two nats, UGVs with capability 2 search with one.
 fn able() -> Clearance {
@@ -48,7 +48,7 @@ fn subjects(picture: &LanePicture, interrogations: u32) -> Vec<Subject> {
     plan.proposals.iter().map(|wanted| wanted.subject).collect()
 }
 
-fn searched(picture: &mut LanePicture, robot: RobotId, nats: f64) {
+fn searched(picture: &mut LanePicture, robot: AgentId, nats: f64) {
     for first in (0..50).step_by(16) {
         let missed = [Coverage::steps(nats); 16];
         let marks = 0;
@@ -67,7 +67,7 @@ fn searched(picture: &mut LanePicture, robot: RobotId, nats: f64) {
 fn marked(picture: &mut LanePicture, log_ratio: f32) {
     let mark = Mark {
         id: GoalId {
-            issuer: OAV,
+            issuer: OAV.into(),
             number: 0,
         },
         at_m: [12.0, 1.0],
@@ -82,7 +82,7 @@ fn marked(picture: &mut LanePicture, log_ratio: f32) {
 fn stated(picture: &mut LanePicture, verdict: MarkVerdict) {
     picture.take_statement(&Statement {
         mark: GoalId {
-            issuer: UGV,
+            issuer: UGV.into(),
             number: 0,
         },
         at_m: [12.0, 1.0],
@@ -160,7 +160,7 @@ fn a_mark_that_may_be_a_lookalike_is_neutralised_when_the_rest_of_the_lane_is_se
     let picture_of = |clearance: &Clearance, nats: f64| {
         let mut picture = picture(clearance);
         let id = GoalId {
-            issuer: OAV,
+            issuer: OAV.into(),
             number: 0,
         };
         picture.take_mark(

@@ -2,7 +2,7 @@
 
 use crate::clearance::{Clearance, LanePicture, RobotModel};
 use base::geometry::Point;
-use brain::{CELLS_PER_MESSAGE, Coverage, GoalId, Lane, Mark, RobotId};
+use brain::{AgentId, CELLS_PER_MESSAGE, Coverage, GoalId, Lane, Mark};
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -133,7 +133,7 @@ const REPEATS: usize = 3;
 
 /// A robot that looks at cells, and the probability that one of its messages is lost.
 pub(super) struct Searcher<'s> {
-    pub(super) id: RobotId,
+    pub(super) id: AgentId,
     pub(super) sensor: &'s Sensor,
     pub(super) loss: f64,
     /// Number of looks at each cell.
@@ -255,7 +255,7 @@ impl Searcher<'_> {
         };
         Mark {
             id: GoalId {
-                issuer: self.id,
+                issuer: self.id.into(),
                 number: number as u32,
             },
             at_m: [mean.x as f32, mean.y as f32],

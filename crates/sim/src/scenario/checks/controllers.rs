@@ -111,7 +111,7 @@ pub(super) fn unknown<'n>(
 fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let drift = spec.clock.max_drift;
     let [robots_s, controllers_s] = round_trips_s(kind, spec);
-    let min_service_s = kind.settings(drift, [0, 0]).min_service_lease_s(robots_s);
+    let min_service_s = kind.settings(drift).min_service_lease_s(robots_s);
     let auction = format!("an auction of {} s and ", kind.auction_s);
     let leases = [
         (

@@ -5,7 +5,7 @@ use crate::scenario::{Checked, ScenarioSpec};
 use crate::sensors::Measures;
 use crate::simulation::Simulation;
 use base::document::Document;
-use brain::{Command, Motion, RobotId};
+use brain::{AgentId, Command, Motion};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ fn simulated(checked: &Checked) -> f64 {
         ..Command::default()
     };
     for _ in 0..5000 {
-        let commands = BTreeMap::from([(RobotId { kind: 0, index: 0 }, forward.clone())]);
+        let commands = BTreeMap::from([(AgentId::robot(0, 0), forward.clone())]);
         if simulation.step_with(BTreeMap::new(), commands).is_err() {
             break;
         }

@@ -11,7 +11,7 @@ const SIDE_M: f64 = 40.0;
 const LIMITS: [[f64; 2]; 3] = [[25.0, 1.0], [9.0, 16.0], [-1.0, -1.0]];
 
 /// Robots of three kinds anywhere on a square.
-fn team(robots: u32, seed: u64, side_m: f64) -> (Torus, Vec<RobotId>, Vec<Disc>, Vec<Orientation>) {
+fn team(robots: u32, seed: u64, side_m: f64) -> (Torus, Vec<AgentId>, Vec<Disc>, Vec<Orientation>) {
     let mut random = stream(seed, 0, Entity { kind: 0, index: 0 }, Purpose::Start);
     let mut up_to = |most: f64| most * unit(&mut random);
     let each = (0..robots).map(|index| {
@@ -24,7 +24,11 @@ fn team(robots: u32, seed: u64, side_m: f64) -> (Torus, Vec<RobotId>, Vec<Disc>,
             centre,
             radius_m: 0.0,
         };
-        (RobotId { kind, index }, disc, Orientation::new(up_to(6.0)))
+        (
+            AgentId::robot(kind, index),
+            disc,
+            Orientation::new(up_to(6.0)),
+        )
     });
     let (mut ids, mut discs, mut orientations) = (Vec::new(), Vec::new(), Vec::new());
     for (id, disc, course) in each {

@@ -2,7 +2,7 @@
 
 use crate::common::{go, id, read, replaced, scenario, start, step_with, with};
 use base::geometry::Point;
-use brain::{Act, ActKind, Acted, Command, Percept, RobotId};
+use brain::{Act, ActKind, Acted, AgentId, Command, Percept};
 use sim::judge::events::EventKind;
 use sim::simulation::Simulation;
 
@@ -28,8 +28,8 @@ isolate = { range_m = 2, duration_s = 0.5 }
 neutralise = { range_m = 2, duration_s = 1, charges = 2 }
 "#;
 
-pub(super) const OAV: RobotId = RobotId { kind: 0, index: 0 };
-pub(super) const UGV: RobotId = RobotId { kind: 1, index: 0 };
+pub(super) const OAV: AgentId = AgentId::robot(0, 0);
+pub(super) const UGV: AgentId = AgentId::robot(1, 0);
 const MINE: Point = Point { x: 5.0, y: 5.0 };
 const SCRAP: Point = Point { x: 9.0, y: 5.0 };
 
@@ -41,7 +41,7 @@ pub(super) fn act(kind: ActKind, at: Point) -> Command {
     }
 }
 
-fn percept(simulation: &mut Simulation, robot: RobotId) -> Percept {
+fn percept(simulation: &mut Simulation, robot: AgentId) -> Percept {
     simulation.percept(robot).unwrap().unwrap()
 }
 

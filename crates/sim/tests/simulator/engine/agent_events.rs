@@ -2,7 +2,7 @@
 
 use super::clearance::LANE;
 use crate::common::start;
-use brain::{GoalId, MarkVerdict, RobotId};
+use brain::{AgentId, GoalId, MarkVerdict};
 use sim::judge::events::{EventKind, EventReader};
 use sim::run::{Controller, Goal};
 use sim::simulation::Simulation;
@@ -48,7 +48,7 @@ fn goals(simulation: &Simulation) -> Vec<Goal> {
 }
 
 /// The robot to which each controller has awarded each of its goals.
-fn awarded(simulation: &Simulation) -> BTreeMap<(RobotId, GoalId), RobotId> {
+fn awarded(simulation: &Simulation) -> BTreeMap<(AgentId, GoalId), AgentId> {
     let of = |controller: Controller| {
         let goals = controller.goals.into_iter();
         let by = controller.id;
@@ -57,7 +57,7 @@ fn awarded(simulation: &Simulation) -> BTreeMap<(RobotId, GoalId), RobotId> {
     simulation.state().each_controller().flat_map(of).collect()
 }
 
-fn working(simulation: &Simulation) -> Vec<RobotId> {
+fn working(simulation: &Simulation) -> Vec<AgentId> {
     let working = simulation.state().each_controller();
     let working = working.filter(|each| each.is_working);
     working.map(|each| each.id).collect()
@@ -143,7 +143,7 @@ fn events_of_a_lane_are_its_marks_their_verdicts_and_the_statement() {
     let mut simulation = start(LANE);
     let reader = simulation.event_reader();
     simulation.finish();
-    let mut marks: BTreeMap<(RobotId, u32), Option<MarkVerdict>> = BTreeMap::new();
+    let mut marks: BTreeMap<(AgentId, u32), Option<MarkVerdict>> = BTreeMap::new();
     let mut stated = Vec::new();
     for (_, kind) in drained(&reader) {
         match kind {

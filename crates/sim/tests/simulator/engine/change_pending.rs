@@ -24,7 +24,7 @@ fn within_range(kinds: &[(&str, u32)], items: &[&str], brain_hz: f64) -> String 
 }
 
 /// The percepts of a robot over a number of steps.
-fn percepts_within(simulation: &mut Simulation, steps: u32, robot: brain::RobotId) -> Vec<Percept> {
+fn percepts_within(simulation: &mut Simulation, steps: u32, robot: brain::AgentId) -> Vec<Percept> {
     let mut percepts = Vec::new();
     for _ in 0..steps {
         percepts.extend(simulation.percept(robot).unwrap());

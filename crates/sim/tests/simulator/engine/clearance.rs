@@ -2,7 +2,7 @@
 
 use crate::common::{id, robots, scenario, step_with, with};
 use base::engine::{BlockOptions, Runner};
-use brain::{About, Command, Message, Provenance, RobotId};
+use brain::{About, AgentId, Command, Message, Provenance};
 use rayon::ThreadPoolBuilder;
 use sim::judge::{ClearanceOutcome, Outcome};
 use sim::runner::Runs;
@@ -262,10 +262,10 @@ fn the_first_declaration_of_two_controllers_ends_the_run() {
 }
 
 /// Steps until the run is over; the robot `jammer` sends to the controller as much as it can in each.
-fn jammed(mut simulation: Simulation, jammer: RobotId) -> Simulation {
+fn jammed(mut simulation: Simulation, jammer: AgentId) -> Simulation {
     let station = simulation.state().each_controller().next().unwrap().id;
     let noise = Message {
-        to: station,
+        to: station.into(),
         about: About::Item {
             kind: 0,
             at: [1.0, 1.0].into(),

@@ -1,7 +1,7 @@
 //! Controllers detect robots and other controllers with sensors of their own.
 
 use crate::common::{id, replaced, start, with};
-use brain::{About, Dispatch, Neighbour, RobotId};
+use brain::{About, AgentId, Dispatch, Neighbour};
 use sim::simulation::Simulation;
 
 /// A controller with a detector, one without, and two robots, of which the second cannot send.
@@ -22,15 +22,15 @@ radio.range_m = 50
 sensors.eye = { kind = "robots", range_m = 15 }
 "#;
 
-const MUTE: RobotId = RobotId { kind: 0, index: 0 };
-const BASE: RobotId = RobotId { kind: 2, index: 0 };
-const MAST: RobotId = RobotId { kind: 3, index: 0 };
+const MUTE: AgentId = AgentId::robot(0, 0);
+const BASE: AgentId = AgentId::controller(2, 0);
+const MAST: AgentId = AgentId::controller(3, 0);
 
 fn detected(simulation: &mut Simulation) -> Vec<Neighbour> {
     simulation.percept(BASE).unwrap().unwrap().neighbours
 }
 
-fn ids(text: &str) -> Vec<RobotId> {
+fn ids(text: &str) -> Vec<AgentId> {
     let neighbours = detected(&mut start(text));
     neighbours.iter().map(|each| each.id).collect()
 }
@@ -38,7 +38,7 @@ fn ids(text: &str) -> Vec<RobotId> {
 #[test]
 fn a_controller_detects_robots_and_controllers_in_range() {
     let neighbours = detected(&mut start(SEEING));
-    let seen: Vec<(RobotId, f64)> = neighbours
+    let seen: Vec<(AgentId, f64)> = neighbours
         .iter()
         .map(|each| (each.id, each.range_m))
         .collect();

@@ -1,7 +1,7 @@
 //! Controllers are agents without a body: they take part in communication, fail, and change in mid-run.
 
 use crate::common::{go, id, message, replaced, robots, scenario, send, start, step_with, with};
-use brain::RobotId;
+use brain::AgentId;
 use sim::run::{Controller, Status};
 use sim::simulation::Simulation;
 
@@ -21,7 +21,7 @@ start.at_m = [[8, 10], [30, 5], [31, 5]]
 radio.range_m = 5
 ";
 
-const ROVER: RobotId = RobotId { kind: 0, index: 0 };
+const ROVER: AgentId = AgentId::robot(0, 0);
 
 fn controllers(simulation: &Simulation) -> Vec<Controller> {
     simulation.state().each_controller().collect()
@@ -128,7 +128,7 @@ fn robots_and_controllers_that_the_scenario_names_have_failed_for_good() {
 
 #[test]
 fn a_command_from_outside_replaces_the_step_of_a_controller() {
-    let base = id(1, 0);
+    let base = AgentId::controller(1, 0);
     let mut simulation = start(ONE);
     let state = simulation.state().clone();
     let percept = simulation.percept(base).unwrap().unwrap();
@@ -139,7 +139,7 @@ fn a_command_from_outside_replaces_the_step_of_a_controller() {
     simulation.step();
     let perceived = simulation.percept(ROVER).unwrap().unwrap();
     assert!(perceived.inbox.iter().all(|received| received.from == base));
-    assert!(simulation.percept(id(1, 2)).is_err());
+    assert!(simulation.percept(AgentId::controller(1, 2)).is_err());
 }
 
 #[test]
@@ -189,9 +189,9 @@ fn robots_of_a_removed_kind_leave_the_ids_of_controllers_valid() {
     let ant = "robots.ant = { radius_m = 0.1, start.at_m = [[3, 3]], brain.behaviours = [] }";
     let mut simulation = start(&with(ONE, ant));
     step_with(&mut simulation, [(id(1, 0), send(&[message(1.0)]))]);
-    assert_eq!(controllers(&simulation)[0].id, id(2, 0));
+    assert_eq!(controllers(&simulation)[0].id, AgentId::controller(2, 0));
     simulation.change(scenario(ONE)).unwrap();
-    assert_eq!(controllers(&simulation)[0].id, id(1, 0));
+    assert_eq!(controllers(&simulation)[0].id, AgentId::controller(1, 0));
     simulation.step();
     assert_eq!(owned(&simulation), [2, 2]);
 }

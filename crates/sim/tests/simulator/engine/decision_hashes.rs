@@ -4,7 +4,7 @@ use super::determinism::{commands, crowd};
 use super::flocks::birds;
 use crate::common::{first, go, id, message, replaced, scenario, start, step_with, with};
 use base::geometry::Point;
-use brain::{Brain, Command, Percept, Reading, RobotId, SensorRequest};
+use brain::{AgentId, Brain, Command, Percept, Reading, SensorRequest};
 use rayon::ThreadPoolBuilder;
 use sim::scenario::Scenario;
 use sim::simulation::Simulation;
@@ -177,7 +177,7 @@ fn a_decision_made_elsewhere_has_the_hash_of_the_same_decision_of_the_brain() {
     let (mut elsewhere, mut commanded, mut own) =
         (start(CRUISING), start(CRUISING), start(CRUISING));
     let brain = elsewhere.scenario().brain(0).cloned().unwrap();
-    let mut brains: BTreeMap<RobotId, Brain> = BTreeMap::new();
+    let mut brains: BTreeMap<AgentId, Brain> = BTreeMap::new();
     for simulation in [&mut elsewhere, &mut commanded, &mut own] {
         simulation.hash_decisions(0);
     }

@@ -4,7 +4,7 @@ use super::random;
 use crate::common::{Random, id, read, robots, scenario, start};
 use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
-use brain::{About, Command, Message, Percept, Provenance, RobotId};
+use brain::{About, AgentId, Command, Message, Percept, Provenance, Receiver};
 use rayon::ThreadPoolBuilder;
 use sim::judge::Outcome;
 use sim::runner::Runs;
@@ -38,13 +38,13 @@ pub(crate) fn crowd(robots: u32, side_m: f64) -> String {
 }
 
 /// Every seventh robot sends a message, and every eleventh gets a motion command.
-pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
-    let command_of = |(number, robot): (u32, RobotId)| {
+pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<AgentId, Command> {
+    let command_of = |(number, robot): (u32, AgentId)| {
         let mut command = Command::default();
         if (number + step).is_multiple_of(7) {
             command.outbox = vec![
                 Message {
-                    to: RobotId::EVERYONE,
+                    to: Receiver::All,
                     about: About::Item {
                         kind: 0,
                         at: Point::default(),

@@ -2,7 +2,7 @@
 
 use crate::common::{Random, go, id, robots, scenario, start};
 use base::geometry::Point;
-use brain::{Contact, Neighbour, Percept, Reading, RobotId, Scan};
+use brain::{AgentId, Contact, Neighbour, Percept, Reading, Scan};
 use sim::run::Status;
 use sim::simulation::{NoRobot, Simulation};
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ sensors.sonar = { kind = \"range\", rays = 8, range_m = 3 }
 sensors.eye = { kind = \"items\", range_m = 1, detection_probability = { flag = 0, mine = 0 } }
 ";
 
-const OUT: RobotId = RobotId { kind: 0, index: 0 };
+const OUT: AgentId = AgentId::robot(0, 0);
 
 fn now<T>(value: T) -> Option<Reading<T>> {
     Some(Reading { value, age_s: 0.0 })
@@ -44,7 +44,7 @@ fn scans(range_m: f64) -> Vec<Scan> {
     }]
 }
 
-fn with(simulation: &mut Simulation, percept: Percept) -> BTreeMap<RobotId, brain::Command> {
+fn with(simulation: &mut Simulation, percept: Percept) -> BTreeMap<AgentId, brain::Command> {
     let percepts = BTreeMap::from([(OUT, percept)]);
     simulation.step_with(percepts, BTreeMap::new()).unwrap()
 }

@@ -1,7 +1,7 @@
 //! Robots whose commands come from the caller instead of their brains.
 
 use crate::common::{go, scenario, start};
-use brain::{Brain, Percept, RobotId};
+use brain::{AgentId, Brain, Percept};
 use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ sensors.eye = { kind = "items", range_m = 2, latency_s = 0.5, detection_probabil
     false_alarm_rate_per_m2_s.mine = 0.01 }
 "#;
 
-fn requests(simulation: &mut Simulation) -> Vec<(RobotId, Percept)> {
+fn requests(simulation: &mut Simulation) -> Vec<(AgentId, Percept)> {
     let none = (BTreeMap::new(), BTreeMap::new());
     let mut requested = simulation.begin_step(none.0, none.1, &[0]).unwrap();
     let requested = requested.decisions().iter();
@@ -34,7 +34,7 @@ fn requests(simulation: &mut Simulation) -> Vec<(RobotId, Percept)> {
 fn external_decisions_equal_to_the_brains_give_the_same_run() {
     let (mut requested, mut plain) = (start(LATE), start(LATE));
     let brain = scenario(LATE).brain(0).cloned().unwrap();
-    let mut brains: BTreeMap<RobotId, Brain> = BTreeMap::new();
+    let mut brains: BTreeMap<AgentId, Brain> = BTreeMap::new();
     for _ in 0..600 {
         let begun = requested.begin_step(BTreeMap::new(), BTreeMap::new(), &[0]);
         let mut begun = begun.unwrap();
@@ -77,11 +77,11 @@ fn requests_cover_robots_whose_brains_step_and_that_have_no_command() {
         })
         .collect();
     assert_eq!(counts, [4, 0, 0, 4, 0]);
-    let commanded = BTreeMap::from([(RobotId { kind: 0, index: 1 }, go(0.0, 0.0))]);
+    let commanded = BTreeMap::from([(AgentId::robot(0, 1), go(0.0, 0.0))]);
     let mut begun = simulation
         .begin_step(BTreeMap::new(), commanded, &[0, 1])
         .unwrap();
-    let robots: Vec<RobotId> = begun.decisions().iter().map(|each| each.robot).collect();
+    let robots: Vec<AgentId> = begun.decisions().iter().map(|each| each.robot).collect();
     let ids = [(0, 0), (0, 2), (0, 3), (1, 0), (1, 1)];
-    assert_eq!(robots, ids.map(|(kind, index)| RobotId { kind, index }));
+    assert_eq!(robots, ids.map(|(kind, index)| AgentId::robot(kind, index)));
 }

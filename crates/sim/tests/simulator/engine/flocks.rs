@@ -2,7 +2,7 @@
 //! brains.
 
 use crate::common::{go, id, robots, scenario, start, step_with};
-use brain::{Command, RobotId, SensorRequest};
+use brain::{AgentId, Command, SensorRequest};
 use rayon::ThreadPoolBuilder;
 use sim::simulation::Simulation;
 use std::collections::BTreeMap;
@@ -19,9 +19,9 @@ pub(crate) fn birds(count: u32, side_m: f64, more: &str) -> String {
 }
 
 /// The turn rates that the brains command, given their percepts.
-fn commanded_by_percepts(simulation: &mut Simulation) -> Vec<(RobotId, f64)> {
-    let ids: Vec<RobotId> = robots(simulation).iter().map(|robot| robot.id).collect();
-    let commanded = |id: &RobotId| {
+fn commanded_by_percepts(simulation: &mut Simulation) -> Vec<(AgentId, f64)> {
+    let ids: Vec<AgentId> = robots(simulation).iter().map(|robot| robot.id).collect();
+    let commanded = |id: &AgentId| {
         let percept = simulation.percept(*id).unwrap().unwrap();
         let mut brain = simulation.scenario().brain(id.kind).unwrap().clone();
         (*id, brain.step(&percept).motion.turn_rate_rad_s)

@@ -1,8 +1,8 @@
 //! Goals are issued to controllers, and served by robots that report it.
 
-use crate::common::{go, id, send, start, step_with, with};
+use crate::common::{go, send, start, step_with, with};
 use base::geometry::Point;
-use brain::{About, Command, CommitmentStatus, GoalId, Message, Reason, RobotId, issuer_of};
+use brain::{About, AgentId, Command, CommitmentStatus, GoalId, Message, Reason, issuer_of};
 use sim::judge::GoalOutcome;
 use sim::judge::events::EventKind;
 use sim::run::Goal;
@@ -19,8 +19,8 @@ radio.range_m = 50
 brain.behaviours = []
 ";
 
-const ROVER: RobotId = RobotId { kind: 0, index: 0 };
-const OTHER: RobotId = RobotId { kind: 0, index: 1 };
+const ROVER: AgentId = AgentId::robot(0, 0);
+const OTHER: AgentId = AgentId::robot(0, 1);
 
 fn goal_id(number: u32) -> GoalId {
     let places = [[10.0, 10.0], [13.0, 10.0], [30.0, 10.0]].map(Point::from);
@@ -75,7 +75,7 @@ fn goals_are_issued_to_the_controllers_in_turn() {
     });
     let owned: Vec<_> = owned.collect();
     assert_eq!(owned, [vec![goal_id(0), goal_id(2)], vec![goal_id(1)]]);
-    assert_eq!(controllers[0].id, id(1, 0));
+    assert_eq!(controllers[0].id, AgentId::controller(1, 0));
 }
 
 /// The controllers of a run in which some have failed from the start.

@@ -4,7 +4,7 @@
 //! is fixed.
 
 use crate::common::{id, scenario};
-use brain::RobotId;
+use brain::AgentId;
 use sim::scenario::Scenario;
 use sim::simulation::Simulation;
 use std::collections::BTreeSet;
@@ -34,7 +34,7 @@ fn watcher(name: &str, x: f64, lines: &str) -> String {
 }
 
 /// The contacts of a robot in one step: the item, and the reported kind.
-fn contacts(simulation: &mut Simulation, robot: RobotId) -> Vec<(usize, u16)> {
+fn contacts(simulation: &mut Simulation, robot: AgentId) -> Vec<(usize, u16)> {
     let scenario = Arc::clone(simulation.scenario());
     let percept = simulation.percept(robot).unwrap().unwrap();
     let at = simulation.state().each_robot(&scenario);

@@ -2,7 +2,7 @@
 
 use super::determinism::{assert_no_effect, crowd};
 use crate::common::{id, message, robots, send, start, step_with};
-use brain::RobotId;
+use brain::AgentId;
 use sim::simulation::{Link, Simulation};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -128,7 +128,7 @@ fn a_link_exists_exactly_where_a_message_arrives() {
         .replace("loss_probability = 0.2", "")
         .replace("delay_s = 0.2", "");
     let mut simulation = start(&text);
-    let ids: Vec<RobotId> = robots(&simulation).iter().map(|robot| robot.id).collect();
+    let ids: Vec<AgentId> = robots(&simulation).iter().map(|robot| robot.id).collect();
     for (number, from) in (0..).zip(&ids) {
         let links = simulation.links(Some(*from), 1000).unwrap();
         let receives = |link: &Link| match (link.from == number, link.is_mutual) {
@@ -138,7 +138,7 @@ fn a_link_exists_exactly_where_a_message_arrives() {
         };
         let linked: BTreeSet<u32> = links.iter().filter_map(receives).collect();
         let quiet = ids.iter().map(|id| (*id, send(&[])));
-        let mut commands: BTreeMap<RobotId, _> = quiet.collect();
+        let mut commands: BTreeMap<AgentId, _> = quiet.collect();
         commands.insert(*from, send(&[message(1.0)]));
         step_with(&mut simulation, commands);
         let received = (0..).zip(&ids).filter(|(_, id)| {

@@ -1,7 +1,7 @@
 //! Radio: range, delay, loss, capacity and line of sight.
 
 use crate::common::{id, message, send, start, step_with};
-use brain::{About, Message, ReceivedMessage, RobotId};
+use brain::{About, AgentId, Message, ReceivedMessage};
 use sim::simulation::Simulation;
 
 /// Robots on a line through the middle of a field of 40 m with a wall at 30 m.
@@ -21,7 +21,7 @@ fn number(received: &ReceivedMessage) -> f64 {
     }
 }
 
-fn inbox(simulation: &mut Simulation, id: RobotId) -> Vec<ReceivedMessage> {
+fn inbox(simulation: &mut Simulation, id: AgentId) -> Vec<ReceivedMessage> {
     let percept = simulation.percept(id).unwrap();
     percept.map_or(Vec::new(), |percept| percept.inbox)
 }
@@ -195,7 +195,7 @@ fn messages_to_the_receiver_alone_are_received_first() {
         let sent = (0..5_u32).map(|index| {
             let message = message(f64::from(index));
             let to = if index == step % 4 + 1 {
-                id(0, 0)
+                id(0, 0).into()
             } else {
                 message.to
             };

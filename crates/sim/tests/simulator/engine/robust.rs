@@ -47,7 +47,7 @@ fn command(random: &mut Random) -> Command {
         },
     };
     let message = Message {
-        to: brain::RobotId::EVERYONE,
+        to: brain::Receiver::All,
         about,
         confidence: random.one_of(&values),
     };

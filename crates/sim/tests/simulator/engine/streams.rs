@@ -2,7 +2,7 @@
 
 use crate::common::{go, id, message, robots, send, start, step_with, with};
 use base::geometry::Point;
-use brain::{Percept, RobotId};
+use brain::{AgentId, Percept};
 use sim::simulation::Simulation;
 
 const ROVERS: &str = r#"
@@ -43,7 +43,7 @@ fn kind(simulation: &Simulation, name: &str) -> u8 {
 fn perceived(simulation: &mut Simulation, index: u32) -> Percept {
     let rover = kind(simulation, "rover");
     let mut percept = simulation.percept(id(rover, index)).unwrap().unwrap();
-    let named = |id: RobotId| RobotId { kind: 0, ..id };
+    let named = |id: AgentId| AgentId { kind: 0, ..id };
     percept.neighbours.retain(|other| other.id.kind == rover);
     for other in &mut percept.neighbours {
         other.id = named(other.id);

@@ -18,7 +18,8 @@ use super::contact::{Look, SeenContact};
 use super::group::{Group, Observed};
 use super::own_observation::OwnRatio;
 use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track, probability};
-use crate::io::body::{Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Detector;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -307,7 +308,7 @@ impl Track {
     }
 
     /// Probability of its item by own observations alone; 0 without any.
-    pub(crate) fn own_probability(&self, own: RobotId) -> f64 {
+    pub(crate) fn own_probability(&self, own: AgentId) -> f64 {
         let mut sources = self.sources[..self.count].iter();
         let source = sources.find(|source| source.provenance.observer == own);
         source.map_or(0.0, |source| probability(source.log_odds()))

@@ -3,7 +3,7 @@
 use super::track::Track;
 use super::track_set::TrackSet;
 use super::tracks::Items;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 
 /// Two tracks are of one item if their distance is within this many standard deviations, and if it is within the larger
 /// number and the less probable one is rather not an item.
@@ -16,7 +16,7 @@ const MIN_PROBABILITY: f64 = 0.01;
 impl Items {
     /// Ends the belief in each of the changed tracks that is of the same item as a more probable one. The tracks stay: other
     /// robots learn of the end.
-    pub(super) fn end_duplicates(&mut self, own: RobotId, changed: &TrackSet) {
+    pub(super) fn end_duplicates(&mut self, own: AgentId, changed: &TrackSet) {
         if self.hazards.is_some() {
             // The controllers of a lane weigh all marks.
             return;
@@ -52,7 +52,7 @@ impl Track {
     }
 
     /// Forgets what own observations have shown.
-    fn end(&mut self, own: RobotId) {
+    fn end(&mut self, own: AgentId) {
         self.evidence.fill(0.0);
         let mut sources = self.sources[..self.count].iter_mut();
         if let Some(source) = sources.find(|source| source.provenance.observer == own) {

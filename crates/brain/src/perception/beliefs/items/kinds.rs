@@ -21,7 +21,8 @@
 //! left is divided among the other kinds by the confusion of the known detectors: as if that kind had been reported once.
 
 use super::track::{SOURCES, Source, Track};
-use crate::io::body::{Body, Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::{Body, Detector};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -305,13 +306,13 @@ impl Track {
     }
 
     /// Updates the most probable kind, by own measurements and all reports.
-    pub(crate) fn update_kind(&mut self, kinds: &KindModel, own: RobotId) {
+    pub(crate) fn update_kind(&mut self, kinds: &KindModel, own: AgentId) {
         let all = |_: &Source| Some(1.0);
         self.kind = self.kind_and_agreement(kinds, own, &all).0;
     }
 
     /// Writes the probability of each kind, given that there is an item, by own measurements and all reports.
-    pub(crate) fn write_kind_shares(&self, kinds: &KindModel, own: RobotId, into: &mut Vec<f64>) {
+    pub(crate) fn write_kind_shares(&self, kinds: &KindModel, own: AgentId, into: &mut Vec<f64>) {
         let by_reports = self.report_likelihood(kinds, own, &|_| Some(1.0));
         let weight =
             |kind| kinds.shares[kind] * self.own_likelihood(kinds, kind) * by_reports(kind);
@@ -327,7 +328,7 @@ impl Track {
     fn report_likelihood(
         &self,
         kinds: &KindModel,
-        own: RobotId,
+        own: AgentId,
         trust: &impl Fn(&Source) -> Option<f64>,
     ) -> impl Fn(usize) -> f64 {
         let mut trusts = [None; SOURCES];
@@ -357,7 +358,7 @@ impl Track {
     pub(crate) fn kind_and_agreement(
         &self,
         kinds: &KindModel,
-        own: RobotId,
+        own: AgentId,
         trust: &impl Fn(&Source) -> Option<f64>,
     ) -> (u16, f64, [f64; 2]) {
         let by_reports = self.report_likelihood(kinds, own, trust);

@@ -6,7 +6,8 @@ use super::own_observation::{OwnObservation, OwnRatio};
 use super::track::{MAX_LOG_ODDS, Source, Track};
 use super::track_set::TrackSet;
 use super::tracks::Items;
-use crate::io::body::{Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Detector;
 use crate::io::message::Provenance;
 use crate::io::percept::Contact;
 use crate::perception::beliefs::map::Map;
@@ -108,7 +109,7 @@ impl Track {
     /// Adds an own observation; `prior` is that of the first one.
     pub(super) fn add(
         &mut self,
-        (observer, prior): (RobotId, f64),
+        (observer, prior): (AgentId, f64),
         last_track_id: &mut u32,
         ratio: OwnRatio,
     ) {
@@ -141,7 +142,7 @@ impl Track {
     }
 
     /// Notes that an own detector has detected it.
-    pub(super) fn note_contact(&mut self, observer: RobotId) {
+    pub(super) fn note_contact(&mut self, observer: AgentId) {
         let mut sources = self.sources[..self.count].iter_mut();
         if let Some(own) = sources.find(|source| source.provenance.observer == observer) {
             own.is_contact = true;

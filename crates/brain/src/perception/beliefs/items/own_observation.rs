@@ -2,7 +2,8 @@
 
 use super::kinds::KindModel;
 use super::track::MIN_DEVIATION_M;
-use crate::io::body::{Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Detector;
 use crate::io::percept::Contact;
 use crate::perception::beliefs::coverage_map::MAX_DETECTION;
 use crate::perception::beliefs::pose::Pose;
@@ -10,7 +11,7 @@ use crate::perception::beliefs::pose::Pose;
 /// One observation of an own detector.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OwnObservation<'l> {
-    pub(crate) observer: RobotId,
+    pub(crate) observer: AgentId,
     pub(crate) detector: &'l Detector,
     /// The pose of the robot at that time.
     pub(crate) pose: Pose,

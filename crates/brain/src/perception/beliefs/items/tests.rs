@@ -1,6 +1,7 @@
 use super::track::{Track, probability};
 use super::*;
-use crate::io::body::{Detector, RobotId};
+use crate::io::agent_id::AgentId;
+use crate::io::body::Detector;
 use crate::io::percept::Contact;
 use crate::messaging::reports::Reception;
 use crate::messaging::trust::Trust;
@@ -27,7 +28,7 @@ fn poisson(mean: f64, random: &mut Stream) -> u32 {
     number
 }
 
-pub(crate) const ME: RobotId = RobotId { kind: 0, index: 0 };
+pub(crate) const ME: AgentId = AgentId::robot(0, 0);
 pub(crate) const POSITION: Point = Point { x: 3.0, y: 0.0 };
 
 /// Density of items and of false alarms.
@@ -64,13 +65,13 @@ pub(crate) fn contact(from: Point, at: Point) -> Contact {
     }
 }
 
-pub(crate) fn observe(items: &mut Items, observer: RobotId, from: Point, contacts: &[Contact]) {
+pub(crate) fn observe(items: &mut Items, observer: AgentId, from: Point, contacts: &[Contact]) {
     observe_with(items, observer, from, (contacts, None));
 }
 
 pub(crate) fn observe_with(
     items: &mut Items,
-    observer: RobotId,
+    observer: AgentId,
     from: Point,
     (contacts, map): (&[Contact], Option<&Map>),
 ) {
@@ -83,7 +84,7 @@ pub(crate) fn observe_with(
     items.observe(&look, contacts.iter(), map);
 }
 
-pub(crate) fn hit(items: &mut Items, observer: RobotId) {
+pub(crate) fn hit(items: &mut Items, observer: AgentId) {
     observe(
         items,
         observer,
@@ -92,7 +93,7 @@ pub(crate) fn hit(items: &mut Items, observer: RobotId) {
     );
 }
 
-pub(crate) fn miss(items: &mut Items, observer: RobotId) {
+pub(crate) fn miss(items: &mut Items, observer: AgentId) {
     observe(items, observer, Point::default(), &[]);
 }
 

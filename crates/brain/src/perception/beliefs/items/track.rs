@@ -1,7 +1,7 @@
 //! One track: the sources of an item, its position and its log odds.
 
 use super::group::Group;
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use crate::io::message::Provenance;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -76,7 +76,7 @@ impl Hashed for Track {
 pub(crate) struct Source {
     pub(crate) provenance: Provenance,
     /// The sender of the report; the robot itself for own observations.
-    pub(crate) from: RobotId,
+    pub(crate) from: AgentId,
     /// Log odds before its observations, given the other sources of the track.
     pub(crate) prior: f64,
     /// Log likelihood ratio of all its observations.
@@ -158,13 +158,13 @@ impl Track {
         sources.into_iter().position(is_same)
     }
 
-    pub(crate) fn is_observed_by(&self, own: RobotId) -> bool {
+    pub(crate) fn is_observed_by(&self, own: AgentId) -> bool {
         let mut sources = self.sources[..self.count].iter();
         sources.any(|source| source.provenance.observer == own)
     }
 
     /// The observations of a robot, if its detectors have detected the item.
-    pub(crate) fn own_contact(&self, own: RobotId) -> Option<&Source> {
+    pub(crate) fn own_contact(&self, own: AgentId) -> Option<&Source> {
         let mut sources = self.sources[..self.count].iter();
         sources.find(|source| source.provenance.observer == own && source.is_contact)
     }

@@ -4,7 +4,7 @@ use super::association::Contacts;
 use super::kinds::KindModel;
 use super::track::Track;
 use super::track_set::{MAX_TRACKS, TrackSet};
-use crate::io::body::RobotId;
+use crate::io::agent_id::AgentId;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -88,7 +88,7 @@ impl Items {
 
     /// Like [`Items::add_track`] for an item that another robot reports: it does not replace own
     /// observations. Returns `None` if there is nothing else to replace.
-    pub(crate) fn add_reported_track(&mut self, track: Track, own: RobotId) -> Option<usize> {
+    pub(crate) fn add_reported_track(&mut self, track: Track, own: AgentId) -> Option<usize> {
         let index = self.replaceable(|track| !track.is_observed_by(own))?;
         Some(self.insert(track, index))
     }
@@ -128,7 +128,7 @@ impl Items {
     }
 
     /// Renumbers the robots, and drops the sources for which `keep` returns false.
-    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut AgentId) -> bool) {
         for track in &mut self.tracks {
             let mut kept = 0;
             for slot in 0..track.count {

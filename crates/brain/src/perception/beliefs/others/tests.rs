@@ -1,6 +1,6 @@
 use super::*;
+use crate::io::agent_id::AgentId;
 use crate::io::body::Other;
-use crate::io::body::RobotId;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::BeliefsSpec;
 use crate::perception::dead_reckoning::Odometry;
@@ -8,9 +8,9 @@ use crate::world_of_walls::rover;
 use base::trig::wrapped;
 use proptest::prelude::*;
 
-const OTHER: RobotId = RobotId { kind: 0, index: 7 };
+const OTHER: AgentId = AgentId::robot(0, 7);
 
-fn neighbour(id: RobotId, at: Point) -> Neighbour {
+fn neighbour(id: AgentId, at: Point) -> Neighbour {
     Neighbour {
         course_rad: None,
         range_m: at.length(),
@@ -206,7 +206,7 @@ fn invalid_neighbours_and_flying_ones_are_ignored() {
 #[test]
 fn the_tracks_with_the_earliest_possible_collision_are_kept() {
     let mut others = Others::default();
-    let robot = |index| RobotId { kind: 0, index };
+    let robot = |index| AgentId::robot(0, index);
     let step = |number: u32| {
         let position =
             |index: u32| direction(f64::from(index)).times(1.0 + 0.02 * f64::from(index));
@@ -218,7 +218,7 @@ fn the_tracks_with_the_earliest_possible_collision_are_kept() {
     // Alone at first, so that its velocity is known.
     observe(&mut others, step(0).split_off(20));
     (1..4).for_each(|number| observe(&mut others, step(number)));
-    let ids: Vec<RobotId> = others.movers.iter().filter_map(|mover| mover.id).collect();
+    let ids: Vec<AgentId> = others.movers.iter().filter_map(|mover| mover.id).collect();
     assert_eq!(ids.len(), MAX_MOVERS);
     assert!(ids.contains(&robot(99)) && ids.contains(&robot(0)) && !ids.contains(&robot(19)));
 }
@@ -227,7 +227,7 @@ fn the_tracks_with_the_earliest_possible_collision_are_kept() {
 fn renumbered_robots_keep_their_tracks_and_removed_ones_lose_them() {
     let body = rover();
     let mut beliefs = Beliefs::new(&BeliefsSpec::default(), &body);
-    let robot = |index| RobotId { kind: 0, index };
+    let robot = |index| AgentId::robot(0, index);
     let both = |first| {
         let position = |y| Point { x: 2.0, y };
         percept(vec![
@@ -236,7 +236,7 @@ fn renumbered_robots_keep_their_tracks_and_removed_ones_lose_them() {
         ])
     };
     beliefs.update(&both(3), &body, &[], &STILL);
-    beliefs.renumber(&|id: RobotId| (id.index == 3).then_some(robot(1)));
+    beliefs.renumber(&|id: AgentId| (id.index == 3).then_some(robot(1)));
     let movers = &beliefs.others.movers;
     assert_eq!(
         movers.iter().map(|mover| mover.id).collect::<Vec<_>>(),
