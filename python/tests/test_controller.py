@@ -55,6 +55,7 @@ def awarded(controller: ae.Controller, bids: int = 1) -> list[Any]:
                     "goal": call["task"]["id"],
                     "number": 100 * step + place,
                     "time_s": 5,
+                    "total_s": 5,
                     "energy": 0,
                     "call": call["number"],
                 },

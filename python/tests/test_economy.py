@@ -284,7 +284,13 @@ def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
     def step(time_s: float, dispatch: dict[str, Any]) -> list[Any]:
         message = {"about": {"dispatch": dispatch}, "confidence": 1.0}
         message["to"] = {"kind": 0, "index": 0}
-        inbox = [{"from": {"role": "controller", "kind": 1, "index": 0}, "age_s": 0.0, "message": message}]
+        inbox = [
+            {
+                "from": {"role": "controller", "kind": 1, "index": 0},
+                "age_s": 0.0,
+                "message": message,
+            }
+        ]
         percept = {"time_s": time_s, "position": position, "heading_rad": heading, "inbox": inbox}
         outbox = brain.step(percept)["outbox"]  # type: ignore[arg-type]
         return [each["about"]["dispatch"] for each in outbox if "dispatch" in each["about"]]

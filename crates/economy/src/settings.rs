@@ -19,7 +19,7 @@ pub struct Settings {
     /// Time for which a controller owns a goal without renewal by its heir.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
-    /// Time from the first call for bids to the award; a fifth of it passes between two awards.
+    /// Time from the first call for bids to the award; at least [`answer_s`](Self::answer_s).
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub auction_s: f64,
     /// Maximum number of goals that it owns; more are refused.
@@ -28,6 +28,10 @@ pub struct Settings {
     /// Maximum drift of any clock, in seconds per second.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub max_drift: f64,
+    /// The longest time from an award until the robot's next bid has arrived: two trips over the radio, and a period of its
+    /// brain. Until then, the next round waits for it.
+    #[schemars(range(min = 0.0, max = 3600.0))]
+    pub answer_s: f64,
     /// The lane that all controllers of the kind are to clear; without it, they plan no goals.
     #[serde(skip)]
     pub clearance: Option<Arc<Clearance>>,
@@ -40,6 +44,11 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Time from the first call for bids to the award.
+    pub(crate) fn auction_wait_s(&self) -> f64 {
+        self.auction_s.max(self.answer_s)
+    }
+
     /// The shortest service lease that outlasts an auction and a round trip over the radio of this time in seconds:
     /// a robot holds it from its bid. The clock of the robot may be fast, and that of the auction slow.
     #[must_use]
@@ -64,6 +73,7 @@ impl Default for Settings {
             auction_s: 1.0,
             max_goals: 1000,
             max_drift: 1e-4,
+            answer_s: 0.5,
             clearance: None,
             passage: None,
             is_called_off: false,

@@ -27,14 +27,17 @@ class ControllerSettings(TypedDict, total=False):
         service_lease_s: Time for which a robot may serve a goal without renewal; 20 by default.
         owner_lease_s: Time for which it owns a goal without renewal by its heir; 30 by default.
         auction_s: Time from the first call for bids to the award; 1 by default.
+        answer_s: Longest time from an award until the robot's next bid has arrived, for which the next
+            award waits; 0.5 by default. In a scenario, it follows from radios and brains.
         max_goals: Maximum number of goals that it owns, more are refused; 1000 by default.
         max_drift: Maximum drift of any clock, in seconds per second; 0.0001 by default.
     """
 
-    allocation: Literal["none", "nearest", "auction", "optimal"]
+    allocation: Literal["none", "nearest", "auction", "auction_last", "optimal"]
     service_lease_s: float
     owner_lease_s: float
     auction_s: float
+    answer_s: float
     max_goals: int
     max_drift: float
 

@@ -156,6 +156,7 @@ class Bid(TypedDict):
         goal: The goal.
         number: The number that the robot gave the bid.
         time_s: Time by which the robot's path and service become longer.
+        total_s: Time until it has served all of its goals and this one.
         energy: The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
         call: The number of the call.
     """
@@ -163,6 +164,7 @@ class Bid(TypedDict):
     goal: GoalId
     number: int
     time_s: float
+    total_s: float
     energy: float
     call: int
 

@@ -40,7 +40,8 @@ pub enum Dispatch {
     Award(Award),
     /// From the receiver of an award: it serves the goal.
     Commit(Claim),
-    /// From a robot: it does not serve the goal, and no award or call of this number changes that.
+    /// From a robot: it does not serve the goal, and no award or call of this number changes that. From a controller to
+    /// the operator: it does not own the goal.
     Refuse(Refusal),
     /// From a robot to all, until its owner withdraws the goal: the goal has been served.
     Done(Claim),
@@ -49,7 +50,10 @@ pub enum Dispatch {
     Stuck(Refusal),
     /// From a robot or an owner: its lease has ended.
     Release(Claim),
-    /// From the owner to all: the goal is no longer on offer. To its assignee: it is to release it.
+    /// From the operator to a controller: it has received what this reported of a goal.
+    Acknowledge(GoalId),
+    /// From the owner to all: the goal is no longer on offer, except to the robot whose bid has this number, if any has.
+    /// To its assignee: it is to release it.
     Withdraw(Claim),
     /// From the holder of leases: a request to renew all that it has of the receiver.
     Renew(Renewal),
@@ -242,6 +246,8 @@ pub struct Bid {
     pub number: u32,
     /// Time by which the robot's path and service become longer.
     pub time_s: f32,
+    /// Time until it has served all of its goals and this one.
+    pub total_s: f32,
     /// The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
     pub energy: f32,
     /// The number of the call.
@@ -308,6 +314,8 @@ pub enum Reason {
     NoController,
     /// The robot does not know its position well enough.
     Position,
+    /// Its numbers are impossible, such as a radius of 0.
+    Invalid,
 }
 
 /// A request to renew all leases between two agents.

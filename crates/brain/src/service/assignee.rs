@@ -357,6 +357,11 @@ impl Assignee {
         self.offers.remove(goal);
         self.jobs
             .add(Job::new(offer.task, from, offer.due_at_s), at);
+        // The controller waits for one of both before its next award.
+        self.schedule.await_bid();
+        if self.jobs.list.len() >= ability.max_goals {
+            self.schedule.report_now(from, self.now_s);
+        }
         Ok(())
     }
 
@@ -378,11 +383,9 @@ impl Assignee {
 
     fn take_withdrawal(&mut self, from: AgentId, claim: Claim, is_only_one: bool) {
         let goal = claim.goal;
-        if self
-            .offers
-            .get(goal)
-            .is_some_and(|offer| offer.owner == from)
-        {
+        let is_winner = !is_only_one && self.holder.is_requested(from, claim);
+        let offer = self.offers.get(goal);
+        if offer.is_some_and(|offer| offer.owner == from) && !is_winner {
             self.offers.remove(goal);
         }
         self.finished.acknowledge(goal, from);

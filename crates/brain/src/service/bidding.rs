@@ -33,6 +33,7 @@ pub(crate) struct Bidder<'b> {
 pub(crate) struct Estimate {
     pub(crate) offer: Offer,
     time_s: f64,
+    total_s: f64,
     energy: f64,
     pub(crate) confidence: f64,
 }
@@ -88,6 +89,7 @@ impl<'b> Bidder<'b> {
         Ok(Estimate {
             offer: *offer,
             time_s,
+            total_s: all_s,
             energy: self.energy(time_s),
             confidence: reachable * self.failures.confidence(task.id),
         })
@@ -129,6 +131,7 @@ impl Estimate {
             goal: self.offer.task.id,
             number,
             time_s: self.time_s as f32,
+            total_s: self.total_s as f32,
             energy: self.energy as f32,
             call: self.offer.call,
         }

@@ -127,6 +127,15 @@ impl Holder {
         self.answered(from, number, None).is_some()
     }
 
+    /// Whether a request for a goal has not been answered.
+    #[must_use]
+    pub fn is_requested(&self, from: AgentId, claim: Claim) -> bool {
+        self.requests.iter().any(|request| {
+            let is_number = request.number == claim.number && request.grantor == from;
+            is_number && request.goal == Some(claim.goal)
+        })
+    }
+
     /// Whether a message answers a request for a goal.
     pub fn is_answer(&mut self, from: AgentId, claim: Claim) -> bool {
         self.answered(from, claim.number, Some(claim.goal))

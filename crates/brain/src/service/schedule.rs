@@ -58,6 +58,8 @@ pub(crate) struct Schedule {
     steps: u32,
     /// Versions of offers and goals at the last bids, and when these were computed.
     bid_for: Option<([u32; 2], f64)>,
+    /// Whether it bids in this step, as a controller that has awarded it a goal waits for its next bid.
+    is_awaited: bool,
 }
 
 impl Schedule {
@@ -98,13 +100,19 @@ impl Schedule {
         }
     }
 
+    /// A controller waits for the robot's next bid.
+    pub(crate) fn await_bid(&mut self) {
+        self.is_awaited = true;
+    }
+
     /// Whether it is the robot's turn to bid, and offers or goals have changed or some time has passed.
     pub(crate) fn is_turn(&mut self, percept: &Percept, versions: [u32; 2], now_s: f64) -> bool {
         let turns = (percept.team_size / BIDS_PER_STEP).clamp(1, MAX_TURNS);
         let is_same =
             |(known, at_s): &([u32; 2], f64)| *known == versions && now_s < at_s + BID_PERIOD_S;
-        let is_turn = self.steps % turns == percept.id.index % turns
-            && !self.bid_for.as_ref().is_some_and(is_same);
+        let is_own = self.steps % turns == percept.id.index % turns;
+        let is_turn = (is_own || self.is_awaited) && !self.bid_for.as_ref().is_some_and(is_same);
+        self.is_awaited = false;
         if is_turn {
             self.bid_for = Some((versions, now_s));
         }

@@ -425,8 +425,8 @@ fn a_copy_of_a_brain_has_its_goals_and_continues_as_the_brain_does() {
 
 #[test]
 fn an_order_has_its_documented_form() {
-    let json = r#"{"from": {"kind": 255, "index": 0}, "age_s": 0.0, "message": {"confidence": 1.0,
-        "about": {"order": {"goal": {"issuer": {"kind": 255, "index": 0}, "number": 3},
+    let json = r#"{"from": {"role": "person", "kind": 0, "index": 0}, "age_s": 0.0, "message": {"confidence": 1.0,
+        "about": {"order": {"goal": {"issuer": {"role": "person", "kind": 0, "index": 0}, "number": 3},
         "at": [1.5, 2.0], "action": "assign"}}}}"#;
     let received: ReceivedMessage = serde_json::from_str(json).unwrap();
     assert_eq!(received, assign(3, [1.5, 2.0]));
@@ -434,7 +434,7 @@ fn an_order_has_its_documented_form() {
     robot.step(vec![received]);
     assert_eq!(
         serde_json::to_string(&robot.brain.assigned_goals()).unwrap(),
-        r#"[{"id":{"issuer":{"kind":255,"index":0},"number":3},"at":[1.5,2.0],"verdict":"approaching","reason":null}]"#
+        r#"[{"id":{"issuer":{"role":"person","kind":0,"index":0},"number":3},"at":[1.5,2.0],"verdict":"approaching","reason":null}]"#
     );
 }
 

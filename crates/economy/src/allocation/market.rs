@@ -20,6 +20,8 @@ pub struct Offer {
     pub pair: Pair,
     /// Expected time divided by confidence and value.
     pub cost_s: f64,
+    /// The same of the time until the robot has served all of its goals and this one.
+    pub total_s: f64,
     /// Distance between them.
     pub distance_m: f64,
     /// Whether the robot has bid; otherwise, the controller estimates the cost from its position.
@@ -51,6 +53,7 @@ pub(crate) fn market_of(costs_s: &[&[f64]]) -> Market {
         each.map(move |(robot, cost_s)| Offer {
             pair: Pair { goal, robot },
             cost_s: *cost_s,
+            total_s: *cost_s,
             distance_m: *cost_s,
             is_bid: true,
         })

@@ -4,6 +4,7 @@
 //! memory, and of equal bids it takes the one with the lower indices.
 
 mod auction;
+mod auction_last;
 mod market;
 mod nearest;
 mod none;
@@ -28,6 +29,8 @@ pub enum Allocation {
     /// Sequential single-item auction: robots bid the increment of their path.
     #[default]
     Auction,
+    /// Sequential single-item auction: robots bid the whole time until they have served all of their goals.
+    AuctionLast,
     /// The assignment of goals to robots, one goal per robot, with the smallest sum of times.
     Optimal,
 }
@@ -40,6 +43,7 @@ impl Allocation {
             Self::None => none::choose(market),
             Self::Nearest => nearest::choose(market),
             Self::Auction => auction::choose(market),
+            Self::AuctionLast => auction_last::choose(market),
             Self::Optimal => optimal::choose(market),
         }
     }

@@ -14,8 +14,8 @@
 //! for twice as long, with half the confidence, and no goal is contested only because another robot
 //! would be nearer. New goals that lie better change the order in which robots serve theirs.
 
-use super::Controller;
 use super::owned::Assigned;
+use super::{Controller, NO_BID};
 use alloc::vec::Vec;
 use brain::{AgentId, Claim, Dispatch, GoalId, Reason, Refusal};
 
@@ -67,7 +67,7 @@ impl Controller {
             assigned.is_contested = false;
             assigned.overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * remaining_s.clamp(0.0, 1e4);
             self.bids.remove_for(goal);
-            self.close_offer(goal);
+            self.close_offer(goal, NO_BID);
         }
     }
 

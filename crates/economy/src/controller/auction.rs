@@ -12,9 +12,6 @@ use brain::{AgentId, Award, Claim, Dispatch, GoalId, Receiver, Task};
 pub(crate) const CALLS_PER_STEP: usize = 2;
 pub(crate) const REPEAT_S: f64 = 10.0;
 
-/// Number of rounds in the time of an auction.
-const ROUNDS: f64 = 5.0;
-
 /// An award without an answer is repeated after this time, in seconds, this many times.
 const RETRY_S: f64 = 0.5;
 const RETRIES: f64 = 10.0;
@@ -48,12 +45,10 @@ impl Controller {
     /// Holds a round when it is due, and repeats awards without an answer.
     pub(super) fn award(&mut self) {
         self.repeat_awards();
-        // At the nearest step.
-        if self.now_s < self.next_round_s - self.step_s / 2.0 || !self.may_grant() {
+        if !self.round.is_over(self.now_s + self.step_s / 2.0) || !self.may_grant() {
             return;
         }
-        self.next_round_s = self.now_s + self.settings.auction_s / ROUNDS;
-        let goals = self.goals_on_offer();
+        let goals = self.goals_of_round();
         let robots: Vec<Robot> = self.picture.present().copied().collect();
         let market = self.market(&goals, &robots);
         for Pair { goal, robot } in self.settings.allocation.choose(&market) {
@@ -61,15 +56,29 @@ impl Controller {
         }
     }
 
-    /// The goals without an assignee whose auction has lasted long enough.
-    fn goals_on_offer(&self) -> Vec<Task> {
-        let is_ripe = |called_s: f64| self.now_s >= called_s + self.settings.auction_s;
-        let goals = self.goals.iter().filter(|owned| {
-            owned.is_on_offer(self.now_s)
-                && owned.called_s.is_some_and(is_ripe)
+    /// The goals without an assignee that can be awarded in a round: none before the auction of the oldest has lasted long
+    /// enough, and that of each goal that was called meanwhile, so that goals called together are awarded by all of their
+    /// bids. The optimal assignment considers all goals on offer, because it estimates what robots would bid.
+    fn goals_of_round(&self) -> Vec<Task> {
+        let wait_s = self.settings.auction_wait_s();
+        let free = self.goals.iter().filter(|owned| {
+            owned.assigned.is_none()
+                && owned.is_on_offer(self.now_s)
                 && self.services.grant_of(owned.task.id).is_none()
                 && self.owns_at(owned.task.id, self.now_s)
         });
+        let called_s = free.clone().filter_map(|owned| owned.called_s);
+        let oldest_s = called_s.clone().fold(f64::INFINITY, f64::min);
+        let is_of_auction = |called_s: &f64| *called_s <= oldest_s + wait_s;
+        let newest_s = called_s
+            .filter(is_of_auction)
+            .fold(f64::NEG_INFINITY, f64::max);
+        let is_ripe = |called_s: f64| self.now_s + self.step_s / 2.0 >= called_s + wait_s;
+        if !oldest_s.is_finite() || !is_ripe(newest_s) {
+            return Vec::new();
+        }
+        let is_all = self.settings.allocation == Allocation::Optimal;
+        let goals = free.filter(|owned| is_all || owned.called_s.is_some_and(is_ripe));
         goals.map(|owned| owned.task).collect()
     }
 
@@ -98,13 +107,11 @@ impl Controller {
                 return None;
             }
             let (bidder, task) = (&robots[robot], &goals[goal]);
+            let cost_s = |time_s: f32| cost_s(bidder, task, [time_s.into(), standing.confidence]);
             Some(Offer {
                 pair: Pair { goal, robot },
-                cost_s: cost_s(
-                    bidder,
-                    task,
-                    [standing.bid.time_s.into(), standing.confidence],
-                ),
+                cost_s: cost_s(standing.bid.time_s),
+                total_s: cost_s(standing.bid.total_s),
                 distance_m: bidder.distance_m(task),
                 is_bid: true,
             })
@@ -127,9 +134,11 @@ impl Controller {
                 let distance_m = bidder.distance_m(&owned.task);
                 let time_s = distance_m / bidder.speed_m_s + f64::from(owned.task.service_s);
                 if is_new && time_s.is_finite() && !owned.is_declined_by(bidder.id, self.now_s) {
+                    let cost_s = cost_s(bidder, &owned.task, [time_s, 1.0]);
                     market.offers.push(Offer {
                         pair: Pair { goal, robot },
-                        cost_s: cost_s(bidder, &owned.task, [time_s, 1.0]),
+                        cost_s,
+                        total_s: cost_s,
                         distance_m,
                         is_bid: false,
                     });
@@ -143,6 +152,8 @@ impl Controller {
         let bid = self.bids.get(robot, goal).map(|standing| standing.bid);
         let Some(bid) = bid else {
             self.call_to(goal, robot);
+            self.round
+                .await_loser(robot, self.now_s + self.settings.answer_s);
             return;
         };
         let (now_s, wait_s) = (self.now_s, self.service_wait_s());
@@ -171,10 +182,16 @@ impl Controller {
         if let Some(owned) = self.goal_mut(goal) {
             owned.assign(assigned);
         }
+        let until_s = now_s + self.settings.answer_s;
+        self.round.await_winner(robot, until_s);
+        for bidder in self.bids.bidders(goal) {
+            self.round.await_loser(bidder, until_s);
+        }
         self.bids.remove_for(goal);
         self.bids.remove_of(robot);
         self.report_assignees(goal);
         self.repeat_awards();
+        self.close_offer(goal, bid.number);
     }
 
     /// Requests an answer of one robot, at most once in a while.

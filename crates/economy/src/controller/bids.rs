@@ -36,6 +36,15 @@ impl Bids {
         list.find(|standing| standing.robot == robot && standing.bid.goal == goal)
     }
 
+    /// The robots that have bid for a goal.
+    pub(super) fn bidders(&self, goal: GoalId) -> Vec<AgentId> {
+        let bids = self
+            .list
+            .iter()
+            .filter(|standing| standing.bid.goal == goal);
+        bids.map(|standing| standing.robot).collect()
+    }
+
     /// Takes a bid; it replaces the one of the robot for the same goal.
     pub(super) fn put(&mut self, robot: AgentId, bid: Bid, confidence: f64, now_s: f64) {
         let is_same =

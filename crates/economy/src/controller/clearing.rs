@@ -3,9 +3,9 @@
 //! Several controllers share a lane: each plans the goals of its own tiles, in turn among the
 //! controllers in range, so that the others take over when one is lost.
 
-use super::Controller;
 use super::lane_work::{LaneWork, Planned};
 use super::owned::Owned;
+use super::{Controller, NO_BID};
 use crate::clearance::plan::{Circumstances, Plan, Subject};
 use alloc::vec::Vec;
 use brain::{Act, AgentId, Dispatch, GoalId, Percept, Receiver};
@@ -129,7 +129,10 @@ impl Controller {
             let issuer = self.own.into();
             let number = self.numbers.next(percept);
             let goal = GoalId { issuer, number };
-            self.own(proposal.task(goal));
+            if self.own(proposal.task(goal)).is_err() {
+                // There is room for it later.
+                break;
+            }
             work.planned.push(Planned {
                 goal,
                 subject: proposal.subject,
@@ -170,7 +173,7 @@ impl Controller {
                 owned.is_done = true;
                 owned.assigned = None;
                 self.bids.remove_for(*goal);
-                self.close_offer(*goal);
+                self.close_offer(*goal, NO_BID);
             }
         }
         work.planned.retain(|planned| !idle.contains(&planned.goal));

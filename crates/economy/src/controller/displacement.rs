@@ -90,7 +90,7 @@ impl Controller {
     /// robots that have not declined it are full.
     fn waits_for(&self, index: usize) -> Option<AgentId> {
         let (owned, now_s) = (&self.goals[index], self.now_s);
-        let is_ripe = |called_s: f64| now_s >= called_s + self.settings.auction_s;
+        let is_ripe = |called_s: f64| now_s >= called_s + self.settings.auction_wait_s();
         let has_rested = |reserved: Reservation| now_s >= reserved.until_s + REST_S;
         let waits = owned.assigned.is_none()
             && owned.is_on_offer(now_s)

@@ -2,12 +2,12 @@
 //!
 //! * [`owned`]: the goals; [`picture`]: the robots, as they report themselves; [`bids`]: what they bid;
 //! * [`receive`]: the effect of each message;
-//! * [`auction`]: calls and awards; [`arbitration`]: whether a robot keeps a goal; [`lapses`]: robots
+//! * [`auction`]: calls and awards, in each [`round`]; [`arbitration`]: whether a robot keeps a goal; [`lapses`]: robots
 //!   that fell silent;
 //!   [`displacement`]: valuable goals before others;
 //!   [`unserved`]: goals that no robot can serve;
 //! * [`heirs`]: owner leases, with the two halves [`tenures`] (owner) and [`estates`] (heir);
-//!   [`wards`]: goals of lost owners; [`orphans`]: the report of those that it has lost;
+//!   [`wards`]: goals of lost owners; [`reports`]: what the operator is to know;
 //!   [`colleagues`]: the other controllers, by their [`presence`];
 //! * [`clearing`]: the goals of a mined lane, [`lane_work`], their state, and [`tried`], searches in vain;
 //!   [`conclusion`]: what it states beside the risk, by [`concluding`].
@@ -24,11 +24,12 @@ mod estates;
 mod heirs;
 mod lane_work;
 mod lapses;
-mod orphans;
 mod owned;
 mod picture;
 mod presence;
 mod receive;
+mod reports;
+mod round;
 mod tenures;
 mod tried;
 mod trust;
@@ -53,7 +54,12 @@ use colleagues::Colleagues;
 use lane_work::Clearing;
 use owned::{Heir, Owned};
 use picture::Picture;
+use reports::Reports;
+use round::Round;
 use wards::{Orphan, Ward};
+
+/// The number of no bid: those of agents begin at 1.
+const NO_BID: u32 = 0;
 
 /// One controller: it owns goals, and awards them to robots.
 #[derive(Debug, Clone, Hashed)]
@@ -79,8 +85,9 @@ pub struct Controller {
     picture: Picture,
     colleagues: Colleagues,
     bids: Bids,
-    next_round_s: f64,
+    round: Round,
     next_renewal_s: f64,
+    reports: Reports,
     refused: u32,
     awards: u32,
     lapses: u32,
@@ -125,8 +132,9 @@ impl Controller {
             picture: Picture::default(),
             colleagues: Colleagues::default(),
             bids: Bids::default(),
-            next_round_s: f64::NEG_INFINITY,
+            round: Round::default(),
             next_renewal_s: f64::NEG_INFINITY,
+            reports: Reports::default(),
             refused: 0,
             awards: 0,
             lapses: 0,
@@ -188,6 +196,7 @@ impl Controller {
         self.call_full_robots();
         self.probe();
         self.settle_heirs(percept);
+        self.send_reports();
         self.outbox.sort_by_key(Message::urgency);
         command.outbox.append(&mut self.outbox);
     }
@@ -229,14 +238,15 @@ impl Controller {
             .is_some_and(|owned| owned.heir.bound().is_none() || self.tenures.is_held(goal, time_s))
     }
 
-    /// Whether it owns a goal, is the heir to which its owner is bound, or has lost it.
+    /// Whether it owns a goal, is the heir to which its owner is bound, has lost it, or reports it to the operator.
     #[must_use]
     pub fn knows(&self, goal: GoalId) -> bool {
         let owned = self.goals.iter().map(|owned| owned.task.id);
         let wards = self.wards.iter().filter(|ward| ward.is_bound);
         let wards = wards.map(|ward| ward.task.id);
         let orphans = self.orphans.iter().map(|orphan| orphan.owned.task.id);
-        owned.chain(wards).chain(orphans).any(|id| id == goal)
+        let mut known = owned.chain(wards).chain(orphans);
+        known.any(|id| id == goal) || self.reports.contains(goal)
     }
 
     /// Number of goals that it refused because it owned the maximum number.
@@ -282,11 +292,21 @@ impl Controller {
         self.clearing.statement()
     }
 
+    /// Takes a goal that a person has issued.
+    fn take_issued(&mut self, task: Task) {
+        self.reports.remove(task.id);
+        if let Err(reason) = self.own(task) {
+            self.refuse(task.id, reason);
+        }
+    }
+
     /// Owns a goal that a person has issued, or that it has planned.
-    fn own(&mut self, task: Task) {
-        let is_known = self.goals.iter().any(|owned| owned.task.id == task.id);
-        if is_known || !task.is_valid() {
-            return;
+    fn own(&mut self, task: Task) -> Result<(), Reason> {
+        if self.goals.iter().any(|owned| owned.task.id == task.id) {
+            return Ok(());
+        }
+        if !task.is_valid() {
+            return Err(Reason::Invalid);
         }
         let was_orphan = self
             .orphans
@@ -295,8 +315,7 @@ impl Controller {
         let open = self.goals.iter().filter(|owned| owned.is_open(self.now_s));
         let open = open.count();
         if open >= self.settings.max_goals as usize {
-            self.refused += 1;
-            return;
+            return Err(Reason::Full);
         }
         let wait_s = if was_orphan {
             self.service_wait_s()
@@ -306,6 +325,7 @@ impl Controller {
         self.orphans
             .retain(|orphan| orphan.owned.task.id != task.id);
         self.goals.push(Owned::new(task, self.now_s, wait_s));
+        Ok(())
     }
 
     /// Ends what has ended by the clock.
@@ -313,9 +333,7 @@ impl Controller {
         for grant in self.services.expire(self.now_s) {
             self.lost_assignee(grant.goal, grant.holder);
         }
-        let known = self.orphans.len();
         self.expire_tenures();
-        self.report_orphans(known);
         self.inherit();
         self.bids.expire(self.now_s);
         self.picture.expire(self.now_s);
@@ -356,9 +374,9 @@ impl Controller {
         self.service_wait_s().max(self.owner_wait_s())
     }
 
-    /// A goal is no longer on offer to any robot.
-    fn close_offer(&mut self, goal: GoalId) {
-        let claim = Claim { goal, number: 0 };
+    /// A goal is no longer on offer, except to the robot whose bid has a number.
+    fn close_offer(&mut self, goal: GoalId, number: u32) {
+        let claim = Claim { goal, number };
         self.send(Receiver::All, Dispatch::Withdraw(claim));
     }
 }

@@ -1,6 +1,6 @@
 //! The effect of each message on a controller.
 
-use super::Controller;
+use super::{Controller, NO_BID};
 use base::geometry::Point;
 use brain::{
     About, AgentRole, Bid, Claim, Dispatch, Percept, Reason, ReceivedMessage, Refusal, Renewal,
@@ -12,8 +12,8 @@ use brain::{AgentId, GoalId, Report, Verdict};
 const DECLINED_S: f64 = 30.0;
 const DECLINED_PER_ROBOT_S: f64 = 2.0;
 
-/// Longest plausible time of a bid, in seconds.
-const MAX_TIME_S: f32 = 1e6;
+/// Longest plausible time of a bid, in seconds: of its goal, and of all that the robot serves.
+const MAX_TIME_S: f32 = 1e7;
 
 impl Controller {
     pub(super) fn receive(&mut self, received: &ReceivedMessage, percept: &Percept) {
@@ -21,12 +21,6 @@ impl Controller {
             return;
         };
         let from = received.from;
-        if from == AgentId::OPERATOR {
-            if let Dispatch::Issue(task) = dispatch {
-                self.own(task);
-            }
-            return;
-        }
         match from.role {
             AgentRole::Robot => {
                 self.receive_of_robot(from, dispatch, received.message.confidence);
@@ -34,7 +28,16 @@ impl Controller {
             AgentRole::Controller if from != self.own => {
                 self.receive_of_controller(received, dispatch, percept);
             }
-            AgentRole::Controller | AgentRole::Person => {}
+            AgentRole::Person => self.receive_of_person(dispatch),
+            AgentRole::Controller => {}
+        }
+    }
+
+    fn receive_of_person(&mut self, dispatch: Dispatch) {
+        match dispatch {
+            Dispatch::Issue(task) => self.take_issued(task),
+            Dispatch::Acknowledge(goal) => self.reports.remove(goal),
+            _ => {}
         }
     }
 
@@ -74,6 +77,9 @@ impl Controller {
 
     fn take_report(&mut self, from: AgentId, report: &Report, confidence: f64) {
         self.note_robot(from);
+        if report.payload == 0 {
+            self.round.end(from);
+        }
         self.picture.report(from, report, confidence, self.now_s);
     }
 
@@ -81,7 +87,12 @@ impl Controller {
     /// know that.
     fn take_bid(&mut self, from: AgentId, bid: Bid, confidence: f64) {
         let is_possible = confidence > 0.0 && confidence <= 1.0;
-        if !is_possible || !(0.0..=MAX_TIME_S).contains(&bid.time_s) {
+        let times_s = [bid.time_s, bid.total_s];
+        if !is_possible
+            || !times_s
+                .iter()
+                .all(|time_s| (0.0..=MAX_TIME_S).contains(time_s))
+        {
             return;
         }
         self.note_robot(from);
@@ -97,6 +108,7 @@ impl Controller {
         }
         if owned.is_on_offer(now_s) && bid.call == owned.call && !is_own {
             owned.without_bid_s = now_s;
+            self.round.has_bid(from);
             self.bids.put(from, bid, confidence, now_s);
         } else if !is_own {
             let claim = Claim {
@@ -116,7 +128,8 @@ impl Controller {
             assigned.filter(|assigned| assigned.robot == from && assigned.number == claim.number);
         if let Some(assigned) = own.filter(|assigned| !assigned.is_committed) {
             assigned.is_committed = true;
-            self.close_offer(claim.goal);
+            self.round.committed(from);
+            self.bids.remove_of(from);
             self.report_assignees(claim.goal);
         }
     }
@@ -128,6 +141,7 @@ impl Controller {
             reason,
         } = refusal;
         let now_s = self.now_s;
+        self.round.end(from);
         if reason == Reason::Full {
             self.picture.is_full(from, now_s);
             self.displace(from, goal);
@@ -193,7 +207,7 @@ impl Controller {
             owned.assigned = None;
             self.picture.learn(from, true, now_s);
             self.bids.remove_for(claim.goal);
-            self.close_offer(claim.goal);
+            self.close_offer(claim.goal, NO_BID);
         }
         self.services.release(from, claim);
         self.services.withdraw(claim.goal);

@@ -4,7 +4,7 @@ use super::Controller;
 use super::owned::{Heir, Owned};
 use super::wards::{Orphan, Request};
 use alloc::vec::Vec;
-use brain::{AgentId, Claim, Dispatch, GoalId, Lease, Percept, Task};
+use brain::{AgentId, Claim, Dispatch, GoalId, Lease, Percept, Reason, Task};
 
 /// Leases are renewed when this part of their duration is left.
 const RENEWED_AT: f64 = 2.0 / 3.0;
@@ -73,6 +73,7 @@ impl Controller {
                 owned.assigned = None;
                 let request = None;
                 self.orphans.push(Orphan { owned, request });
+                self.report(goal, 0, Reason::Orphaned);
                 self.services.withdraw(goal);
                 self.bids.remove_for(goal);
             }

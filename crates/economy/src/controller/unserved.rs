@@ -1,10 +1,10 @@
 //! Goals that no robot can serve: reported once with the reason, and tried again later.
 
-use super::Controller;
 use super::picture::Robot;
+use super::{Controller, NO_BID};
 use crate::allocation::Allocation;
 use alloc::vec::Vec;
-use brain::{AgentId, Dispatch, GoalId, Reason, Refusal};
+use brain::{GoalId, Reason};
 
 /// A goal for which no robot has bid for this time, in seconds, is offered to each robot alone.
 const PATIENCE_S: f64 = 10.0;
@@ -43,7 +43,7 @@ impl Controller {
             if let Some(owned) = self.goal_mut(goal) {
                 owned.end();
             }
-            self.close_offer(goal);
+            self.close_offer(goal, NO_BID);
         }
     }
 
@@ -85,12 +85,7 @@ impl Controller {
         owned.give_up(now_s);
         if is_first {
             let number = owned.call.into();
-            let refusal = Refusal {
-                goal,
-                number,
-                reason,
-            };
-            self.send(AgentId::OPERATOR, Dispatch::Stuck(refusal));
+            self.report(goal, number, reason);
         }
     }
 }

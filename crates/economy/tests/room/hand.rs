@@ -3,8 +3,8 @@
 use crate::team::{STEP_S, brain, goal_id, robot_id, station_id};
 use base::geometry::Point;
 use brain::{
-    About, AgentId, Award, Bid, Brain, Claim, Command, Dispatch, Message, Percept, Reading, Reason,
-    ReceivedMessage, Receiver, Refusal, Task,
+    About, AgentId, Award, Bid, Brain, Claim, Command, Dispatch, GoalId, Message, Percept, Reading,
+    Reason, ReceivedMessage, Receiver, Refusal, Task,
 };
 use economy::{Controller, Settings};
 use std::sync::Arc;
@@ -19,6 +19,18 @@ pub(crate) struct Hand<A> {
     pub(crate) agent: A,
     id: AgentId,
     pub(crate) now_s: f64,
+    /// The goals of which the operator acknowledges a report in the next step.
+    reported: Vec<GoalId>,
+}
+
+/// The goal of a report to the operator.
+pub(crate) fn reported((to, dispatch): &(Receiver, Dispatch)) -> Option<GoalId> {
+    match dispatch {
+        Dispatch::Stuck(report) | Dispatch::Refuse(report) if to.includes(AgentId::OPERATOR) => {
+            Some(report.goal)
+        }
+        _ => None,
+    }
 }
 
 pub(crate) trait Agent {
@@ -46,7 +58,12 @@ impl<A: Agent> Hand<A> {
         inbox: &[(AgentId, Receiver, Dispatch)],
     ) -> Vec<(Receiver, Dispatch)> {
         self.now_s += STEP_S;
-        let inbox = inbox.iter().map(|(from, to, dispatch)| ReceivedMessage {
+        let acknowledged = self.reported.drain(..).map(Dispatch::Acknowledge);
+        let acknowledged: Vec<_> = acknowledged
+            .map(|dispatch| (AgentId::OPERATOR, Receiver::Agent(self.id), dispatch))
+            .collect();
+        let inbox = inbox.iter().chain(&acknowledged);
+        let inbox = inbox.map(|(from, to, dispatch)| ReceivedMessage {
             from: *from,
             age_s: 0.0,
             message: Message::to(*to, About::Dispatch(*dispatch)),
@@ -64,7 +81,9 @@ impl<A: Agent> Hand<A> {
             About::Dispatch(dispatch) => Some((message.to, dispatch)),
             _ => None,
         });
-        sent.collect()
+        let sent: Vec<(Receiver, Dispatch)> = sent.collect();
+        self.reported.extend(sent.iter().filter_map(reported));
+        sent
     }
 
     /// The same with one message to the agent.
@@ -97,6 +116,7 @@ pub(crate) fn controller(id: AgentId) -> Hand<Controller> {
         agent: Controller::new(Arc::new(settings)),
         id,
         now_s: 0.0,
+        reported: Vec::new(),
     }
 }
 
@@ -106,6 +126,7 @@ pub(crate) fn robot() -> Hand<Brain> {
         agent: brain(&[], ""),
         id: ROBOT,
         now_s: 0.0,
+        reported: Vec::new(),
     }
 }
 
@@ -195,6 +216,7 @@ pub(crate) fn bid_of(number: u32) -> Dispatch {
         goal: goal_id(0),
         number,
         time_s: 6.0,
+        total_s: 6.0,
         energy: 0.0,
         call: 0,
     })

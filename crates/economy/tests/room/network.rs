@@ -8,6 +8,8 @@ use brain::{AgentId, Message, ReceivedMessage};
 pub(crate) struct Weather {
     pub(crate) loss: f64,
     pub(crate) duplication: f64,
+    /// The shortest delay, and how much longer one can be.
+    pub(crate) min_delay_s: f64,
     pub(crate) max_delay_s: f64,
 }
 
@@ -45,7 +47,8 @@ impl Network {
         let copies = 1 + usize::from(unit(&mut self.random) < self.weather.duplication);
         for _ in 0..copies {
             // Most arrive soon, and some very late.
-            let delay = unit(&mut self.random).powi(4) * self.weather.max_delay_s;
+            let more = unit(&mut self.random).powi(4) * self.weather.max_delay_s;
+            let delay = self.weather.min_delay_s + more;
             let received = ReceivedMessage {
                 from,
                 age_s: 0.0,

@@ -32,6 +32,7 @@ struct Adversary {
 fn adversary() -> impl Strategy<Value = Adversary> {
     let weather = (0.0..1.0_f64, 0.0..0.5_f64, 0.0..30.0_f64);
     let weather = weather.prop_map(|(loss, duplication, max_delay_s)| Weather {
+        min_delay_s: 0.0,
         loss: loss * loss,
         duplication,
         max_delay_s,
@@ -151,6 +152,7 @@ fn the_adversary_does_not_prevent_ownership_and_service() {
     let adversary = Adversary {
         seed: 1,
         weather: Weather {
+            min_delay_s: 0.0,
             loss: 0.3,
             duplication: 0.3,
             max_delay_s: 3.0,

@@ -1,5 +1,6 @@
 //! Robots without shape and controllers, each with a clock of its own.
 
+use crate::hand::reported;
 use crate::network::{Network, Weather, random, unit};
 use base::geometry::Point;
 use base::random::Stream;
@@ -59,6 +60,8 @@ pub(crate) struct Team {
     /// The calls for bids to all, and their times.
     pub(crate) calls: Vec<(f64, GoalId)>,
     issued: Vec<(usize, Task)>,
+    /// The reports that the operator acknowledges, and the controllers that sent them.
+    reported: Vec<(AgentId, GoalId)>,
     /// The goals that any controller has known to be done.
     done: BTreeSet<GoalId>,
     brain: Brain,
@@ -166,6 +169,7 @@ impl Team {
             to_operator: Vec::new(),
             calls: Vec::new(),
             issued: Vec::new(),
+            reported: Vec::new(),
             done: BTreeSet::new(),
             brain,
             random_stream,
@@ -185,6 +189,20 @@ impl Team {
 
     pub(crate) fn issue(&mut self, station: usize, task: Task) {
         self.issued.push((station, task));
+    }
+
+    /// The places of the goals that are issued in the next step.
+    pub(crate) fn issued_places(&self) -> Vec<Point> {
+        self.issued.iter().map(|(_, task)| task.at()).collect()
+    }
+
+    /// The places of the goals that each robot serves.
+    pub(crate) fn served_places(&self) -> Vec<Vec<Point>> {
+        let served = self.robots.iter().map(|robot| {
+            let goals = robot.brain.iter().flat_map(Brain::served_goals);
+            goals.map(|goal| goal.task.at()).collect()
+        });
+        served.collect()
     }
 
     /// Issues the orphaned goals of a controller again.
@@ -314,6 +332,12 @@ impl Team {
             age_s: 0.0,
             message: Message::to(id, About::Dispatch(Dispatch::Issue(*task))),
         }));
+        let reported = self.reported.extract_if(.., |(from, _)| *from == id);
+        inbox.extend(reported.map(|(_, goal)| ReceivedMessage {
+            from: AgentId::OPERATOR,
+            age_s: 0.0,
+            message: Message::to(id, About::Dispatch(Dispatch::Acknowledge(goal))),
+        }));
         let random_words = [0; 4].map(|_: u32| self.random_stream.next_u32());
         let station = &mut self.stations[index];
         let Some(controller) = station.controller.as_mut() else {
@@ -345,6 +369,10 @@ impl Team {
             }
             if message.to == AgentId::OPERATOR.into() {
                 self.to_operator.push(*message);
+            }
+            if let About::Dispatch(dispatch) = message.about {
+                let goal = reported(&(message.to, dispatch));
+                self.reported.extend(goal.map(|goal| (from, goal)));
             }
             self.messages += 1;
             if is_cut_off {

@@ -43,9 +43,7 @@ impl ControllerKind {
         scenario: &ScenarioSpec,
         is_covered: Option<&dyn Fn(Point) -> bool>,
     ) -> Self {
-        let ClockSpec {
-            step_s, max_drift, ..
-        } = scenario.clock;
+        let ClockSpec { step_s, .. } = scenario.clock;
         let clearance = spec.clearance.as_ref();
         let clearance = clearance.map(|clearance| {
             let clearance = clearance.ready(scenario);
@@ -56,7 +54,7 @@ impl ControllerKind {
         });
         let settings = Settings {
             clearance,
-            ..spec.settings(max_drift)
+            ..spec.settings(scenario)
         };
         let carrier = spec.aboard.as_ref();
         let mut robots = scenario.robots.keys();

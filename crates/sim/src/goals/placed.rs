@@ -22,8 +22,10 @@ pub(crate) struct Goal {
 pub(crate) struct Goals {
     pub(crate) all: Vec<Goal>,
     numbers: BTreeMap<GoalId, usize>,
-    /// The numbers of those that are yet to be issued, the next one last.
-    waiting: Vec<usize>,
+    /// When those are issued that are not, and their numbers; the next one last.
+    waiting: Vec<Reverse<(u64, usize)>>,
+    /// How many controllers have refused a goal, by its number.
+    refusals: BTreeMap<usize, usize>,
 }
 
 impl Goals {
@@ -36,28 +38,67 @@ impl Goals {
             all,
             numbers,
             waiting: Vec::new(),
+            refusals: BTreeMap::new(),
         };
         goals.wait(waiting);
         goals
     }
 
-    /// Notes which goals are yet to be issued.
-    pub(crate) fn wait(&mut self, mut waiting: Vec<usize>) {
-        waiting.sort_by_key(|number| Reverse((self.all[*number].arrives_at, *number)));
+    /// Notes which goals are yet to be issued, when they arrive.
+    pub(crate) fn wait(&mut self, waiting: Vec<usize>) {
+        let waiting = waiting.into_iter();
+        let mut waiting: Vec<_> = waiting
+            .map(|number| Reverse((self.all[number].arrives_at, number)))
+            .collect();
+        waiting.sort_unstable();
         self.waiting = waiting;
     }
 
-    /// Removes a goal that arrives by now from those that are yet to be issued.
+    /// Notes that a goal is issued again at a later time.
+    pub(crate) fn issue_again(&mut self, number: usize, at: u64) {
+        let due = Reverse((at, number));
+        let place = self.waiting.partition_point(|waiting| *waiting < due);
+        self.waiting.insert(place, due);
+    }
+
+    /// Notes that a controller refuses a goal; returns how often that has happened.
+    pub(crate) fn refuse(&mut self, number: usize) -> usize {
+        let refusals = self.refusals.entry(number).or_default();
+        *refusals += 1;
+        *refusals
+    }
+
+    /// How many controllers have refused a goal.
+    pub(crate) fn refusals(&self, number: usize) -> usize {
+        self.refusals.get(&number).copied().unwrap_or(0)
+    }
+
+    /// Whether a goal is yet to be issued, or to be issued again.
+    pub(crate) fn is_waiting(&self, number: usize) -> bool {
+        self.waiting
+            .iter()
+            .any(|Reverse((_, waiting))| *waiting == number)
+    }
+
+    /// The numbers of the goals that are issued by now, the next one first.
+    pub(crate) fn due(&self, now: u64) -> impl Iterator<Item = usize> {
+        let waiting = self.waiting.iter().rev();
+        let due = waiting.take_while(move |Reverse((at, _))| *at <= now);
+        due.map(|Reverse((_, number))| *number)
+    }
+
+    /// Removes a goal that is issued by now from those that are yet to be issued.
     #[inline]
     pub(crate) fn next_arrival(&mut self, now: u64) -> Option<usize> {
-        self.has_arrival(now).then(|| self.waiting.pop()).flatten()
+        let next = self.has_arrival(now).then(|| self.waiting.pop());
+        next.flatten().map(|Reverse((_, number))| number)
     }
 
     /// Whether a goal that arrives by now is yet to be issued.
     #[inline]
     pub(crate) fn has_arrival(&self, now: u64) -> bool {
         let next = self.waiting.last();
-        next.is_some_and(|next| self.all[*next].arrives_at <= now)
+        next.is_some_and(|Reverse((at, _))| *at <= now)
     }
 
     /// The number of the goal of an id.

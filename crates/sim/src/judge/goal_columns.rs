@@ -41,6 +41,36 @@ fn counts() -> Vec<Column> {
             of(|goals| goals.expired.into()),
         )
         .with_term("expired", 13),
+        Column::new(
+            "issued",
+            Whole,
+            up_to_all,
+            of(|goals| goals.balance.issued().into()),
+        ),
+        Column::new(
+            "open",
+            Whole,
+            up_to_all,
+            of(|goals| goals.balance.open.into()),
+        ),
+        Column::new(
+            "reported",
+            Whole,
+            up_to_all,
+            of(|goals| goals.balance.reported.into()),
+        ),
+        Column::new(
+            "unknown",
+            Whole,
+            up_to_all,
+            of(|goals| goals.balance.unknown.into()),
+        ),
+        Column::new(
+            "done_in_error",
+            Whole,
+            up_to_all,
+            of(|goals| goals.done_in_error.into()),
+        ),
     ]
 }
 

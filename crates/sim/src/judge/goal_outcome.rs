@@ -14,6 +14,10 @@ pub struct GoalOutcome {
     pub served_twice: u32,
     /// Goals that no robot served before their deadline.
     pub expired: u32,
+    /// Goals in the other states of their lives.
+    pub balance: GoalBalance,
+    /// Goals that a robot reported as served in error, and that none has served.
+    pub done_in_error: u32,
     /// Time from the issue of a goal until its robot sets out for the last time, in the mean over the goals served; 0
     /// if there are none.
     pub waiting_s: f64,
@@ -33,6 +37,27 @@ pub struct GoalOutcome {
     pub leases_lapsed: u32,
 }
 
+/// Goals that have been issued, by the states of their lives.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct GoalBalance {
+    /// Goals that were served, or have expired.
+    pub ended: u32,
+    /// Goals that may still be served.
+    pub open: u32,
+    /// Goals of which a controller has reported why they cannot be served.
+    pub reported: u32,
+    /// Goals that no working agent knows.
+    pub unknown: u32,
+}
+
+impl GoalBalance {
+    /// Goals that have been issued.
+    #[must_use]
+    pub fn issued(self) -> u32 {
+        self.ended + self.open + self.reported + self.unknown
+    }
+}
+
 impl GoalOutcome {
     pub(super) fn of(moment: &Moment, tally: &GoalTally) -> Self {
         let step_s = moment.scenario.step_s;
@@ -41,6 +66,8 @@ impl GoalOutcome {
             served: tally.served(),
             served_twice: count(tally.served_twice()),
             expired: expired(moment, tally),
+            balance: GoalBalance::default(),
+            done_in_error: count(tally.done_in_error()),
             waiting_s: mean_s(|issued_at, service| service.began_at - issued_at),
             travel_s: mean_s(|_, to| to.arrived_at - to.began_at - to.blocked),
             blocked_s: mean_s(|_, service| service.blocked),

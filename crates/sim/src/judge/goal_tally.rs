@@ -40,6 +40,10 @@ pub(crate) struct GoalRecord {
     /// It follows from the messages, and affects no outcome.
     #[hashed(skip)]
     pub(crate) unserved: Option<Reason>,
+    /// Whether a robot has reported that it served the goal when it had not: it was not there, or not long enough. It
+    /// follows from the messages, and affects no other outcome.
+    #[hashed(skip)]
+    pub(crate) is_done_in_error: bool,
 }
 
 impl GoalTally {
@@ -123,7 +127,9 @@ impl GoalTally {
             About::Goal { id, status, .. } => (id, status),
             About::Dispatch(Dispatch::Award(award)) => {
                 if let Some(goal) = moment.goals.number(award.goal) {
-                    self.records[goal].awarded_at.get_or_insert(moment.tick);
+                    let record = &mut self.records[goal];
+                    record.awarded_at.get_or_insert(moment.tick);
+                    record.unserved = None;
                 }
                 return;
             }
@@ -156,10 +162,14 @@ impl GoalTally {
         let record = &mut self.records[number];
         let since = self.stays.since(robot, number).unwrap_or(now);
         let journey = self.journeys[robot].to(number, since);
-        let Some(issued_at) = record.issued_at.filter(|_| moment.is_near(robot, goal)) else {
+        let Some(issued_at) = record.issued_at else {
             return false;
         };
-        if !moment.is_long_enough(goal, now - since) || moment.is_late(goal, issued_at) {
+        if !moment.is_near(robot, goal) || !moment.is_long_enough(goal, now - since) {
+            record.is_done_in_error |= record.served.is_none();
+            return false;
+        }
+        if moment.is_late(goal, issued_at) {
             return false;
         }
         let is_new = match &record.served {
@@ -174,6 +184,18 @@ impl GoalTally {
             self.journeys[robot] = Journey::default();
         }
         is_new
+    }
+
+    /// Whether a robot is at a goal whose service takes time.
+    pub(crate) fn is_in_service(&self, robot: usize, goal: usize) -> bool {
+        self.stays.since(robot, goal).is_some()
+    }
+
+    /// Number of goals that a robot reported as served in error, and that none has served.
+    pub(crate) fn done_in_error(&self) -> usize {
+        let records = self.records.iter();
+        let in_error = records.filter(|record| record.is_done_in_error && record.served.is_none());
+        in_error.count()
     }
 
     /// Number of goals that were served.

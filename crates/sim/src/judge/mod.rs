@@ -20,7 +20,7 @@ pub mod events;
 mod find_times;
 mod goal_columns;
 pub(crate) mod goal_moment;
-mod goal_outcome;
+pub(crate) mod goal_outcome;
 pub(crate) mod goal_tally;
 pub(crate) mod items;
 mod journey;

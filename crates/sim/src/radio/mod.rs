@@ -35,6 +35,13 @@ pub struct RadioSpec {
     pub power_w: f64,
 }
 
+impl RadioSpec {
+    /// Time from sending a message to receiving it, where steps have this duration.
+    pub(crate) fn trip_s(&self, step_s: f64) -> f64 {
+        self.delay_s.max(step_s)
+    }
+}
+
 fn four() -> u32 {
     4
 }

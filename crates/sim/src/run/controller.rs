@@ -12,6 +12,8 @@ pub(crate) struct ControllerAgent {
     pub(crate) controller: Controller,
     /// What it has stated about the lane that it is to clear: whether it has declared it clear.
     pub(crate) stated: Option<bool>,
+    /// Whether its last decision was made elsewhere.
+    pub(crate) is_elsewhere: bool,
 }
 
 impl ControllerAgent {
@@ -40,7 +42,7 @@ impl ControllerAgent {
         } else {
             Controller::restarted(settings.clone())
         };
-        self.stated = before.stated;
+        (self.stated, self.is_elsewhere) = (before.stated, before.is_elsewhere);
         let (now, was) = (&mut self.participant, &before.participant);
         now.inbox.clone_from(&was.inbox);
         now.has_failed = was.has_failed;

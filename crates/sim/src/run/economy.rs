@@ -1,5 +1,6 @@
 //! What can be observed of goals and controllers. No agent knows any of it unless by message.
 
+use super::goal_life::GoalStatus;
 use super::participant::Place;
 use super::state::State;
 use crate::clock::seconds;
@@ -42,6 +43,8 @@ pub struct Goal {
     pub has_expired: bool,
     /// Why no robot can serve it, as a controller last reported; `None` if it was served.
     pub unserved: Option<Reason>,
+    /// Where it is in its life.
+    pub status: GoalStatus,
 }
 
 /// A controller of a run.
@@ -70,7 +73,9 @@ impl State {
     pub fn each_goal(&self, scenario: &Scenario) -> impl Iterator<Item = Goal> {
         let tally = self.tally.goals.iter();
         let records = tally.flat_map(|goals| &goals.records);
-        self.goals.all.iter().zip(records).map(|(goal, record)| {
+        let statuses = self.goal_statuses(scenario);
+        let each = self.goals.all.iter().zip(records).zip(statuses);
+        each.map(|((goal, record), status)| {
             let time_s = |at: Option<u64>| at.map(|at| seconds(at, scenario.step_s));
             let deadline_steps = scenario.goals[usize::from(goal.kind)].deadline_steps;
             let is_late = |issued_at| is_late(deadline_steps, issued_at, self.tick);
@@ -91,6 +96,7 @@ impl State {
                 is_served_twice: record.is_served_twice,
                 unserved: record.unserved.filter(|_| served.is_none()),
                 has_expired: served.is_none() && record.issued_at.is_some_and(is_late),
+                status,
             }
         })
     }

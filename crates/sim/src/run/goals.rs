@@ -4,7 +4,7 @@ use super::state::State;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
 use crate::scenario::Scenario;
-use brain::{About, AgentId, Dispatch, Message, Reason, ReceivedMessage};
+use brain::{AgentId, Dispatch, Reason, ReceivedMessage};
 use std::collections::BTreeMap;
 
 impl State {
@@ -15,17 +15,27 @@ impl State {
         }
     }
 
-    /// A copy in which the goals of this step are issued.
-    pub(crate) fn with_goals_issued(&self, scenario: &Scenario) -> Self {
-        let mut copy = self.clone();
-        copy.issue_goals(scenario);
-        copy
+    /// The goals that the next step issues: the number of the controller, and the order that it receives.
+    pub(crate) fn orders_due(&self, scenario: &Scenario) -> Vec<(usize, ReceivedMessage)> {
+        let due = self.goals.due(self.tick);
+        let orders = due.filter_map(|number| {
+            let owner = self.owner_of(scenario, number)?;
+            Some((owner, self.order_to(owner, self.issue_of(scenario, number))))
+        });
+        orders.collect()
+    }
+
+    /// The order to own a goal.
+    fn issue_of(&self, scenario: &Scenario, number: usize) -> Dispatch {
+        let goal = &self.goals.all[number];
+        let kind = &scenario.goals[usize::from(goal.kind)];
+        Dispatch::Issue(kind.task(goal.id, goal.at))
     }
 
     fn issue(&mut self, scenario: &Scenario, number: usize) {
         let goal = &self.goals.all[number];
         let has_owners = scenario.first_owner(goal).is_some();
-        let owner = self.owner_of(scenario, goal);
+        let owner = self.owner_of(scenario, number);
         let Some(tally) = &mut self.tally.goals else {
             return;
         };
@@ -35,21 +45,15 @@ impl State {
             record.unserved = has_owners.then_some(Reason::NoController);
             return;
         };
-        let participant = &mut self.controllers[owner].participant;
-        let task = scenario.goals[usize::from(goal.kind)].task(goal.id, goal.at);
-        let order = ReceivedMessage {
-            from: AgentId::OPERATOR,
-            age_s: 0.0,
-            message: Message::to(participant.id, About::Dispatch(Dispatch::Issue(task))),
-        };
-        (record.issued_to, record.unserved) = (Some(participant.id), None);
-        participant.receive_order(order, self.tick);
+        record.issued_to = Some(self.controllers[owner].participant.id);
+        record.unserved = None;
+        self.order(owner, self.issue_of(scenario, number));
     }
 
-    /// The number of the controller that a goal is issued to. If the first one does not work, it is the next one of
-    /// its kind that does, and then one of another kind; `None` if none works.
-    fn owner_of(&self, scenario: &Scenario, goal: &Goal) -> Option<usize> {
-        let (first, count) = scenario.first_owner(goal)?;
+    /// The number of the controller that a goal is issued to. If the first one does not work, or has refused it, it is the
+    /// next one of its kind that does, and then one of another kind; `None` if none works.
+    fn owner_of(&self, scenario: &Scenario, goal: usize) -> Option<usize> {
+        let (first, count) = scenario.first_owner(&self.goals.all[goal])?;
         let participants = self.controllers.iter().map(|agent| &agent.participant);
         let start = participants.take_while(|each| each.id.kind < first.kind);
         let (start, all) = (start.count(), self.controllers.len());
@@ -60,7 +64,9 @@ impl State {
             let participant = &self.controllers[*owner].participant;
             participant.is_working(&self.body_states)
         };
-        own_kind.chain(others).find(is_working)
+        let working: Vec<usize> = own_kind.chain(others).filter(is_working).collect();
+        let turn = self.goals.refusals(goal).checked_rem(working.len())?;
+        Some(working[turn])
     }
 
     /// Takes over the goals that stay, and the journeys of robots from their `old` numbers.
@@ -78,9 +84,9 @@ impl State {
             let numbers = self.keep_places((before, from), to);
             tally.take_over(was, &numbers, old, ids);
         }
-        let waits = |(number, goal): &(usize, &Goal)| {
+        let waits = |(number, _): &(usize, &Goal)| {
             let record = &tally.records[*number];
-            let is_lost = record.issued_to.is_none() && self.owner_of(to, goal).is_some();
+            let is_lost = record.issued_to.is_none() && self.owner_of(to, *number).is_some();
             record.issued_at.is_none() || record.served.is_none() && is_lost
         };
         let waiting = self.goals.all.iter().enumerate().filter(waits);
@@ -120,7 +126,7 @@ impl State {
 impl Scenario {
     /// The controller that is first in turn to own a goal, and the number of controllers of its kind; `None` if there
     /// are none of the kind that owns it.
-    fn first_owner(&self, goal: &Goal) -> Option<(AgentId, u32)> {
+    pub(super) fn first_owner(&self, goal: &Goal) -> Option<(AgentId, u32)> {
         let owner = usize::from(self.goals[usize::from(goal.kind)].owner?);
         let count = self.controllers[owner].count;
         let index = goal.index.checked_rem(count)?;

@@ -10,8 +10,10 @@ mod external;
 mod failing;
 mod fixed;
 mod fixed_passage;
+mod goal_life;
 mod goals;
 mod lane;
+mod operator;
 pub(crate) mod participant;
 pub(crate) mod placing;
 mod service;
@@ -21,6 +23,7 @@ mod state_hash;
 
 pub use crate::bodies::body_state::Status;
 pub use economy::{Controller, Goal};
+pub use goal_life::GoalStatus;
 pub use lane::BelievedLane;
 pub use placing::NoRoom;
 pub use snapshot::{Item, Robot};

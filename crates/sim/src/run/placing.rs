@@ -165,6 +165,7 @@ pub(super) fn place_controllers(
             let random = (entity, Noise::of(seed, run, entity));
             controllers.push(ControllerAgent {
                 stated: None,
+                is_elsewhere: false,
                 participant: Participant::new(id, place, kind.radio, random),
                 controller: Controller::new(kind.settings.clone()),
             });

@@ -125,7 +125,11 @@ impl State {
     /// The outcome so far.
     #[must_use]
     pub fn outcome(&self, scenario: &Scenario) -> Outcome {
-        Outcome::of(&self.moment(scenario))
+        let mut outcome = Outcome::of(&self.moment(scenario));
+        if let Some(goals) = &mut outcome.goals {
+            goals.balance = self.goal_balance(scenario);
+        }
+        outcome
     }
 
     /// Items found, and a number that differs when anything else was counted since: it is cheaper than an

@@ -59,15 +59,18 @@ impl Scenario {
         facts.into_iter().chain(items).chain(end).collect()
     }
 
-    /// How soon goals of a lost controller are offered again, for each kind of controllers.
+    /// How long a round of awards takes, and how soon goals of a lost controller are offered again, for each kind of
+    /// controllers.
     pub(crate) fn recoveries(&self) -> Vec<(String, String)> {
         let goals = self.number_of_goals();
         let kinds = self.controllers.iter().filter(|kind| kind.count > 0);
         let recoveries = kinds.map(|kind| {
             let delay_s = seconds(kind.radio.delay_steps, self.step_s);
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
+            let round_s = kind.settings.answer_s;
             let text = format!(
-                "goals of a lost controller have an owner or are reported, and are offered again, within {within_s:.1} s \
+                "a round of awards takes at most {round_s:.2} s, until robots have bid again; \
+                 goals of a lost controller have an owner or are reported, and are offered again, within {within_s:.1} s \
                  if no message is lost"
             );
             (format!("controllers.{}", kind.name), text)

@@ -6,11 +6,12 @@ use super::external::ExternalInputs;
 use super::pending_decisions::PendingDecision;
 use super::surroundings::Surroundings;
 use crate::bodies::body_state::BodyState;
+use crate::run::controller::ControllerAgent;
 use crate::run::participant::{Participant, Place};
 use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
-use brain::{Command, Percept, Reading};
+use brain::{Command, Percept, Reading, ReceivedMessage};
 
 /// Buffers of the controllers, reused in each step.
 #[derive(Debug, Clone, Default)]
@@ -50,7 +51,9 @@ impl ControllerScratch {
             self.perceive(&moment, &mut agent.participant);
             let decided = external.decisions.decided(number);
             let given = external.commands.get(&number);
-            match given.or_else(|| decided.map(|each| &each.command)) {
+            let elsewhere = given.or_else(|| decided.map(|each| &each.command));
+            agent.is_elsewhere = elsewhere.is_some();
+            match elsewhere {
                 Some(command) => self.command.clone_from(command),
                 None => agent.controller.step_into(&self.percept, &mut self.command),
             }
@@ -75,9 +78,7 @@ impl ControllerScratch {
         if kinds.iter().all(|kind| usize::from(*kind) < robot_kinds) {
             return;
         }
-        let has_arrival = state.goals.has_arrival(state.tick);
-        let issued = has_arrival.then(|| state.with_goals_issued(scenario));
-        let state = issued.as_ref().unwrap_or(state);
+        let orders = state.orders_due(scenario);
         self.surroundings.refresh(scenario, state);
         let moment = Moment {
             scenario,
@@ -89,8 +90,11 @@ impl ControllerScratch {
             let is_free = !external.commands.contains_key(&number);
             let is_working = agent.participant.is_working(moment.body_states);
             if is_free && is_working && kinds.contains(&id.kind) {
-                // A copy: its messages wait until the step is taken.
-                self.perceive(&moment, &mut agent.participant.clone());
+                let controller = number - state.agents.len();
+                self.perceive(
+                    &moment,
+                    &mut next_inputs(agent, controller, &orders, state.tick),
+                );
                 external.decisions.all.push(PendingDecision {
                     robot: id,
                     percept: self.percept.clone(),
@@ -107,17 +111,20 @@ impl ControllerScratch {
         state: &State,
         controller: usize,
     ) -> Option<Percept> {
-        let mut state = state.with_goals_issued(scenario);
         let moment = Moment {
             scenario,
             tick: state.tick,
             body_states: &state.body_states,
         };
         let mut scratch = Self::default();
-        scratch.surroundings.refresh(scenario, &state);
-        let agent = &mut state.controllers[controller];
+        let agent = &state.controllers[controller];
         agent.participant.is_working(moment.body_states).then(|| {
-            scratch.perceive(&moment, &mut agent.participant);
+            scratch.surroundings.refresh(scenario, state);
+            let orders = state.orders_due(scenario);
+            scratch.perceive(
+                &moment,
+                &mut next_inputs(agent, controller, &orders, state.tick),
+            );
             scratch.percept
         })
     }
@@ -145,4 +152,19 @@ impl ControllerScratch {
         percept.inbox.clear();
         participant.deliver(tick, scenario.step_s, &mut percept.inbox);
     }
+}
+
+/// A controller's participant with the `orders` of the next step, by the numbers of controllers: a copy, because its
+/// messages wait until that step is taken.
+fn next_inputs(
+    agent: &ControllerAgent,
+    controller: usize,
+    orders: &[(usize, ReceivedMessage)],
+    now: u64,
+) -> Participant {
+    let mut participant = agent.participant.clone();
+    for (_, order) in orders.iter().filter(|(owner, _)| *owner == controller) {
+        participant.receive_order(*order, now);
+    }
+    participant
 }

@@ -110,6 +110,8 @@ impl StepScratch {
             agent_events::note_sent(&self.events, state, sent);
             communicate::send(scenario, state, &self.neighbours, &self.workers);
             let is_counted = self.judge_goals(scenario, state);
+            let sent = self.workers.iter().flat_map(|worker| &worker.outbox);
+            state.answer_reports(scenario, sent);
             let collisions = self.act(scenario, state) + self.touch_external(scenario, state);
             let is_counted = hazards::detonate(scenario, state, &self.events) | is_counted;
             let is_counted = convoy::drive(scenario, state, &self.events) | is_counted;

@@ -80,7 +80,7 @@ fn commands(messages: usize) -> BTreeMap<AgentId, Command> {
         outbox: vec![message; messages],
         ..Command::default()
     };
-    let id = |index| AgentId::controller(1, index);
+    let id = |index| AgentId::robot(1, index);
     (0..12).map(|index| (id(index), command.clone())).collect()
 }
 

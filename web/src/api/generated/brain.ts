@@ -101,6 +101,8 @@ export interface Bid {
   number: number;
   /** Time by which the robot's path and service become longer. */
   time_s: number;
+  /** Time until it has served all of its goals and this one. */
+  total_s: number;
   /** The same for the energy, as a fraction of the battery's capacity; 0 if unknown. */
   energy: number;
   /** The number of the call. */

@@ -1,6 +1,5 @@
 //! Checks of controllers: what carries them, and their leases.
 
-use crate::bodies::RobotSpec;
 use crate::controllers::ControllerSpec;
 use crate::goals::GoalSpec;
 use crate::radio::RadioSpec;
@@ -111,7 +110,7 @@ pub(super) fn unknown<'n>(
 fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let drift = spec.clock.max_drift;
     let [robots_s, controllers_s] = round_trips_s(kind, spec);
-    let min_service_s = kind.settings(drift).min_service_lease_s(robots_s);
+    let min_service_s = kind.settings(spec).min_service_lease_s(robots_s);
     let auction = format!("an auction of {} s and ", kind.auction_s);
     let leases = [
         (
@@ -188,18 +187,10 @@ fn of_services(name: &str, spec: &ScenarioSpec, at: &Place) -> Option<InputError
 /// The longest time until a message of a robot is answered, and until one of another controller is.
 pub(super) fn round_trips_s(kind: &ControllerSpec, spec: &ScenarioSpec) -> [f64; 2] {
     let step_s = spec.clock.step_s;
-    let delay_s = |radio: &RadioSpec| radio.delay_s.max(step_s);
-    let of_robot_s = |robot: &RobotSpec| {
-        let period_s = robot.brain.rate_hz.map_or(step_s, |rate_hz| 1.0 / rate_hz);
-        robot
-            .radio
-            .as_ref()
-            .map_or(step_s, |radio| delay_s(radio) + period_s)
-    };
-    let robots_s = spec.robots.values().map(of_robot_s).fold(step_s, f64::max);
     let controllers = spec.controllers.values();
     let controllers_s = controllers
-        .map(|kind| delay_s(&kind.radio))
+        .map(|other| other.radio.trip_s(step_s))
         .fold(step_s, f64::max);
-    [robots_s, controllers_s].map(|there_s| there_s + delay_s(&kind.radio) + STEPS * step_s)
+    let others_s = controllers_s + kind.radio.trip_s(step_s);
+    [kind.answer_s(spec), others_s].map(|trip_s| trip_s + STEPS * step_s)
 }

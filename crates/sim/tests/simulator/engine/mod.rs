@@ -25,6 +25,7 @@ mod external_decisions;
 mod find_times;
 mod flocks;
 mod footprints;
+mod goal_life;
 mod goals;
 mod golden;
 mod hazard_paths;

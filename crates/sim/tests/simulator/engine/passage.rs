@@ -1,15 +1,15 @@
 //! Vehicles that pass a lane once it has been declared clear.
 
 use super::clearance::LANE;
-use crate::common::{id, scenario, step_with, with};
-use brain::{Act, ActKind, Command};
+use crate::common::{scenario, step_with, with};
+use brain::{Act, ActKind, AgentId, Command};
 use sim::judge::events::EventKind;
 use sim::judge::{Outcome, PassageOutcome};
 use sim::passage::VehicleStatus;
 use sim::simulation::Simulation;
 
 /// The controllers are the third kind of participants.
-const STATION: (u8, u32) = (2, 0);
+const STATION: AgentId = AgentId::controller(2, 0);
 
 /// Three vehicles on a path of 3 m: in a lane that is alike everywhere, at y = 10.
 const PASSAGE: &str = "
@@ -34,7 +34,7 @@ fn state(simulation: &mut Simulation, kind: ActKind) {
         acts: vec![Act { kind, at }],
         ..Command::default()
     };
-    step_with(simulation, [(id(STATION.0, STATION.1), command)]);
+    step_with(simulation, [(STATION, command)]);
 }
 
 fn passed(mut simulation: Simulation) -> (PassageOutcome, Outcome) {

@@ -1,0 +1,91 @@
+//! The operator: the person that issues goals to controllers and receives their reports.
+//!
+//! Orders of the operator and answers to it are not sent by radio: they reach working controllers in the next step.
+
+use super::state::State;
+use crate::radio::channel::Outgoing;
+use crate::scenario::Scenario;
+use crate::schedule::steps_of;
+use brain::{About, AgentId, Dispatch, Message, Reason, ReceivedMessage, Refusal};
+
+/// A goal that all controllers refuse is issued again after this time, in seconds: one may have room by then.
+const RETRY_S: f64 = 10.0;
+
+impl State {
+    /// Answers what controllers report in a step: each report is acknowledged, and a goal that one of them refuses is
+    /// issued to the next.
+    pub(crate) fn answer_reports<'m>(
+        &mut self,
+        scenario: &Scenario,
+        sent: impl Iterator<Item = &'m Outgoing>,
+    ) {
+        if self.controllers.is_empty() {
+            return;
+        }
+        let robots = self.robots();
+        let reports = sent.filter(|sent| sent.message.to == AgentId::OPERATOR.into());
+        for Outgoing { from, message, .. } in reports {
+            let (Some(controller), About::Dispatch(dispatch)) =
+                ((*from as usize).checked_sub(robots), message.about)
+            else {
+                continue;
+            };
+            match dispatch {
+                Dispatch::Stuck(report) => self.acknowledge(controller, &report),
+                Dispatch::Refuse(refusal) => {
+                    self.acknowledge(controller, &refusal);
+                    self.take_refusal(scenario, controller, &refusal);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn acknowledge(&mut self, controller: usize, report: &Refusal) {
+        self.order(controller, Dispatch::Acknowledge(report.goal));
+    }
+
+    /// Sends an order to a controller.
+    pub(super) fn order(&mut self, controller: usize, dispatch: Dispatch) {
+        let order = self.order_to(controller, dispatch);
+        let participant = &mut self.controllers[controller].participant;
+        participant.receive_order(order, self.tick);
+    }
+
+    /// An order as a controller receives it.
+    pub(super) fn order_to(&self, controller: usize, dispatch: Dispatch) -> ReceivedMessage {
+        let id = self.controllers[controller].participant.id;
+        ReceivedMessage {
+            from: AgentId::OPERATOR,
+            age_s: 0.0,
+            message: Message::to(id, About::Dispatch(dispatch)),
+        }
+    }
+
+    /// A controller to which a goal was issued does not own it.
+    fn take_refusal(&mut self, scenario: &Scenario, controller: usize, refusal: &Refusal) {
+        let (Some(number), Some(tally)) = (self.goals.number(refusal.goal), &mut self.tally.goals)
+        else {
+            return;
+        };
+        let record = &mut tally.records[number];
+        let id = self.controllers[controller].participant.id;
+        if record.issued_to != Some(id) || record.served.is_some() {
+            return;
+        }
+        (record.issued_to, record.unserved) = (None, Some(refusal.reason));
+        if refusal.reason == Reason::Invalid {
+            return;
+        }
+        let is_last = self
+            .goals
+            .refuse(number)
+            .is_multiple_of(self.controllers.len());
+        let wait = if is_last {
+            steps_of(RETRY_S, scenario.step_s)
+        } else {
+            1
+        };
+        self.goals.issue_again(number, self.tick + wait);
+    }
+}

@@ -1,0 +1,271 @@
+//! The life of goals: none is lost, whatever is changed, refused, cut or fails.
+
+use crate::common::{Random, scenario, start};
+use brain::{AgentId, GoalId};
+use sim::run::GoalStatus;
+use sim::simulation::Simulation;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+const RUN: &str = r#"
+clock = { time_limit_s = 200, step_s = 0.2 }
+world.size_m = [40, 40]
+goals.spot = { count = 12, within_m = 1, service_s = 2 }
+[controllers.base]
+count = 1
+start.at_m = [[1, 1], [2, 1], [1, 2]]
+radio = { range_m = 100, messages_per_step = 20 }
+[robots.rover]
+count = 3
+start.at_m = [[10, 10], [12, 12], [30, 30]]
+drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 120 }
+radio = { range_m = 100, messages_per_step = 20 }
+sensors = { gps.kind = "position", compass.kind = "heading" }
+brain.behaviours = [{ kind = "serve" }]
+"#;
+
+/// `RUN` with other values of keys.
+fn with(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(RUN.to_owned(), |text, (key, value)| {
+        crate::common::with(&text, &format!("{key} = {value}"))
+    })
+}
+
+fn text_of(values: &BTreeMap<&'static str, String>) -> String {
+    let changes = values.iter().map(|(key, value)| (*key, value.as_str()));
+    with(&changes.collect::<Vec<_>>())
+}
+
+fn statuses(simulation: &Simulation) -> Vec<GoalStatus> {
+    simulation.state().goal_statuses(simulation.scenario())
+}
+
+fn is_over(simulation: &Simulation) -> bool {
+    simulation.state().is_over(simulation.scenario())
+}
+
+fn finished(mut simulation: Simulation) -> Simulation {
+    while !is_over(&simulation) {
+        simulation.step();
+    }
+    simulation
+}
+
+fn served(simulation: &Simulation) -> u32 {
+    simulation.outcome().goals.unwrap().served
+}
+
+#[test]
+fn changes_do_not_lose_the_goals_that_are_being_served() {
+    let text = with(&[("goals.spot.service_s", "8")]);
+    let mut simulation = start(&text);
+    for change in 0..8 {
+        (0..60).for_each(|_| simulation.step());
+        let price = format!("{change}");
+        let to = crate::common::with(&text, &format!("controllers.base.price = {price}"));
+        simulation.change(scenario(&to)).unwrap();
+    }
+    assert_eq!(served(&finished(simulation)), 12);
+}
+
+#[test]
+fn goals_beyond_the_maximum_are_issued_again_when_there_is_room() {
+    for count in ["1", "2"] {
+        let text = with(&[
+            ("controllers.base.count", count),
+            ("controllers.base.max_goals", "3"),
+        ]);
+        let mut simulation = start(&text);
+        (0..5).for_each(|_| simulation.step());
+        let refused = statuses(&simulation);
+        assert!(refused.contains(&GoalStatus::Reported), "{refused:?}");
+        assert_eq!(served(&finished(simulation)), 12, "{count}");
+    }
+}
+
+#[test]
+fn reports_over_a_radio_of_one_message_per_step_arrive() {
+    let text = with(&[
+        ("robots.rover.out_of_service", "[0, 1, 2]"),
+        ("controllers.base.radio.messages_per_step", "1"),
+    ]);
+    let simulation = finished(start(&text));
+    assert_eq!(statuses(&simulation), [GoalStatus::Reported; 12]);
+}
+
+#[test]
+fn goals_that_only_a_lost_controller_knew_are_unknown() {
+    let text = with(&[("robots.rover.out_of_service", "[0, 1, 2]")]);
+    let mut simulation = start(&text);
+    (0..3).for_each(|_| simulation.step());
+    assert_eq!(statuses(&simulation), [GoalStatus::Owned; 12]);
+    let failed = crate::common::with(&text, "controllers.base.failed = [0]");
+    simulation.change(scenario(&failed)).unwrap();
+    assert_eq!(statuses(&simulation), [GoalStatus::Unknown; 12]);
+    let goals = simulation.outcome().goals.unwrap();
+    assert_eq!((goals.balance.unknown, goals.balance.issued()), (12, 12));
+}
+
+/// Which working controllers know a goal, and which robots hold its lease, as they state it themselves.
+fn knowing(simulation: &Simulation) -> BTreeSet<(GoalId, AgentId)> {
+    let state = simulation.state();
+    let controllers = state.each_controller().filter(|each| each.is_working);
+    let owned = controllers.flat_map(|each| {
+        let goals = each.goals.into_iter().map(|owned| owned.task.id);
+        let all = goals.chain(each.orphans.into_iter().map(|task| task.id));
+        all.map(|goal| (goal, each.id)).collect::<Vec<_>>()
+    });
+    let robots = state.each_robot(simulation.scenario());
+    let robots = robots.filter(|robot| robot.status == sim::run::Status::Active);
+    let served = robots.flat_map(|robot| {
+        let goals = state.served_goals(robot.id).into_iter();
+        goals.map(move |served| (served.task.id, robot.id))
+    });
+    owned.chain(served).collect()
+}
+
+/// The controllers that work.
+fn working(simulation: &Simulation) -> BTreeSet<AgentId> {
+    let controllers = simulation.state().each_controller();
+    let working = controllers.filter(|each| each.is_working);
+    working.map(|each| each.id).collect()
+}
+
+/// A run in which anything happens at random steps.
+struct Fuzzed {
+    random: Random,
+    simulation: Simulation,
+    values: BTreeMap<&'static str, String>,
+    /// The state of each goal, and what is known of it, after the last step.
+    statuses: Vec<GoalStatus>,
+    knowing: BTreeSet<(GoalId, AgentId)>,
+}
+
+impl Fuzzed {
+    fn new(seed: u64) -> Self {
+        let mut random = Random::new(seed);
+        let mut any = |values: &[&'static str]| random.one_of(values);
+        let changes = [
+            ("clock.time_limit_s", "80"),
+            ("controllers.base.count", any(&["1", "2", "3"])),
+            ("controllers.base.max_goals", any(&["0", "2", "5", "1000"])),
+            ("controllers.base.owner_lease_s", any(&["2", "5", "30"])),
+            ("controllers.base.service_lease_s", any(&["10", "20"])),
+            (
+                "controllers.base.radio.messages_per_step",
+                any(&["1", "2", "20"]),
+            ),
+            ("controllers.base.radio.range_m", any(&["15", "100"])),
+            (
+                "controllers.base.radio.loss_probability",
+                any(&["0", "0.3"]),
+            ),
+            ("robots.rover.radio.messages_per_step", any(&["1", "20"])),
+            ("goals.spot.service_s", any(&["0", "2", "6"])),
+            ("goals.spot.every_s", any(&["0", "3"])),
+        ];
+        let values = changes.map(|(key, value)| (key, value.to_owned()));
+        let values = BTreeMap::from(values);
+        Self {
+            simulation: start(&text_of(&values)),
+            random,
+            values,
+            statuses: vec![GoalStatus::Pending; 12],
+            knowing: BTreeSet::new(),
+        }
+    }
+
+    /// Lets something happen.
+    fn disturb(&mut self) {
+        let index = self.random.below(3).to_string();
+        let failed = format!("[{index}]");
+        let (key, value) = match self.random.below(6) {
+            0 => ("controllers.base.price", index.as_str()),
+            1 => (
+                "controllers.base.allocation",
+                self.random
+                    .one_of(&["\"nearest\"", "\"optimal\"", "\"none\""]),
+            ),
+            2 => ("robots.rover.failed", failed.as_str()),
+            3 => ("robots.rover.out_of_service", failed.as_str()),
+            4 => (
+                "controllers.base.radio.loss_probability",
+                self.random.one_of(&["0.9", "0"]),
+            ),
+            _ => ("controllers.base.failed", failed.as_str()),
+        };
+        let mut values = self.values.clone();
+        values.insert(key, value.to_owned());
+        // Not every controller exists.
+        let Ok(to) = crate::common::read(&text_of(&values)) else {
+            return;
+        };
+        if self.simulation.change(Arc::new(to)).is_ok() {
+            self.values = values;
+        }
+    }
+
+    /// Checks the states of all goals after a step.
+    fn check(&mut self, seed: u64) {
+        let simulation = &self.simulation;
+        let (now, known, working) = (
+            statuses(simulation),
+            knowing(simulation),
+            working(simulation),
+        );
+        let goals = simulation.state().each_goal(simulation.scenario());
+        for (goal, (was, is)) in goals.zip(self.statuses.iter().zip(&now)) {
+            let at = format!(
+                "seed {seed}, {:.1} s, goal {}",
+                simulation.time_s(),
+                goal.index
+            );
+            assert!(
+                *was != GoalStatus::Served || *is == *was,
+                "{at}: served no more"
+            );
+            assert!(
+                *was == GoalStatus::Pending || *is != GoalStatus::Pending,
+                "{at}: not issued"
+            );
+            if *is != GoalStatus::Unknown {
+                continue;
+            }
+            assert!(
+                !known.iter().any(|(id, _)| *id == goal.id),
+                "{at}: an agent knows it"
+            );
+            let before = self.knowing.iter().filter(|(id, _)| *id == goal.id);
+            let mut forgotten = before.filter(|(_, agent)| working.contains(agent));
+            assert_eq!(forgotten.next(), None, "{at}: an agent that works knew it");
+        }
+        let goals = simulation.outcome().goals.unwrap();
+        let others = goals.balance.open + goals.balance.reported + goals.balance.unknown;
+        let issued = goals.balance.issued();
+        assert_eq!(goals.served + goals.expired + others, issued, "seed {seed}");
+        (self.statuses, self.knowing) = (now, known);
+    }
+}
+
+/// `GOAL_RUNS` runs, by default as many as take a few seconds.
+#[test]
+fn no_goal_is_lost_whatever_is_changed_refused_cut_or_fails() {
+    let runs = std::env::var("GOAL_RUNS").map_or(40, |runs| runs.parse().unwrap());
+    for seed in 0..runs {
+        let mut run = Fuzzed::new(seed);
+        while !is_over(&run.simulation) {
+            run.simulation.step();
+            if run.random.below(60) == 0 {
+                run.disturb();
+            }
+            run.check(seed);
+        }
+    }
+}
+
+#[test]
+fn controllers_have_other_ids_than_robots() {
+    let simulation = start(RUN);
+    let controllers = simulation.state().each_controller().map(|each| each.id);
+    assert_eq!(controllers.collect::<Vec<_>>(), [AgentId::controller(1, 0)]);
+}
