@@ -1,5 +1,3 @@
-import type { InputError } from "../api/protocol";
-
 /** The message of an error, for display. */
 export function errorText(error: unknown): string {
   // Without a server, `fetch` throws a TypeError with a message of the browser's.
@@ -7,9 +5,7 @@ export function errorText(error: unknown): string {
   return error.message;
 }
 
-/** The message of an error in a file without its place, for display beside that. */
-export function withoutPlace({ message, line }: Pick<InputError, "message" | "line">): string {
-  const place = `:${line}: `;
-  const at = message.indexOf(place);
-  return line === null || at < 0 ? message : message.slice(at + place.length);
+/** The message of an error in a scenario file without the file and the line, for display beside them. */
+export function withoutPlace(message: string): string {
+  return message.replace(/^.*?\.toml(:\d+)?: /, "");
 }
