@@ -140,11 +140,14 @@ try {
     for (const colorScheme of ["light", "dark"]) {
       const page = await browser.newPage({ viewport: size, colorScheme });
       const drive = drives ? await openDrive(page) : null;
-      if (!drive) await page.goto(`${server.url}/${at}`);
-      await ready(page);
-      await page.screenshot({ path: `${folder}/${name}-${colorScheme}.png` });
-      await page.close();
-      await drive?.end();
+      try {
+        if (!drive) await page.goto(`${server.url}/${at}`);
+        await ready(page);
+        await page.screenshot({ path: `${folder}/${name}-${colorScheme}.png` });
+      } finally {
+        await page.close();
+        await drive?.end();
+      }
     }
   }
 } finally {
