@@ -47,7 +47,8 @@ async def drive(port: int, token: str) -> None:
     ended = asyncio.create_task(asyncio.to_thread(sys.stdin.read))
     while not ended.done():
         percept = simulation.percept(ROBOT)
-        page.add(simulation.tick, {} if percept is None else {ROBOT: percept})
+        inputs = {} if percept is None else {ROBOT: percept}
+        page.add({"type": "input", "tick": simulation.tick, "inputs": inputs, "stops": []})
         simulation.step()
         await asyncio.sleep(simulation.step_s)
     await page.end()

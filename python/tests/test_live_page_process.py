@@ -23,6 +23,8 @@ from mcap.reader import make_reader
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden import page_process
 from agent_economy.live.warden.page_process import MAX_FAILURES, PageProcess, origins
+from agent_economy.recording.reading import Recorded
+from agent_economy.recording.stops import Stop
 
 READER = """
 import json, os, sys
@@ -77,8 +79,9 @@ async def until(holds: Callable[[], bool], timeout_s: float = 20) -> None:
         await asyncio.sleep(0.02)
 
 
-def inputs(tick: int) -> dict[str, Any]:
-    return {"bender/0": {"time_s": 0.1 * tick, "random_words": [tick] * 40}}
+def message(tick: int) -> dict[str, Any]:
+    inputs = {"bender/0": {"time_s": 0.1 * tick, "random_words": [tick] * 40}}
+    return {"type": "input", "tick": tick, "inputs": inputs, "stops": []}
 
 
 def test_a_page_may_be_opened_by_both_names_of_this_machine() -> None:
@@ -96,25 +99,23 @@ def test_a_server_that_replaces_a_killed_one_gets_the_whole_run_and_the_same_por
         page = PageProcess({"type": "start", "seed": 7}, urls.append, lambda: None, command)
         page.start()
         for tick in range(3000):
-            page.add(tick, inputs(tick))
+            page.add(message(tick))
         await until(lambda: len(urls) == 1)
         first = page.pid
         await until(lambda: len(lines(tmp_path, first)) == 3001)
         assert first is not None
         os.kill(first, signal.SIGKILL)
-        page.add(3000, inputs(3000))
+        page.add(message(3000))
         await until(lambda: len(urls) == 2)
         second = page.pid
         assert second != first
         await until(lambda: len(lines(tmp_path, second)) == 3002)
-        page.add(3001, inputs(3001))
+        page.add(message(3001))
         await until(lambda: len(lines(tmp_path, second)) == 3003)
         await page.end()
         start, *rest = [json.loads(line) for line in lines(tmp_path, second)[:-1]]
         assert start["seed"] == 7
-        assert rest == [
-            {"type": "input", "tick": tick, "inputs": inputs(tick)} for tick in range(3002)
-        ]
+        assert rest == [message(tick) for tick in range(3002)]
         assert lines(tmp_path, second)[-1] == "end"
 
     asyncio.run(story())
@@ -137,7 +138,7 @@ def test_a_suspended_server_delays_nothing_and_is_replaced(
         longest_s = 0.0
         for tick in range(2000):
             began_s = time.monotonic()
-            page.add(tick, inputs(tick))
+            page.add(message(tick))
             longest_s = max(longest_s, time.monotonic() - began_s)
         assert longest_s < 0.2
         await until(lambda: len(urls) == 2)
@@ -159,7 +160,7 @@ def test_a_server_that_cannot_start_is_given_up(
         page = PageProcess({}, lambda _: None, lambda: failures.append(1), command)
         page.start()
         await until(lambda: failures == [1])
-        page.add(0, {})
+        page.add(message(0))
         await page.end()
 
     asyncio.run(story())
@@ -178,10 +179,10 @@ sys.exit(drive_fleet(options, print_json).exit_code)
 """
 
 
-def drive_with_page(folder: Path, fleet: Path) -> Drive:
-    """Start a drive whose page is served by a replica of the run."""
+def drive_with_page(folder: Path, fleet: Path, served: str = REPLICA) -> Drive:
+    """Start a drive whose page is served by a replica of the run, or another program."""
     record = fleet.with_suffix(".mcap")
-    server = program(folder, REPLICA)
+    server = program(folder, served)
     command = [sys.executable, "-c", DRIVE, str(fleet), str(record), *server]
     environment = os.environ | {"XDG_RUNTIME_DIR": str(folder)}
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
@@ -199,6 +200,44 @@ def servers(folder: Path) -> dict[int, list[list[int]]]:
     return found
 
 
+def stop_of(tick: int, robot: str, action: str, reasons: list[str]) -> Stop:
+    """Return a stop that the page received."""
+    return Stop(tick, robot, action, tuple(reasons))
+
+
+def arm(drive: Drive) -> None:
+    """Arm the robots as soon as that is allowed, and wait until they move."""
+    deadline_s = now_s() + 20
+    while drive.ask("/arm")[0] != 200:
+        assert now_s() < deadline_s
+        time.sleep(0.2)
+    drive.wait_until_moving()
+
+
+def test_the_page_receives_the_stops_that_the_recording_has(tmp_path: Path) -> None:
+    with emulated(tmp_path) as bench:
+        fleet = tmp_path / "fleet.toml"
+        fleet.write_text(fleet_text(bench), encoding="utf-8")
+        drive = drive_with_page(tmp_path, fleet, READER)
+        try:
+            drive.wait_for(lambda each: each["type"] == "page")
+            arm(drive)
+            assert drive.ask("/stop")[0] == 200
+            drive.wait_for(lambda each: "emergency_stop" in each.get("latched", ()))
+            time.sleep(1.0)
+            drive.process.send_signal(signal.SIGINT)
+            assert drive.wait() == 130
+        finally:
+            drive.process.kill()
+    [path] = tmp_path.glob("[0-9]*.jsonl")
+    steps = [json.loads(row) for row in path.read_text().splitlines()[1:-1]]
+    received = [stop_of(*each) for step in steps for each in step["stops"]]
+    with drive.record.open("rb") as stream:
+        (read := Recorded()).read_all(stream)
+    assert any("emergency_stop" in stop.reasons for stop in received)
+    assert received == [stop for stop in read.stops.all if stop.tick < len(steps)]
+
+
 def test_killing_the_server_of_the_page_stops_no_robot_and_the_next_one_steps_the_same_run(
     tmp_path: Path,
 ) -> None:
@@ -208,11 +247,7 @@ def test_killing_the_server_of_the_page_stops_no_robot_and_the_next_one_steps_th
         drive = drive_with_page(tmp_path, fleet)
         try:
             drive.wait_for(lambda each: each["type"] == "page")
-            deadline_s = now_s() + 20
-            while drive.ask("/arm")[0] != 200:
-                assert now_s() < deadline_s
-                time.sleep(0.2)
-            drive.wait_until_moving()
+            arm(drive)
             time.sleep(2.0)
             [first] = servers(tmp_path)
             os.kill(first, signal.SIGKILL)

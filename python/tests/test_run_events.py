@@ -42,6 +42,8 @@ def test_a_page_lists_the_events_that_the_recording_has_in_its_log(
         found_s = f"found at {row['tick'] * step_s:.3f} s"
         text = found_s if row["kind"] == "found" else row["text"]
         assert (row["tick"] + 1, row["of"], text) in logged
+    finds = [row for row in rows if row["kind"] == "found"]
+    assert all(row["text"] == f"found by {row['agent']}" for row in finds)
 
 
 def test_events_are_the_same_at_any_speed_and_after_any_seek() -> None:

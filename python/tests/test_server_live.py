@@ -11,6 +11,7 @@ from starlette.testclient import TestClient
 
 import agent_economy as ae
 from agent_economy import InputError
+from agent_economy.recording.stops import Stop
 from agent_economy.server import Workspace, app
 from agent_economy.server.runs.display import MAX_IN_FLIGHT
 from agent_economy.server.runs.live_run import LiveRun
@@ -180,6 +181,29 @@ def test_external_robots_are_named_in_the_setting_of_a_live_run_and_of_its_recor
         page.send("open", scenario="classic")
         page.wait_for("opened")
         assert page.wait_for("setting")["external"] == []
+
+
+def stops_of(page: Page) -> list[dict[str, Any]]:
+    """Return the stops among the events that a page has received."""
+    rows = [row for each in page.received if each["type"] == "events" for row in each["rows"]]
+    return [row for row in rows if row["kind"] == "stopped"]
+
+
+def test_the_stops_of_real_robots_are_events_at_their_steps_and_only_once_they_are_simulated(
+    live_client: TestClient, feeder: Feeder
+) -> None:
+    feeder.feed(3)
+    feeder.live.append(5, {}, [Stop(5, ROBOT, "stop", ("gps: too old",))])
+    feeder.live.append(6, {}, [Stop(6, ROBOT, "move", ())])
+    with live_client.websocket_connect(WS) as socket:
+        page = Page(socket)
+        join(page)
+        while not (stops := stops_of(page)) or stops[-1]["tick"] < 6:
+            page.next()
+    assert [(each["tick"], each["of"], each["text"]) for each in stops] == [
+        (5, ROBOT, "stopped: gps: too old"),
+        (6, ROBOT, "may move again"),
+    ]
 
 
 def test_a_live_run_that_ended_is_displayed_as_ended(

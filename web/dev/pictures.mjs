@@ -108,14 +108,21 @@ async function paused(page, time) {
   await page.waitForTimeout(300);
 }
 
+/** A hold does not count if the button was disabled meanwhile, as on a busy machine. */
+const [maxHolds, hold_ms] = [10, 3000];
+
 /** Holds a button as operator until the robot is armed. */
 async function holdUntilArmed(page, name) {
   const button = page.getByRole("button", { name }).and(page.locator(":enabled"));
-  await button.waitFor();
-  await button.hover();
-  await page.mouse.down();
-  await page.getByRole("region", { name: "bender/0" }).getByText("armed", { exact: true }).waitFor();
-  await page.mouse.up();
+  const armed = page.getByRole("region", { name: "bender/0" }).getByText("armed", { exact: true });
+  for (let hold = 1; !(await armed.isVisible()); hold++) {
+    if (hold > maxHolds) throw new Error(`${name}: not armed after ${maxHolds} holds`);
+    await button.waitFor();
+    await button.hover();
+    await page.mouse.down();
+    await armed.waitFor({ timeout: hold_ms }).catch(() => {});
+    await page.mouse.up();
+  }
 }
 
 /** Starts a drive of the emulated robot, and opens its page as operator. */
@@ -138,13 +145,16 @@ try {
     if (wanted.length > 0 && !wanted.includes(name)) continue;
     await before?.(server);
     for (const colorScheme of ["light", "dark"]) {
-      const page = await browser.newPage({ viewport: size, colorScheme });
+      const page = await browser.newPage({ viewport: size, colorScheme, reducedMotion: "reduce" });
       const drive = drives ? await openDrive(page) : null;
-      if (!drive) await page.goto(`${server.url}/${at}`);
-      await ready(page);
-      await page.screenshot({ path: `${folder}/${name}-${colorScheme}.png` });
-      await page.close();
-      await drive?.end();
+      try {
+        if (!drive) await page.goto(`${server.url}/${at}`);
+        await ready(page);
+        await page.screenshot({ path: `${folder}/${name}-${colorScheme}.png` });
+      } finally {
+        await page.close();
+        await drive?.end();
+      }
     }
   }
 } finally {

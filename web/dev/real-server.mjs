@@ -41,7 +41,8 @@ export class RealServer {
   /** Ends the server and removes its folder. */
   async end() {
     await this.kill();
-    await rm(this.folder, { recursive: true });
+    // A study that it has started ends a moment later, and may write until then.
+    await rm(this.folder, { recursive: true, maxRetries: 20, retryDelay: 100 });
   }
 }
 

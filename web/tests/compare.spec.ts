@@ -24,6 +24,9 @@ async function compareTeams(page: Page, server: { url: string }): Promise<void> 
 test("a run and the same one with another team play with one clock", async ({ page, server }) => {
   await compareTeams(page, server);
   await expect(page.getByRole("row", { name: "robots.rover.count 4 8" })).toBeVisible();
+  await expect(page.getByRole("row", { name: "Time 10.0 s so far 10.0 s so far" })).toBeVisible();
+  await expect(page.getByRole("row", { name: "Complete not yet not yet" })).toBeVisible();
+  await expect(page.getByRole("row", { name: "Robots 4 8 4" })).toBeVisible();
   await page.getByRole("combobox", { name: "Speed" }).selectOption({ label: "× 10" });
   await page.getByRole("button", { name: "Play" }).click();
   await expect.poll(() => time_s(page, "A")).toBeGreaterThan(15);
@@ -77,6 +80,23 @@ test("a run is compared with itself before the last change, and by its address w
   await field.fill(address);
   await dialog.getByRole("button", { name: "Compare" }).click();
   await expect(statusOf(page, "B")).toContainText("2.0 s, 6 robots");
+});
+
+test("a run that cannot be opened is reported beside the other one, and nothing is compared", async ({
+  page,
+  server,
+}) => {
+  const other = "scenario=search&seed=3&tick=20&changes=[[0,%22robots.rover.count%22,100000000]]";
+  const run = (query: string) => encodeURIComponent(query);
+  await page.goto(
+    `${server.url}/#/compare?left=${run("scenario=search&seed=3&tick=20")}&right=${run(other)}`,
+  );
+  await expect(statusOf(page, "A")).toContainText("2.0 s, 4 robots");
+  const failed = page.getByRole("region", { name: "Run B" });
+  await expect(failed.getByRole("alert")).toContainText("robots.rover.count = 100000000");
+  await expect(failed.getByRole("application")).toHaveCount(0);
+  await expect(page.getByText("What differs is listed when both runs are open.")).toBeVisible();
+  await expectAccessible(page);
 });
 
 test("a comparison is usable on a phone, and a damaged address is reported", async ({ page, server }) => {

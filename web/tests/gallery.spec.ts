@@ -58,6 +58,7 @@ test("the errors of a file are listed beside its text, with their lines marked",
   await openFile(page, server, faulty.replace("summary", "sumary"));
   await expect(page.getByRole("heading", { name: /my.toml has \d errors/ })).toBeVisible();
   await expect(page.getByRole("button", { name: "Line 2" })).toBeVisible();
+  await expect(page.getByText("scenario.toml")).toHaveCount(0);
   await expect(page.getByRole("button", { name: "Line 10" })).toBeVisible();
   await expect(page.locator(".marked").last()).toContainText("raduis_m = 0.25");
   await expectAccessible(page);

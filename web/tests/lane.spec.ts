@@ -128,3 +128,20 @@ test("the panels of a run with a lane are accessible", async ({ page, server }) 
   await openLane(page, server, 150);
   await expectAccessiblePanels(page, ["Lane", "Layers"]);
 });
+
+test("all panels of a lane fit 1280 pixels: their tabs stand in one row, and no table is cut off", async ({
+  page,
+  server,
+}) => {
+  await openPanel(page, server, 100);
+  const tabs = page.getByRole("tablist", { name: "Panels" }).getByRole("tab");
+  await expect(tabs).toHaveCount(8);
+  const tops = await tabs.evaluateAll((all) => all.map((tab) => tab.getBoundingClientRect().top));
+  expect(new Set(tops).size).toBe(1);
+  for (const name of await tabs.allTextContents()) {
+    await openTab(page, name);
+    const widths = (panel: Element) => [panel.scrollWidth, panel.clientWidth];
+    const [content, visible] = await page.getByRole("tabpanel").evaluate(widths);
+    expect(content, name).toBe(visible);
+  }
+});

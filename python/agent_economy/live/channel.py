@@ -9,7 +9,8 @@ The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, th
 the run is behind the clock), `goal` (a verdict), `message` (to the operator, in words),
 `radio` (a robot has become silent for its team, or is so no more),
 `recording_error`. If there is a page, also `run` (what it needs to step the same run, before
-`plan`) and `input` (the percepts of one step). `ended` stands for the end of its pipe.
+`plan`) and `input` (the percepts of one step, and the stops before it). `ended` stands for the end
+of its pipe.
 """
 
 import json

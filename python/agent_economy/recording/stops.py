@@ -1,4 +1,4 @@
-"""When the robots of a recorded drive were stopped, and why."""
+"""When the robots of a drive were stopped, and why."""
 
 import json
 from collections.abc import Mapping
@@ -6,6 +6,7 @@ from contextlib import suppress
 from typing import Any, NamedTuple
 
 from agent_economy.recording.live_topics import EVENTS, TICKS
+from agent_economy.runs.events import Event
 
 MOVES = "move"
 """The action of a robot that may move."""
@@ -27,6 +28,23 @@ class Stop(NamedTuple):
     reasons: tuple[str, ...]
 
 
+class StopReader:
+    """Finds the stops among the events of the warden, which are read in their order."""
+
+    def __init__(self) -> None:
+        """Begin without events."""
+        self._last: dict[str, tuple[str, tuple[str, ...]]] = {}
+
+    def read(self, tick: int, event: Mapping[str, Any]) -> Stop | None:
+        """Return the stop of an event at a tick; None if it is no change."""
+        robot, action = str(event["robot"]), str(event["action"])
+        names = [str(name) for key in ("faults", "latched") for name in event[key]]
+        now = action, () if action == MOVES else tuple(dict.fromkeys(names))
+        # A robot that has not moved yet was not stopped.
+        last, self._last[robot] = self._last.get(robot, now), now
+        return None if last == now else Stop(tick, robot, *now)
+
+
 class Stops:
     """Collects the stops of a recording, whose messages are added in their order.
 
@@ -40,7 +58,7 @@ class Stops:
         """Begin without messages."""
         self.all = []
         self._tick = 0
-        self._last: dict[str, tuple[str, tuple[str, ...]]] = {}
+        self._reader = StopReader()
 
     def add(self, topic: str, data: bytes) -> None:
         """Add a message of `TICKS` or `EVENTS`; others, and what cannot be read, change nothing.
@@ -54,13 +72,12 @@ class Stops:
             if topic == TICKS:
                 self._tick = int(message["tick"]) + 1
             else:
-                self._add_event(message)
+                stop = self._reader.read(self._tick, message)
+                self.all += [] if stop is None else [stop]
 
-    def _add_event(self, event: Mapping[str, Any]) -> None:
-        robot, action = str(event["robot"]), str(event["action"])
-        names = [str(name) for key in ("faults", "latched") for name in event[key]]
-        now = action, () if action == MOVES else tuple(dict.fromkeys(names))
-        # A robot that has not moved yet was not stopped.
-        if self._last.get(robot, now) != now:
-            self.all.append(Stop(self._tick, robot, *now))
-        self._last[robot] = now
+
+def event_of(stop: Stop) -> Event:
+    """Return the event that a robot was stopped, or may move again."""
+    reasons = f": {', '.join(stop.reasons)}" if stop.reasons else ""
+    text = "may move again" if stop.action == MOVES else f"stopped{reasons}"
+    return Event(stop.tick, "stopped", stop.robot, text, stop.robot)

@@ -38,7 +38,7 @@ Words = tuple[str, str, str, str]
 
 def detected(of: str, value: tuple[float, str]) -> Words:
     """Return the words for an item that was found."""
-    return "found", of, "found", value[1]
+    return "found", of, f"found by {value[1]}", value[1]
 
 
 def acted(of: str, value: Any) -> Words:

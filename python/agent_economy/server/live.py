@@ -20,6 +20,7 @@ import uvicorn
 
 from agent_economy import _core
 from agent_economy.live.channel import Decoder
+from agent_economy.recording.stops import Stop
 from agent_economy.scenario import Scenario, Source
 from agent_economy.server.app import app
 from agent_economy.server.runs.live_run import LiveRun
@@ -62,7 +63,11 @@ def receive(received: Iterable[Mapping[str, Any]], live: LiveRun, server: uvicor
     """Pass on the inputs of all steps, and end the server after the last one."""
     try:
         for message in received:
-            live.append(message["tick"], {"percepts": message["inputs"]})
+            stops = [
+                Stop(tick, robot, action, tuple(reasons))
+                for tick, robot, action, reasons in message["stops"]
+            ]
+            live.append(message["tick"], {"percepts": message["inputs"]}, stops)
     finally:
         live.end()
         server.should_exit = True

@@ -1,29 +1,4 @@
-import type { Json, Outcome, State } from "../api/protocol";
-import { named, withoutFindTimes } from "./outcome";
-
-/** A value that two runs have. */
-export interface Difference {
-  name: string;
-  unit: string;
-  left: number | null;
-  right: number | null;
-}
-
-/** The numbers of two outcomes, side by side. */
-export function outcomesOf(left: State | null, right: State | null): Difference[] {
-  const columns = (state: State | null) => withoutFindTimes(Object.keys(state?.outcome ?? {}));
-  const all = [...new Set([...columns(left), ...columns(right)])].filter((column) => column !== "run");
-  return all.flatMap((column) => {
-    const [one, other] = [number(left?.outcome, column), number(right?.outcome, column)];
-    const { words, unit } = named(column);
-    return one === null && other === null ? [] : [{ name: words, unit, left: one, right: other }];
-  });
-}
-
-function number(outcome: Outcome | undefined, column: string): number | null {
-  const value = outcome?.[column];
-  return typeof value === "number" ? value : typeof value === "boolean" ? Number(value) : null;
-}
+import type { Json } from "../api/protocol";
 
 /** A value of the scenario in which two runs differ. */
 export interface Changed {

@@ -4,3 +4,8 @@ export function errorText(error: unknown): string {
   if (error instanceof TypeError || !(error instanceof Error)) return "The server is not responding.";
   return error.message;
 }
+
+/** The message of an error in a scenario file without the file and the line, for display beside them. */
+export function withoutPlace(message: string): string {
+  return message.replace(/^.*?\.toml(:\d+)?: /, "");
+}

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { ColumnOffer, Outcome } from "../api/protocol";
-import { figuresOf, grouped, inWords, withoutFindTimes } from "./outcome";
+import { comparedFigures, figuresOf, grouped, inWords, withoutFindTimes } from "./outcome";
 
 const running = { isOver: false, time_s: 4 };
 const over = { isOver: true, time_s: 12.5 };
@@ -116,4 +116,27 @@ test("figures are grouped in their order", () => {
 test("the times of finds are left out, and counts of kinds with similar names are not", () => {
   const columns = ["found_cow_1_s", "missed_cow_1_s", "found_cow_1_s_1_s", "time_s"];
   expect(withoutFindTimes(columns)).toEqual(["found_cow_1_s", "missed_cow_1_s", "time_s"]);
+});
+
+test("figures of two runs stand side by side as far as they are known, with the difference of the second one", () => {
+  const columns = [
+    column("time_s", { unit: "s", known: "clock" }),
+    column("complete"),
+    column("energy_j", { unit: "J" }),
+    column("merit", { known: "at_end" }),
+  ];
+  const outcome = { time_s: 600, complete: false, energy_j: 9_000, merit: -1 };
+  const left = { outcome, columns, moment: running };
+  const right = {
+    outcome: { time_s: 12.5, complete: true, energy_j: 29_000, merit: -2 },
+    columns: [...columns, column("price")],
+    moment: over,
+  };
+  const rows = comparedFigures(left, right).map((row) => [row.column, row.left, row.right, row.difference]);
+  expect(rows).toEqual([
+    ["time_s", "4.0 s so far", "12.5 s", "8.5 s"],
+    ["complete", "not yet", "yes", ""],
+    ["energy_j", "9,000 J", "29 kJ", "20 kJ"],
+    ["merit", "–", "-2", ""],
+  ]);
 });

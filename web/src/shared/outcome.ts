@@ -7,6 +7,8 @@ export interface Figure {
   label: string;
   value: string;
   unit: string;
+  /** The value in the unit of the column; null if it is no number. */
+  number: number | null;
   group: string;
   help: string;
   isFirst: boolean;
@@ -36,8 +38,7 @@ export function figuresOf(outcome: Outcome, columns: ColumnOffer[], moment: Mome
     const shown = time ?? column;
     const isKnown = shown.after.length === 0 || shown.after.some(isTrue);
     const known = isKnown ? valueOf(outcome, shown, moment) : null;
-    const figure =
-      known ?? (column.is_first ? { value: moment.isOver ? "none" : "not yet", unit: "" } : null);
+    const figure = known ?? (column.is_first ? worded(moment.isOver ? "none" : "not yet") : null);
     const { label, help } = shown;
     const place = { group: column.group, isFirst: column.is_first };
     return figure ? [{ column: shown.id, label, help, ...place, ...figure }] : [];
@@ -56,18 +57,64 @@ export function inWords({ label, value, unit }: Figure): string {
   return `${label} ${value} ${unit}`.trim();
 }
 
-type Value = Pick<Figure, "value" | "unit">;
+/** A figure of two runs, and by how much the second run has more. */
+export interface ComparedFigure {
+  column: string;
+  label: string;
+  help: string;
+  left: string;
+  right: string;
+  difference: string;
+}
+
+export interface Side {
+  outcome: Outcome;
+  columns: ColumnOffer[];
+  moment: Moment;
+}
+
+/** What is known of two outcomes by now, side by side. */
+export function comparedFigures(left: Side, right: Side): ComparedFigure[] {
+  const [one, other] = [left, right].map(
+    ({ outcome, columns, moment }) =>
+      new Map(figuresOf(outcome, columns, moment).map((figure) => [figure.column, figure])),
+  );
+  const units = new Map([...left.columns, ...right.columns].map(({ id, unit }) => [id, unit]));
+  const columns = new Set([...(one?.keys() ?? []), ...(other?.keys() ?? [])]);
+  return [...columns].flatMap((column) => {
+    const [a, b] = [one?.get(column), other?.get(column)];
+    const named = a ?? b;
+    if (!named) return [];
+    const [from, to] = [a?.number ?? null, b?.number ?? null];
+    const more = from === null || to === null || from === to ? null : to - from;
+    const { value, unit } = more === null ? worded("") : numberOf(more, units.get(column) ?? "");
+    const { label, help } = named;
+    return [{ column, label, help, left: text(a), right: text(b), difference: `${value} ${unit}`.trim() }];
+  });
+}
+
+function text(figure: Figure | undefined): string {
+  return figure ? `${figure.value} ${figure.unit}`.trim() : "–";
+}
+
+type Value = Pick<Figure, "value" | "unit" | "number">;
+
+function worded(value: string): Value {
+  return { value, unit: "", number: null };
+}
 
 /** The value of a column; null if it is not known yet. */
 function valueOf(outcome: Outcome, column: ColumnOffer, { isOver, time_s }: Moment): Value | null {
-  if (column.known === "clock" && !isOver) return { value: time_s.toFixed(1), unit: "s so far" };
+  if (column.known === "clock" && !isOver)
+    return { value: time_s.toFixed(1), unit: "s so far", number: time_s };
   if (column.known !== "always" && !isOver) return null;
   const value = outcome[column.id];
   if (column.known === "reason" && !value) return null;
-  if (typeof value === "boolean") return { value: value ? "yes" : isOver ? "no" : "not yet", unit: "" };
+  if (typeof value === "boolean") return worded(value ? "yes" : isOver ? "no" : "not yet");
   if (typeof value !== "number") return null;
   const all = allOf(outcome, column);
-  if (all !== null) return { value: `${readable(value)} / ${readable(all)}`, unit: column.unit };
+  if (all !== null)
+    return { value: `${readable(value)} / ${readable(all)}`, unit: column.unit, number: value };
   return numberOf(value, column.unit);
 }
 
@@ -79,9 +126,10 @@ function allOf(outcome: Outcome, { out_of, all }: ColumnOffer): number | null {
 }
 
 function numberOf(value: number, unit: string): Value {
-  if (unit === "%") return { value: readable(100 * value), unit };
-  if (unit === "J" && Math.abs(value) >= 10_000) return { value: readable(value / 1000), unit: "kJ" };
-  return { value: readable(value), unit };
+  if (unit === "%") return { value: readable(100 * value), unit, number: value };
+  if (unit === "J" && Math.abs(value) >= 10_000)
+    return { value: readable(value / 1000), unit: "kJ", number: value };
+  return { value: readable(value), unit, number: value };
 }
 
 /** A number with at most two decimals, never -0. */

@@ -13,6 +13,7 @@ from agent_economy.live.loop.pipe import Pipe
 from agent_economy.live.loop.team import Team
 from agent_economy.recording import RecordingError
 from agent_economy.recording.file import strict
+from agent_economy.recording.stops import Stop, StopReader
 from agent_economy.runs.simulation import Simulation
 
 
@@ -35,6 +36,8 @@ class Loop:
             InputError: If the run or its recording cannot be created.
         """
         self._inputs: deque[Mapping[str, Any]] | None = deque() if has_page else None
+        self._stop_reader = StopReader()
+        self._stops: list[Stop] = []
         self.peers: dict[str, tuple[str, int]] = {}
         self._pipe = pipe
         names = tuple(robot.name for robot in fleet.plan.robots)
@@ -72,6 +75,7 @@ class Loop:
                 case "line" | "written" | "event" | "order":
                     self._team.add(message)
                     self._add(message)
+                    self._note_stop(message)
         return True
 
     def _tick(self) -> None:
@@ -104,7 +108,9 @@ class Loop:
             if not self._pipe.send({"type": "radio", **silence}):
                 break
         if self._inputs is not None:
-            self._inputs.append({"type": "input", "tick": tick, "inputs": strict(percepts)})
+            stops, self._stops = self._stops, []
+            inputs = {"tick": tick, "inputs": strict(percepts), "stops": stops}
+            self._inputs.append({"type": "input", **inputs})
             while self._inputs and self._pipe.send(self._inputs[0]):
                 self._inputs.popleft()
 
@@ -114,6 +120,11 @@ class Loop:
                 self._log.add(message)
             except RecordingError as error:
                 self._fail(error)
+
+    def _note_stop(self, message: Mapping[str, Any]) -> None:
+        if self._inputs is not None and message["type"] == "event":
+            stop = self._stop_reader.read(self._simulation.tick, message)
+            self._stops += [] if stop is None else [stop]
 
     def _fail(self, error: RecordingError) -> None:
         self._log = None

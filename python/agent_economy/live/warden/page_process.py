@@ -8,8 +8,9 @@ It is `python -m agent_economy.server.live`. On its standard input it reads JSON
   argument, because every user of the machine sees those. `listening` is the descriptor of
   the socket to serve the page at. All servers of a drive inherit the same one: between two of them,
   another program cannot take the address, of which the origin keeps the token in browsers.
-* `{"type": "input", "tick", "inputs"}` for each step, from the first one on: the percepts of the
-  robots whose brains step in it.
+* `{"type": "input", "tick", "inputs", "stops"}` for each step, from the first one on: the percepts
+  of the robots whose brains step in it, and the stops of robots before it
+  (`agent_economy.recording.stops.Stop`).
 
 The end of its input is the end of the drive. On its standard output it writes one line when it
 serves: `{"type": "ready", "url": "http://127.0.0.1:8765/?token=...#/robots"}`.
@@ -26,7 +27,7 @@ from contextlib import suppress
 from typing import Any
 from urllib.parse import urlsplit
 
-from agent_economy.live.channel import Decoder, encode
+from agent_economy.live.channel import Decoder, Message, encode
 from agent_economy.live.clock import now_s
 from agent_economy.live.warden.endpoint import Endpoint
 from agent_economy.live.warden.history import BLOCK_BYTES, History
@@ -101,11 +102,11 @@ class PageProcess:
         self._loop = asyncio.get_running_loop()
         self._task = asyncio.create_task(self._keep_running())
 
-    def add(self, tick: int, inputs: Mapping[str, Any]) -> None:
+    def add(self, message: Message) -> None:
         """Pass on the inputs of a step."""
         if self._is_caught_up():
             self._read_s = now_s()
-        self._history.add(encode({"type": "input", "tick": tick, "inputs": inputs}))
+        self._history.add(encode(message))
         if not self._is_waiting:
             self._write()
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from agent_economy.live import rules
-from agent_economy.live.channel import BEAT_S
+from agent_economy.live.channel import BEAT_S, Message
 from agent_economy.live.clock import now_s
 from agent_economy.live.locks import AddressLocks
 from agent_economy.live.plan import FleetPlan, Point, plan_of
@@ -62,7 +62,7 @@ class Warden:
         self.outputs = Outputs({})
         self.goals: dict[str, dict[str, Mapping[str, Any]]] = {}
         self.run: Mapping[str, Any] | None = None
-        self.page: Callable[[int, Mapping[str, Any]], None] = lambda *_: None
+        self.page: Callable[[Message], None] = lambda _: None
         self._peers: dict[str, tuple[str, int]] = {}
         self._loop_inputs = LoopInputs(is_alive=True, last_message_s=None)
         self.was_late, self.late_steps = False, 0
@@ -272,7 +272,7 @@ class Warden:
             case "run":
                 self.run = message["run"]
             case "input":
-                self.page(message["tick"], message["inputs"])
+                self.page(message)
             case "goal":
                 self.goals.setdefault(message["robot"], {})[message["goal"]] = message
                 self._report(message)

@@ -1,9 +1,11 @@
 """A run whose inputs arrive while it is displayed: that of real robots."""
 
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+from agent_economy.recording.stops import Stop, event_of
 from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario, validation
@@ -48,16 +50,19 @@ class LiveRun:
         # A drive lasts for hours: its inputs do not fit into memory.
         self._inputs = InputLog()
         self._unused = InputReader(self._inputs)
+        # Before steps that have not been simulated.
+        self._stops: deque[Stop] = deque()
         self._latest_tick = 0
         self._is_ended = False
         self._wake: Callable[[], None] = do_nothing
 
-    def append(self, tick: int, inputs: Mapping[str, Any]) -> None:
+    def append(self, tick: int, inputs: Mapping[str, Any], stops: Iterable[Stop] = ()) -> None:
         """Add the inputs of the step from a tick; steps before it that have none get none.
 
         Args:
             tick: Not before the ticks of earlier inputs.
             inputs: Keyword arguments of `Simulation.step`, such as `percepts`.
+            stops: The stops of real robots before that step.
 
         Raises:
             InputError: If the tick is in the past, or the run has ended.
@@ -66,6 +71,7 @@ class LiveRun:
         validation.check(tick >= self._latest_tick, "tick", tick, allowed)
         validation.check(not self._is_ended, "tick", tick, "added before the end of the live run")
         # The simulation reads the latest tick first.
+        self._stops += stops
         self._inputs.append(tick, inputs)
         self._latest_tick = tick + 1
         self._wake()
@@ -153,7 +159,10 @@ class LiveRun:
             self._is_ended, self._latest_tick = True, self.tick
             raise
         self.series.note(self.simulation)
-        self.events.note(self._reader.read(self.events.until), self.simulation)
+        events = self._reader.read(self.events.until)
+        while self._stops and self._stops[0].tick < self.tick:
+            events.append(event_of(self._stops.popleft()))
+        self.events.note(events, self.simulation)
 
 
 def do_nothing() -> None:

@@ -7,7 +7,7 @@ from itertools import zip_longest
 from typing import Any
 
 from agent_economy.recording.reading import Recorded
-from agent_economy.recording.stops import MOVES, Stop
+from agent_economy.recording.stops import event_of
 from agent_economy.runs.events import Event
 from agent_economy.runs.stepped import Change, Stepped
 
@@ -80,13 +80,6 @@ class RecordedRun:
         is_comparable = recorded is not None and simulation.tick < self.until
         if is_comparable and recorded != f"{simulation.hash:016x}":
             self.mismatch_tick = simulation.tick
-
-
-def event_of(stop: Stop) -> Event:
-    """Return the event that a robot was stopped, or may move again."""
-    reasons = f": {', '.join(stop.reasons)}" if stop.reasons else ""
-    text = "may move again" if stop.action == MOVES else f"stopped{reasons}"
-    return Event(stop.tick, "stopped", stop.robot, text, stop.robot)
 
 
 def first_difference(one: Sequence[Change], other: Sequence[Change]) -> float:

@@ -31,6 +31,15 @@ test("items and robot states are left out where there are none", () => {
   expect(statusText(paused, [1, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 1 robot: all clear; paused.");
 });
 
+test("a run of a comparison, which the clock of both moves, is neither paused nor running", () => {
+  const paused = { ...state, is_playing: false };
+  expect(statusText(paused, [1, 0, 0, 0, 0], 0, "open", false)).toBe("12.3 s, 1 robot: all clear.");
+  const finished = { ...paused, is_over: true };
+  expect(statusText(finished, [1, 0, 0, 0, 0], 0, "open", false)).toBe(
+    "12.3 s, 1 robot: all clear; finished.",
+  );
+});
+
 test("a lost connection takes precedence", () => {
   expect(statusText(state, [4], 4, "lost")).toBe("The connection is lost.");
 });

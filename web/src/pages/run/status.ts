@@ -9,13 +9,15 @@ export function statusText(
   robots: number[],
   items: number,
   phase: Phase["name"],
+  isMovedHere = true,
 ): string {
   if (phase === "lost") return "The connection is lost.";
   if (phase === "ended") return "The run has ended.";
   if (!state) return "Loading…";
   const parts = [`${seconds(state.time_s)}, ${robotText(robots)}`];
   if (items > 0) parts.push(`${Number(state.outcome.found ?? 0)} of ${items} items found`);
-  return `${parts.concat(motion(state)).join("; ")}.`;
+  if (isMovedHere || state.is_over) parts.push(motion(state));
+  return `${parts.join("; ")}.`;
 }
 
 function robotText(counts: number[]): string {

@@ -1,7 +1,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Points } from "./csv";
-import type { Line } from "./lines";
+import { labelsOf, type Line } from "./lines";
 
 /** A line and its points. */
 export interface Drawn {
@@ -69,7 +69,8 @@ export class Chart {
       ...axis,
       scale: name,
       side: name === "left" ? 3 : 1,
-      size: 52,
+      values: (_, marks, __, ___, distance) => labelsOf(marks, distance),
+      size: (_, labels) => Math.max(52, 16 + 7 * Math.max(0, ...(labels ?? []).map(({ length }) => length))),
       show: lines.some(({ line }) => line.axis === name) || (name === "left" && lines.length === 0),
       ...(name === "right" ? { grid: { show: false } } : {}),
     });

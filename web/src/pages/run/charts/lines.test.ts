@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { csv } from "./csv";
-import { linesOf, pointsOf, valueAt } from "./lines";
+import { labelsOf, linesOf, pointsOf, valueAt } from "./lines";
 import { noSamples, withSamples } from "./samples";
 import { available, described, inspected, paths } from "./signals";
 
@@ -91,4 +91,10 @@ test("what can be drawn is the outcome, the robot that is selected, and the cont
   expect(ids("rover/3")).toContain("body/rover/3/x_m");
   expect(described("body/rover/3/x_m", offer)).toMatchObject({ label: "x", unit: "m", of: "rover/3" });
   expect(described("outcome/energy_j", offer)).toMatchObject({ label: "energy", unit: "J" });
+});
+
+test("marks of an axis that are near each other have different labels", () => {
+  expect(labelsOf([0.9999, 0.99995, 1], 5e-5)).toEqual(["0.9999", "0.99995", "1"]);
+  expect(labelsOf([0, 0.25, 0.5], 0.25)).toEqual(["0", "0.25", "0.5"]);
+  expect(labelsOf([0, 20_000], 20_000)).toEqual(["0", "20,000"]);
 });

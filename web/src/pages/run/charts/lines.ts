@@ -43,6 +43,12 @@ export function pointsOf(signal: string, series: Row[], samples: Samples): Point
   };
 }
 
+/** The labels of an axis with marks at a distance: two marks never have the same label. */
+export function labelsOf(marks: number[], distance: number): string[] {
+  const digits = Math.min(12, Math.max(0, Math.ceil(-Math.log10(distance) - 1e-9) + 1));
+  return marks.map((mark) => mark.toLocaleString("en", { maximumFractionDigits: digits }));
+}
+
 /** The value of a line at a tick: its last one up to there; null if there is none. */
 export function valueAt({ ticks, values }: Points, tick: number): number | null {
   const place = ticks.findLastIndex((each) => each <= tick);

@@ -34,8 +34,7 @@ export class Timeline {
   }
 
   describe(entry: Entry): string {
-    const by = entry.agent && entry.agent !== entry.of ? ` by ${entry.agent}` : "";
-    return `${seconds(this.time_s(entry))}: ${entry.of} ${entry.text}${by}`;
+    return `${seconds(this.time_s(entry))}: ${entry.of} ${entry.text}`;
   }
 
   go({ at }: Entry): void {
