@@ -10,7 +10,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml crates/py/build) Cargo.tom
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study ui test bench bench-brains bench-peers bench-store verify-selection verify-requirement fuzz golden schemas \
-	picture page-pictures bench-page examples replication validation brain-comparison economy clearance verify-leases goals web lint quick \
+	picture page-pictures bench-page examples replication validation brain-comparison economy clearance verify-leases verify-goals goals web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test drive-browser clean
 
 help: ## List the targets
@@ -139,6 +139,10 @@ clearance: .venv/installed ## Compare what controllers state of mined lanes with
 # Longer than the schedules of `make test`.
 verify-leases: ## Verify the leases of goals: 10,000 schedules of lost, late and repeated messages
 	SCHEDULES=10000 cargo test --release --locked -p agent-economy-economy --test room safety
+
+# Longer than the runs of `make test`.
+verify-goals: ## Verify that no goal is lost: 10,000 runs with changes, failures, cuts and refusals
+	GOAL_RUNS=10000 cargo test --release --locked -p agent-economy-sim --test simulator no_goal_is_lost
 
 golden: ## Check that an unoptimised and a release build give the same runs, byte for byte
 	cargo test --locked --profile unoptimised -p agent-economy-sim --test simulator golden

@@ -16,9 +16,13 @@ STEP_S = 0.2
 LOSS_PROBABILITY = 0.25
 GOALS_M = [(2, 8), (18, 3), (9, 17), (4, 4), (16, 14)]
 
-OPERATOR = {"kind": 255, "index": 0}
+OPERATOR = {"role": "person", "kind": 0, "index": 0}
 ROVERS = [{"kind": 0, "index": index} for index in range(2)]
-BASE = {"kind": 1, "index": 0}  # controllers are numbered after all kinds of robots
+BASE = {
+    "role": "controller",
+    "kind": 1,
+    "index": 0,
+}  # kinds of controllers are numbered after all kinds of robots
 
 ROVER: Body = {
     "radius_m": 0.3,

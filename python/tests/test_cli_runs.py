@@ -17,7 +17,7 @@ from pyarrow import csv, parquet
 
 import agent_economy as ae
 from agent_economy import Scenario
-from agent_economy.cli.unserved_goals import REASONS
+from agent_economy.runs.reasons import REASONS
 from agent_economy.study.answer.any_answer import expect_best
 from agent_economy.types.brain import Reason
 

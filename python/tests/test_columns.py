@@ -36,7 +36,7 @@ def resolved(schema: Any) -> Any:
 def sample(schema: Any, chance: random.Random) -> Any:
     """Return a random value that a schema allows; numbers are exact in single precision."""
     schema = resolved(schema)
-    if parts := schema.get("oneOf"):
+    if parts := schema.get("oneOf") or schema.get("anyOf"):
         return sample(chance.choice(parts), chance)
     if "const" in schema:
         return schema["const"]
@@ -45,7 +45,9 @@ def sample(schema: Any, chance: random.Random) -> Any:
     if schema["type"] != "object":
         return scalar(schema, chance)
     properties = schema.get("properties", {})
-    return {key: sample(each, chance) for key, each in properties.items()}
+    value = {key: sample(each, chance) for key, each in properties.items()}
+    # A robot has no role in messages.
+    return {key: each for key, each in value.items() if (key, each) != ("role", "robot")}
 
 
 def scalar(schema: Any, chance: random.Random) -> float | bool:
@@ -163,6 +165,7 @@ def test_a_brain_on_arrays_bids_for_the_goal_of_a_controller_and_is_awarded_it()
                     "goal": call["task"]["id"],
                     "number": 7,
                     "time_s": 1.0 if received["row"] == 2 else 60.0,  # the last robot is the best
+                    "total_s": 4.0,
                     "energy": 0.0,
                     "call": call["number"],
                 }

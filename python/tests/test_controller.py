@@ -6,9 +6,9 @@ import pytest
 
 import agent_economy as ae
 
-OPERATOR = {"role": "person", "kind": 0, "index": 0}
-BASE = {"role": "controller", "kind": 1, "index": 0}
-ROVER = {"kind": 0, "index": 0}
+OPERATOR: dict[str, Any] = {"role": "person", "kind": 0, "index": 0}
+BASE: dict[str, Any] = {"role": "controller", "kind": 1, "index": 0}
+ROVER: dict[str, Any] = {"kind": 0, "index": 0}
 
 
 def task(number: int) -> dict[str, Any]:
@@ -25,7 +25,7 @@ def task(number: int) -> dict[str, Any]:
     }
 
 
-def received(sender: dict[str, int], **dispatch: Any) -> dict[str, Any]:
+def received(sender: dict[str, Any], **dispatch: Any) -> dict[str, Any]:
     """Return a received message."""
     message = {"to": BASE, "about": {"dispatch": dispatch}, "confidence": 1}
     return {"from": sender, "age_s": 0.1, "message": message}

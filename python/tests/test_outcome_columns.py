@@ -90,7 +90,7 @@ def test_descriptions_of_kinds_have_the_name_of_the_kind() -> None:
     low = description_of("stated_clearance_mine_low")
     assert low is not None
     assert low.label == "Stated clearance of mine, from"
-    assert description_of("unknown") is None
+    assert description_of("nothing") is None
 
 
 def test_descriptions_are_sentences_in_known_groups() -> None:

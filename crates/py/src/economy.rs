@@ -26,7 +26,7 @@ const NUMBERS: [(&str, NumberOf); 9] = [
 ];
 
 /// The goals of a run, by column: `name` (KIND/INDEX), `issuer` and `number` of the id, the numbers above, `served_by`,
-/// `served_twice`, `expired` and `unserved`. The robot of a goal that was not served is empty, and so is `unserved` of
+/// `served_twice`, `expired`, `unserved` and `status`. The robot of a goal that was not served is empty, and so is `unserved` of
 /// one that no controller reported.
 #[pyfunction]
 pub(crate) fn goals<'py>(
@@ -61,6 +61,8 @@ pub(crate) fn goals<'py>(
         .map(|goal| goal.unserved.as_ref().and_then(word))
         .map(Option::unwrap_or_default);
     dict.set_item("unserved", reasons.collect::<Vec<_>>())?;
+    let statuses = goals.iter().map(|goal| goal.status.name());
+    dict.set_item("status", statuses.collect::<Vec<_>>())?;
     Ok(dict)
 }
 

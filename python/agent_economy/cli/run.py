@@ -14,10 +14,10 @@ from rich.text import Text
 from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.errors import FAILED, error_exits, print_warnings
+from agent_economy.cli.goals_left import GoalsLeft, goals_left
 from agent_economy.cli.lane_rows import lane_rows
 from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
-from agent_economy.cli.unserved_goals import Unserved, unserved_goals
 from agent_economy.cli.whole_table import print_whole
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
@@ -25,8 +25,8 @@ from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Scenario
 
-Ended: TypeAlias = tuple[Outcome, list[Unserved]]
-"""The outcome of a run, and the goals that no robot could serve."""
+Ended: TypeAlias = tuple[Outcome, GoalsLeft]
+"""The outcome of a run, and what is left of its goals."""
 
 
 def run(  # noqa: PLR0913  (typer's options are arguments)
@@ -76,20 +76,20 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         given = Scenario.load(scenario, overrides(sets))
         print_warnings(given.warnings)
         if record is None:
-            outcome, unserved = watched(given, seed, number)
+            outcome, left = watched(given, seed, number)
         else:
-            outcome, unserved = recorded(
+            outcome, left = recorded(
                 factory.create(given, seed, number), record, every or 1, percepts or []
             )
     if as_json:
         document = {"seed": seed, "status": outcome.status, **outcome.row}
         if "goals" in outcome.row:
-            document["unserved_goals"] = [each._asdict() for each in unserved]
+            document |= left.document()
         typer.echo(json.dumps(document, indent=2))
     else:
         show(given, seed, outcome)
-        for each in unserved:
-            typer.echo(str(each))
+        for line in left.lines():
+            typer.echo(line)
 
 
 def require_record(options: Mapping[str, object]) -> None:
@@ -106,14 +106,14 @@ def require_record(options: Mapping[str, object]) -> None:
 def watched(scenario: Scenario, seed: int, number: int) -> Ended:
     """Run once, with a progress bar if it takes long."""
     if scenario.engine != "metric":
-        return api.run(scenario, seed, number), []
+        return api.run(scenario, seed, number), GoalsLeft()
     try:
         simulation = Simulation(scenario, seed, number)
     except InputError as no_room:
         # A run without room is quarantined, as in replicate; any other error is raised again.
         outcome = api.run(scenario, seed, number)
         typer.echo(str(no_room), err=True)
-        return outcome, []
+        return outcome, GoalsLeft()
     return shown(simulation, simulation.step)
 
 
@@ -136,7 +136,7 @@ def shown(simulation: Stepped, step: Callable[[], object]) -> Ended:
         while not simulation.is_over:
             step()
             report(simulation.time_s)
-    return simulation.outcome(), unserved_goals(simulation)
+    return simulation.outcome(), goals_left(simulation)
 
 
 def show(scenario: Scenario, seed: int, outcome: Outcome) -> None:

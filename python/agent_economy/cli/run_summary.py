@@ -23,7 +23,19 @@ EVENTS = {
 }
 """Counts of events: their greatest possible value, if any, is too large to limit a mean."""
 
-PARTS_OF_GOALS = {"waiting_s", "travel_s", "blocked_s", "service_s", "served_twice", "expired"}
+PARTS_OF_GOALS = {
+    "waiting_s",
+    "travel_s",
+    "blocked_s",
+    "service_s",
+    "served_twice",
+    "expired",
+    "issued",
+    "open",
+    "reported",
+    "unknown",
+    "done_in_error",
+}
 """Columns of goals of which a quarantined run has no worst value."""
 
 NOT_JUDGED = EVENTS | PARTS_OF_GOALS | {"energy_j", "distance_m", "robots_stopped"}

@@ -129,6 +129,25 @@ GOALS: dict[str, T] = {
     ),
     "served_twice": T("Served twice", "", "Goals", "Goals that several robots served."),
     "expired": T("Expired", "", "Goals", "Goals that no robot served in time."),
+    "issued": T(
+        "Issued",
+        "",
+        "Goals",
+        "Goals that have arrived: those that were served or have expired, and the open, reported "
+        "and unknown ones.",
+    ),
+    "open": T("Open", "", "Goals", "Goals that may still be served."),
+    "reported": T(
+        "Reported", "", "Goals", "Goals of which a controller has reported why none can serve them."
+    ),
+    "unknown": T("Unknown", "", "Goals", "Goals that no working agent knows."),
+    "done_in_error": T(
+        "Done in error",
+        "",
+        "Goals",
+        "Goals that a robot reported as served when it was elsewhere or too short there, and that "
+        "none has served.",
+    ),
     "waiting_s": T(
         "Waiting time",
         "s",

@@ -14,7 +14,7 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.plain import NotPlainError, floats
 from agent_economy.scenario import Scenario, as_scenario, validation
-from agent_economy.types.brain import Command, Percept, Reason, AgentId, Task
+from agent_economy.types.brain import AgentId, Command, Percept, Reason, Task
 
 __all__ = ["Controller", "ControllerSettings", "OwnedGoal", "assignment"]
 
@@ -27,8 +27,8 @@ class ControllerSettings(TypedDict, total=False):
         service_lease_s: Time for which a robot may serve a goal without renewal; 20 by default.
         owner_lease_s: Time for which it owns a goal without renewal by its heir; 30 by default.
         auction_s: Time from the first call for bids to the award; 1 by default.
-        answer_s: Longest time from an award until the robot's next bid has arrived, for which the next
-            award waits; 0.5 by default. In a scenario, it follows from radios and brains.
+        answer_s: Longest time from an award until the robot's next bid has arrived, for which the
+            next award waits; 0.5 by default. In a scenario, it follows from radios and brains.
         max_goals: Maximum number of goals that it owns, more are refused; 1000 by default.
         max_drift: Maximum drift of any clock, in seconds per second; 0.0001 by default.
     """

@@ -500,8 +500,10 @@ class Simulation(Stepped):
         `y_m`, `issued_s`, `awarded_s`, `pursued_s` (a robot first drove there), `began_s` and
         `arrived_s` (the robot that served it set out for the last time, and arrived), `served_s`,
         `blocked_s` (time for which it stood under way), `served_by` (empty if it was not served),
-        `served_twice`, `expired` and `unserved` (why no robot can serve it, as a controller last
-        reported; empty if none did or it was served).
+        `served_twice`, `expired`, `unserved` (why no robot can serve it, as a controller last
+        reported; empty if none did or it was served) and `status`: "pending" before it arrives,
+        "waiting" (the operator is to issue it), "owned", "awarded", "in_service", "served",
+        "expired", "reported" (with `unserved`) or "unknown" (no working agent knows it).
         """
         goals: dict[str, Any] = _core.goals(self._run)
         return arrow.table(

@@ -207,6 +207,7 @@ Reason: TypeAlias = Literal[
     "orphaned",
     "no_controller",
     "position",
+    "invalid",
 ]
 """Why a goal is not served."""
 
@@ -386,6 +387,7 @@ class Dispatch(TypedDict, total=False):
     done: Claim
     stuck: Refusal
     release: Claim
+    acknowledge: GoalId
     withdraw: Claim
     renew: Renewal
     renewed: int

@@ -1,4 +1,4 @@
-//! Ids of agents, and whom a message is for.
+//! Ids of agents, and the receivers of messages.
 
 use base::hash::Hash;
 use base::hashed::Hashed;

@@ -48,6 +48,7 @@ use base::hashed::Hashed;
 use bids::Bids;
 use brain::{
     About, Claim, Command, Dispatch, GoalId, Grantor, Holder, Message, Numbers, Percept, Receiver,
+    Refusal,
 };
 use brain::{AgentId, Reason, Task, wait_s};
 use colleagues::Colleagues;
@@ -196,7 +197,9 @@ impl Controller {
         self.call_full_robots();
         self.probe();
         self.settle_heirs(percept);
-        self.send_reports();
+        for report in self.reports.due(now_s) {
+            self.send(AgentId::OPERATOR, report);
+        }
         self.outbox.sort_by_key(Message::urgency);
         command.outbox.append(&mut self.outbox);
     }
@@ -296,7 +299,14 @@ impl Controller {
     fn take_issued(&mut self, task: Task) {
         self.reports.remove(task.id);
         if let Err(reason) = self.own(task) {
-            self.refuse(task.id, reason);
+            self.refused += 1;
+            let (goal, number) = (task.id, 0);
+            let refusal = Refusal {
+                goal,
+                number,
+                reason,
+            };
+            self.reports.put_refused(refusal, self.now_s);
         }
     }
 

@@ -1,9 +1,8 @@
-//! What a controller reports to the operator of goals, each until the operator has acknowledged it.
+//! Reports to the operator that it has not acknowledged.
 
-use super::Controller;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{AgentId, Dispatch, GoalId, Reason, Refusal};
+use brain::{Dispatch, GoalId, Refusal};
 
 /// A report that has not been acknowledged is repeated after this time, in seconds.
 const RETRY_S: f64 = 2.0;
@@ -15,17 +14,28 @@ pub(super) struct Reports(Vec<Report>);
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Report {
     goal: GoalId,
-    number: u32,
-    reason: Reason,
-    /// Whether the controller does not own the goal.
-    is_refusal: bool,
+    content: Dispatch,
     next_s: f64,
 }
 
 impl Reports {
-    fn put(&mut self, report: Report) {
-        self.remove(report.goal);
-        self.0.push(report);
+    /// Reports that no robot can serve a goal, or that it has been lost.
+    pub(super) fn put_unserved(&mut self, report: Refusal, now_s: f64) {
+        self.put(report.goal, Dispatch::Stuck(report), now_s);
+    }
+
+    /// Reports that the controller does not own a goal.
+    pub(super) fn put_refused(&mut self, report: Refusal, now_s: f64) {
+        self.put(report.goal, Dispatch::Refuse(report), now_s);
+    }
+
+    fn put(&mut self, goal: GoalId, content: Dispatch, next_s: f64) {
+        self.remove(goal);
+        self.0.push(Report {
+            goal,
+            content,
+            next_s,
+        });
     }
 
     pub(super) fn contains(&self, goal: GoalId) -> bool {
@@ -36,58 +46,14 @@ impl Reports {
     pub(super) fn remove(&mut self, goal: GoalId) {
         self.0.retain(|report| report.goal != goal);
     }
-}
 
-impl Controller {
-    /// Reports that no robot can serve a goal, or that it has been lost.
-    pub(super) fn report(&mut self, goal: GoalId, number: u32, reason: Reason) {
-        self.reports.put(Report {
-            goal,
-            number,
-            reason,
-            is_refusal: false,
-            next_s: self.now_s,
+    /// The reports that are to be sent now.
+    pub(super) fn due(&mut self, now_s: f64) -> Vec<Dispatch> {
+        let due = self.0.iter_mut().filter(|report| now_s >= report.next_s);
+        let due = due.map(|report| {
+            report.next_s = now_s + RETRY_S;
+            report.content
         });
-    }
-
-    /// Reports that it does not own a goal that a person has issued to it.
-    pub(super) fn refuse(&mut self, goal: GoalId, reason: Reason) {
-        self.refused += 1;
-        self.reports.put(Report {
-            goal,
-            number: 0,
-            reason,
-            is_refusal: true,
-            next_s: self.now_s,
-        });
-    }
-
-    /// Sends the reports that are due.
-    pub(super) fn send_reports(&mut self) {
-        for index in 0..self.reports.0.len() {
-            let report = &mut self.reports.0[index];
-            if self.now_s < report.next_s {
-                continue;
-            }
-            report.next_s = self.now_s + RETRY_S;
-            let Report {
-                goal,
-                number,
-                reason,
-                is_refusal,
-                ..
-            } = *report;
-            let refusal = Refusal {
-                goal,
-                number,
-                reason,
-            };
-            let dispatch = if is_refusal {
-                Dispatch::Refuse(refusal)
-            } else {
-                Dispatch::Stuck(refusal)
-            };
-            self.send(AgentId::OPERATOR, dispatch);
-        }
+        due.collect()
     }
 }

@@ -4,7 +4,7 @@ use super::picture::Robot;
 use super::{Controller, NO_BID};
 use crate::allocation::Allocation;
 use alloc::vec::Vec;
-use brain::{GoalId, Reason};
+use brain::{GoalId, Reason, Refusal};
 
 /// A goal for which no robot has bid for this time, in seconds, is offered to each robot alone.
 const PATIENCE_S: f64 = 10.0;
@@ -72,6 +72,16 @@ impl Controller {
             }
             None => self.give_up(goal, Reason::NoRobot),
         }
+    }
+
+    /// Reports that no robot can serve a goal, or that it has been lost.
+    pub(super) fn report(&mut self, goal: GoalId, number: u32, reason: Reason) {
+        let report = Refusal {
+            goal,
+            number,
+            reason,
+        };
+        self.reports.put_unserved(report, self.now_s);
     }
 
     /// The goal rests; the first time, that is reported to the operator.

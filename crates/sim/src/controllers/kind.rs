@@ -2,6 +2,7 @@
 
 use super::ControllerSpec;
 use super::lane::around_obstacles;
+use crate::bodies::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::radio::Radio;
 use crate::scenario::ScenarioSpec;
@@ -34,6 +35,37 @@ pub(crate) enum ControllerBase {
     Placed(Placement),
     /// Aboard the robots of the kind of this number.
     Aboard(u8),
+}
+
+impl ControllerSpec {
+    /// The longest time until a robot has answered a message: two trips over the radio, and a period of its brain.
+    pub(crate) fn answer_s(&self, scenario: &ScenarioSpec) -> f64 {
+        let step_s = scenario.clock.step_s;
+        let of_robot_s = |robot: &RobotSpec| {
+            let period_s = robot.brain.rate_hz.map_or(step_s, |rate_hz| 1.0 / rate_hz);
+            let radio = robot.radio.as_ref();
+            radio.map_or(step_s, |radio| radio.trip_s(step_s) + period_s)
+        };
+        let robots_s = scenario.robots.values().map(of_robot_s);
+        robots_s.fold(step_s, f64::max) + self.radio.trip_s(step_s)
+    }
+
+    /// Its settings in a scenario.
+    pub(crate) fn settings(&self, scenario: &ScenarioSpec) -> Settings {
+        let max_drift = scenario.clock.max_drift;
+        Settings {
+            allocation: self.allocation,
+            service_lease_s: self.service_lease_s,
+            owner_lease_s: self.owner_lease_s,
+            auction_s: self.auction_s,
+            max_goals: self.max_goals,
+            max_drift,
+            answer_s: self.answer_s(scenario),
+            clearance: None,
+            passage: None,
+            is_called_off: self.clearance.as_ref().is_some_and(|lane| lane.called_off),
+        }
+    }
 }
 
 impl ControllerKind {

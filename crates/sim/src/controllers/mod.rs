@@ -4,9 +4,7 @@ pub(crate) mod clearance;
 pub(crate) mod kind;
 pub(crate) mod lane;
 
-use crate::bodies::RobotSpec;
 use crate::radio::RadioSpec;
-use crate::scenario::ScenarioSpec;
 use crate::sensors::SensorSpec;
 use base::placement::Placement;
 use clearance::ClearanceSpec;
@@ -64,37 +62,6 @@ pub struct ControllerSpec {
     pub max_goals: u32,
     /// A mined lane that they are to clear. Only one kind of controllers can have one.
     pub clearance: Option<ClearanceSpec>,
-}
-
-impl ControllerSpec {
-    /// The longest time until a robot has answered a message: two trips over the radio, and a period of its brain.
-    pub(crate) fn answer_s(&self, scenario: &ScenarioSpec) -> f64 {
-        let step_s = scenario.clock.step_s;
-        let of_robot_s = |robot: &RobotSpec| {
-            let period_s = robot.brain.rate_hz.map_or(step_s, |rate_hz| 1.0 / rate_hz);
-            let radio = robot.radio.as_ref();
-            radio.map_or(step_s, |radio| radio.trip_s(step_s) + period_s)
-        };
-        let robots_s = scenario.robots.values().map(of_robot_s);
-        robots_s.fold(step_s, f64::max) + self.radio.trip_s(step_s)
-    }
-
-    /// Its settings in a scenario.
-    pub(crate) fn settings(&self, scenario: &ScenarioSpec) -> Settings {
-        let max_drift = scenario.clock.max_drift;
-        Settings {
-            allocation: self.allocation,
-            service_lease_s: self.service_lease_s,
-            owner_lease_s: self.owner_lease_s,
-            auction_s: self.auction_s,
-            max_goals: self.max_goals,
-            max_drift,
-            answer_s: self.answer_s(scenario),
-            clearance: None,
-            passage: None,
-            is_called_off: self.clearance.as_ref().is_some_and(|lane| lane.called_off),
-        }
-    }
 }
 
 fn service_lease_s() -> f64 {

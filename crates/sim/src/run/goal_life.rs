@@ -15,11 +15,11 @@ use std::collections::{BTreeMap, BTreeSet};
 pub enum GoalStatus {
     /// It has not arrived.
     Pending,
-    /// The operator is to issue it, or to issue it again; without controllers, no robot is on its way.
+    /// The operator is to issue it, or to issue it again; without controllers, no robot drives there.
     Waiting,
     /// A controller owns it.
     Owned,
-    /// A robot is on its way.
+    /// A robot drives there.
     Awarded,
     /// A robot is there, and has not stayed as long as its service takes.
     InService,

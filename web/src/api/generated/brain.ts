@@ -161,7 +161,7 @@ export interface Coverage {
 }
 
 /** A message about a goal that a controller owns or awards. */
-export type Dispatch = { issue: Task } | { serial: number } | { query: Record<string, never> } | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { restore: Task } | { bind: Award } | { assigned: Assignment } | { service: boolean } | { lane: Lane } | { coverage: Coverage } | { mark: Mark } | { statement: Statement } | { lane_gain: number };
+export type Dispatch = { issue: Task } | { serial: number } | { query: Record<string, never> } | { report: Report } | { fitness: Fitness } | { call: { number: number; task: Task } } | { bid: Bid } | { award: Award } | { commit: Claim } | { refuse: Refusal } | { done: Claim } | { stuck: Refusal } | { release: Claim } | { acknowledge: GoalId } | { withdraw: Claim } | { renew: Renewal } | { renewed: number } | { differs: number } | { renew_one: Claim } | { renewed_one: Claim } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { relieve: Claim } | { relieved: Claim } | { restore: Task } | { bind: Award } | { assigned: Assignment } | { service: boolean } | { lane: Lane } | { coverage: Coverage } | { mark: Mark } | { statement: Statement } | { lane_gain: number };
 
 /** The progress of a robot towards a goal. */
 export interface Fitness {
@@ -398,7 +398,7 @@ export interface Provenance {
 }
 
 /** Why a goal is not served. */
-export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "orphaned" | "no_controller" | "position";
+export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "orphaned" | "no_controller" | "position" | "invalid";
 
 /** A received message. */
 export interface ReceivedMessage {

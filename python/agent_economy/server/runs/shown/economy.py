@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Literal
 
+from agent_economy.runs.reasons import reason_label
 from agent_economy.runs.simulation import Simulation
 from agent_economy.server.runs.shown import economy_panel
 from agent_economy.server.runs.shown.drawing import (
@@ -16,7 +17,7 @@ from agent_economy.server.runs.shown.drawing import (
     line,
     stroke,
 )
-from agent_economy.server.runs.shown.goals import NO_OWNER, Picture, goals_of, reason_label
+from agent_economy.server.runs.shown.goals import NO_OWNER, Picture, goals_of
 from agent_economy.server.runs.shown.row_filter import row_filter
 from agent_economy.server.runs.shown.subject import Contents, Request, Subject
 from agent_economy.types.page import Area, Colour, Glyph, Key, Layer, Line, Marker
@@ -83,7 +84,7 @@ def ranges(picture: Picture) -> Iterator[Area]:
 def awards(picture: Picture) -> Iterator[Line]:
     """Yield a line from each robot to each goal that it has been awarded."""
     for goal in picture.goals:
-        if goal.status == "awarded":
+        if goal.status in ("awarded", "in_service"):
             drawn = stroke(picture.colour(goal.owner), 1.5)
             opacity = picture.opacity(goal.owner)
             yield line([goal.at], drawn, robot=goal.robot, opacity=opacity)
@@ -113,7 +114,7 @@ def symbol(status: str, colour: Colour, *, is_hopeless: bool = False) -> list[Gl
             return [glyph("cross", 5.0, None, stroke("item-missed"))]
         case "pending":
             return [glyph("circle", 2.0, fill(colour))]
-        case "awarded":
+        case "awarded" | "in_service":
             disc = glyph("circle", 2.5, fill(colour))
             return [glyph("circle", 5.0, fill("ground"), outline), disc, *cross]
         case _:

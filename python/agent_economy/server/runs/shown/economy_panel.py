@@ -2,9 +2,10 @@
 
 from collections.abc import Callable, Iterator
 
+from agent_economy.runs.reasons import reason_label
 from agent_economy.runs.simulation import Simulation
 from agent_economy.server.runs.shown.drawing import chooses
-from agent_economy.server.runs.shown.goals import STATUSES, Goal, Picture, Row, reason_label
+from agent_economy.server.runs.shown.goals import STATUSES, Goal, Picture, Row
 from agent_economy.server.runs.shown.row_filter import RowFilter
 from agent_economy.server.runs.shown.tables import MAX_ROWS, cell, muted, row, section, table
 from agent_economy.types.page import Cell, Colour, Panel, Section
@@ -36,7 +37,7 @@ def controller(picture: Picture, of: Row, choice: tuple[str, str]) -> TableRow:
     name = of["name"]
     own = [goal for goal in picture.goals if goal.owner == name]
     orphans = [orphan for orphan in of["orphans"] if orphan is not None]
-    awarded = sum(goal.status == "awarded" for goal in own)
+    awarded = sum(goal.status in ("awarded", "in_service") for goal in own)
     button = cell(
         name,
         colour=picture.colour(name),

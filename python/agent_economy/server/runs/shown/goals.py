@@ -21,25 +21,16 @@ STATUSES = {
     "pending": "not yet issued",
     "open": "open",
     "awarded": "awarded",
+    "in_service": "in service",
     "served": "served",
     "expired": "expired",
+    "reported": "reported",
+    "unknown": "unknown to all working agents",
 }
 """The status of a goal in words."""
 
-REASONS = {
-    "unreachable": "no path leads there",
-    "capability": "no robot has the capability",
-    "deadline": "every robot would be too late",
-    "battery": "no battery lasts",
-    "full": "every robot serves its maximum number of goals",
-    "lease": "the service takes longer than a lease",
-    "out_of_service": "the robots are out of service",
-    "no_robot": "no robot is in range",
-    "orphaned": "its owner has lost it: the heir did not renew the lease",
-    "no_controller": "no controller works",
-    "position": "no robot knows its position well enough",
-}
-"""Why no robot can serve a goal."""
+OPEN = ("waiting", "owned")
+"""States of goals that are open: the operator is to issue them, or a controller owns them."""
 
 
 class Goal(NamedTuple):
@@ -100,7 +91,8 @@ def owned_goals(controllers: list[dict[str, Any]]) -> Iterator[tuple[str | None,
 def goal(of: Row, owned: Row) -> Goal:
     """Return a goal, with what its owner knows of it."""
     assignee = owned.get("assignee")
-    status = status_of(of, assignee)
+    status = "open" if of["status"] in OPEN else of["status"]
+    reported = of["unserved"] if status == "reported" else None
     return Goal(
         name=of["name"],
         at=(of["x_m"], of["y_m"]),
@@ -109,21 +101,5 @@ def goal(of: Row, owned: Row) -> Goal:
         heir=owned.get("heir"),
         robot=(of["served_by"] or None) if status == "served" else assignee,
         lease_s=owned.get("lease_s"),
-        unserved=owned.get("unserved") if owned else of["unserved"],
+        unserved=owned.get("unserved") if owned else reported,
     )
-
-
-def status_of(of: Row, assignee: str | None) -> str:
-    """Return the status of a goal."""
-    if of["served_s"] is not None:
-        return "served"
-    if of["expired"]:
-        return "expired"
-    if assignee is not None:
-        return "awarded"
-    return "pending" if of["issued_s"] is None else "open"
-
-
-def reason_label(unserved: str) -> str:
-    """Return why no robot can serve a goal, in words."""
-    return REASONS.get(unserved, unserved)

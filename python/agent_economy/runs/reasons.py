@@ -1,0 +1,22 @@
+"""Why goals are not served, in words."""
+
+REASONS = {
+    "unreachable": "no robot can reach it",
+    "capability": "no robot has the capability",
+    "deadline": "every robot would be too late",
+    "battery": "no battery lasts",
+    "full": "every robot serves, or the controllers own, their maximum number of goals",
+    "lease": "the service takes longer than a lease",
+    "out_of_service": "the robots are out of service",
+    "no_robot": "no robot is in range",
+    "orphaned": "its owner has lost it, because the heir did not renew the lease",
+    "no_controller": "no controller works that could own it",
+    "position": "no robot knows its position well enough",
+    "invalid": "its numbers are impossible",
+}
+"""Reasons that controllers report."""
+
+
+def reason_label(reason: str) -> str:
+    """Return why a goal is not served, in words."""
+    return REASONS.get(reason, reason)
