@@ -181,7 +181,7 @@ impl Behaviour for Ready {
         Some(Proposal::Destination(Destination {
             id: job.task.id,
             at,
-            tolerance_m: ability.approach_m(&job.task, near_m),
+            tolerance_m: ability.approach_m(&job.task, job.within_m(near_m, pose.deviation_m)),
             max_deviation_m: job.max_deviation_m(),
             is_at_hazard: ability.is_at_hazard(&job.task),
             max_speed_m_s: ability.speed_at_m_s(&job.task, [pose.at.to(at).length(), near_m]),

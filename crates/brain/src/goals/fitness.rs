@@ -14,7 +14,7 @@ pub(crate) const PROGRESS_M: f64 = 0.1;
 /// Time without progress after which the robot recedes, and after which the goal is impossible, in
 /// seconds.
 const RECEDING_S: f64 = 4.0;
-const IMPOSSIBLE_S: f64 = 30.0;
+pub(crate) const IMPOSSIBLE_S: f64 = 30.0;
 
 /// A discovery that makes the path longer by more than this leads elsewhere, in metres: the time without
 /// progress starts over. One that lengthens it by less, such as a further cell of an obstacle that the path

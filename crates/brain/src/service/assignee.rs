@@ -11,7 +11,7 @@ use super::lane_reports::{Interrogation, LANE_REPORT_PERIOD_S, LaneReports};
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
 use super::schedule::Schedule;
-use crate::goals::proposal::within_m;
+use crate::goals::fitness::IMPOSSIBLE_S;
 use crate::io::act::Act;
 use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::command::Command;
@@ -140,7 +140,8 @@ impl Assignee {
         let seems_there = is_near(job, ability, pose.at, 0.0);
         job.is_uncertain |= seems_there && !is_certain(job, pose.deviation_m);
         let is_there = is_there(job, ability, pose.at, pose.deviation_m);
-        Some((*job, is_there && job.is_swept(ability)))
+        let waits = job.waited_s > 0.0 && !is_certain(job, pose.deviation_m);
+        Some((*job, waits || is_there && job.is_swept(ability)))
     }
 
     /// Whether it serves a goal.
@@ -414,6 +415,7 @@ impl Assignee {
             return;
         };
         let goal = job.task.id;
+        self.wait(&job, ability, moment);
         if !is_there(&job, ability, at, moment.deviation_m) {
             // A service that was interrupted begins again.
             if let Some(job) = self.jobs.get_mut(goal) {
@@ -443,6 +445,34 @@ impl Assignee {
             }
         } else if job.served_s > 0.0 || left_s > job.left_s() + moment.body.period_s {
             job.served_s += moment.body.period_s;
+        }
+    }
+
+    /// Counts for how long the robot has stood at a goal without knowing its position well enough, and gives up after a
+    /// time.
+    fn wait(&mut self, job: &Job, ability: &Ability, moment: &Moment) {
+        let (Some(at), deviation_m) = (moment.at, moment.deviation_m) else {
+            return;
+        };
+        let (target, near_m) = job.target(ability);
+        // Noise moves the position that it believes to and fro, although it stands.
+        let is_still_there =
+            job.waited_s > 0.0 && at.to(target).length() <= near_m + 2.0 * deviation_m;
+        let is_uncertain = !is_certain(job, deviation_m);
+        let waits = is_uncertain && (is_still_there || is_near(job, ability, at, deviation_m));
+        let Some(job) = self.jobs.get_mut(job.task.id) else {
+            return;
+        };
+        if waits {
+            job.waited_s += moment.body.period_s;
+        } else if is_uncertain {
+            job.waited_s = 0.0;
+        }
+        if job.waited_s > IMPOSSIBLE_S && deviation_m > job.max_deviation_m() {
+            (job.waited_s, job.verdict) = (0.0, Verdict::Impossible);
+            let goal = job.task.id;
+            job.rests_until_s = self.failures.add(goal, Reason::Position, self.now_s);
+            self.report_failure(goal, Reason::Position);
         }
     }
 
@@ -482,7 +512,7 @@ fn is_there(job: &Job, ability: &Ability, at: Point, deviation_m: f64) -> bool {
 
 /// Whether the position is known well enough for a service that has not begun.
 fn is_certain(job: &Job, deviation_m: f64) -> bool {
-    job.has_begun() || deviation_m <= job.max_deviation_m()
+    job.has_begun() || job.is_certain(deviation_m)
 }
 
 fn is_near(job: &Job, ability: &Ability, at: Point, deviation_m: f64) -> bool {
@@ -492,10 +522,8 @@ fn is_near(job: &Job, ability: &Ability, at: Point, deviation_m: f64) -> bool {
     let (target, near_m) = job.target(ability);
     let near_m = if job.has_begun() {
         near_m
-    } else if job.max_deviation_m().is_finite() {
-        within_m(near_m, deviation_m)
     } else {
-        ability.approach_m(&job.task, near_m)
+        ability.approach_m(&job.task, job.within_m(near_m, deviation_m))
     };
     at.to(target).length() <= near_m
 }

@@ -12,6 +12,13 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
 
+/// A robot that seems to be there waits for this time until it knows its position better than it needs to.
+const PATIENCE_S: f64 = 10.0;
+
+/// It drives nearer to the goal than it needs to by this number of standard deviations, but at most to this fraction.
+const MARGIN_DEVIATIONS: f64 = 3.0;
+const MIN_WITHIN: f64 = 0.25;
+
 /// Times in messages have the precision of 32-bit floats.
 const ROUNDING_S: f64 = 1e-6;
 
@@ -30,6 +37,8 @@ pub(crate) struct Job {
     pub(crate) verdict: Verdict,
     /// Whether the robot has seemed to be there, but did not know its position well enough.
     pub(crate) is_uncertain: bool,
+    /// For how long it has stood there until it knows its position well enough.
+    pub(crate) waited_s: f64,
     /// Until when others are served first, because it was impossible.
     pub(crate) rests_until_s: f64,
     /// What it is to neutralise, once it has detected it.
@@ -49,6 +58,7 @@ impl Job {
             visited: 0,
             verdict: Verdict::Approaching,
             is_uncertain: false,
+            waited_s: 0.0,
             rests_until_s: f64::NEG_INFINITY,
             aim: None,
             charges: Charges::default(),
@@ -77,6 +87,22 @@ impl Job {
     /// Whether the service has begun: looks or a charge, which end if the robot drives on.
     pub(crate) fn has_begun(&self) -> bool {
         self.served_s > 0.0 || self.charges.is_firing
+    }
+
+    /// How near to its goal the robot drives, and has to believe itself to be: a position with a standard deviation is
+    /// rarely outside of the goal then.
+    pub(crate) fn within_m(&self, near_m: f64, deviation_m: f64) -> f64 {
+        match self.task.work {
+            Work::Visit => (near_m - MARGIN_DEVIATIONS * deviation_m).max(MIN_WITHIN * near_m),
+            Work::Search | Work::Interrogate | Work::Neutralise => near_m,
+        }
+    }
+
+    /// Whether the robot knows its position well enough to be there: within half of what it needs, which makes errors
+    /// rare, or after it has waited for that.
+    pub(crate) fn is_certain(&self, deviation_m: f64) -> bool {
+        let max_m = self.max_deviation_m();
+        deviation_m <= max_m / 2.0 || deviation_m <= max_m && self.waited_s >= PATIENCE_S
     }
 
     /// The largest standard deviation of its position with which the robot knows that it is there.

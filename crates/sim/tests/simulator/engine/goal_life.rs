@@ -94,6 +94,20 @@ fn reports_over_a_radio_of_one_message_per_step_arrive() {
 }
 
 #[test]
+fn robots_with_noisy_positions_serve_no_goal_in_error() {
+    let noise = ("robots.rover.sensors.gps.noise_m", "2");
+    for within_m in ["0.4", "1.5"] {
+        let more = [
+            ("goals.spot.within_m", within_m),
+            ("clock.time_limit_s", "900"),
+        ];
+        let text = with(&[noise, more[0], more[1], ("goals.spot.service_s", "0")]);
+        let goals = finished(start(&text)).outcome().goals.unwrap();
+        assert_eq!((goals.served, goals.done_in_error), (12, 0), "{within_m}");
+    }
+}
+
+#[test]
 fn goals_that_only_a_lost_controller_knew_are_unknown() {
     let text = with(&[("robots.rover.out_of_service", "[0, 1, 2]")]);
     let mut simulation = start(&text);
