@@ -96,8 +96,8 @@ test("the panel has the belief of the chosen controller, and the truth unless it
 });
 
 test("what a controller has declared is shown beside the truth", async ({ page, server }) => {
-  const panel = await openPanel(page, server, 516);
-  await expect(panel.getByText(/^Declared clear at 103\.0 s, at a risk of 3\.\d%\.$/)).toBeVisible();
+  const panel = await openPanel(page, server, 531);
+  await expect(panel.getByText(/^Declared clear at 106\.0 s, at a risk of 4\.\d%\.$/)).toBeVisible();
   await expect(panel.getByText("No mines left in the lane.")).toBeVisible();
   // The columns declared and declared_s are one row.
   await openTab(page, "Results");

@@ -94,10 +94,10 @@ test("what a lane's controllers state is not yet known before they do, and with 
   await expect(figure(page, "Stated risk")).toHaveText("not yet");
   await group(page, "Lane").click();
   await expect(terms(page)).toHaveText(["Declared", "Stated risk", "Found", "Given up"]);
-  await openResults(page, server, `${lane}&tick=516`, 1280);
+  await openResults(page, server, `${lane}&tick=531`, 1280);
   await expect(panel(page).getByRole("heading", { name: "Outcome", exact: true })).toBeVisible();
-  await expect(figure(page, "Declared")).toHaveText("103 s");
-  await expect(figure(page, "Stated risk")).toHaveText(/^3\.\d+ %$/);
+  await expect(figure(page, "Declared")).toHaveText("106 s");
+  await expect(figure(page, "Stated risk")).toHaveText(/^4\.\d+ %$/);
   await group(page, "Mission").click();
   await expect(figure(page, "Complete")).toHaveText("yes");
   await expect(figure(page, "Merit")).toHaveText("8.55");
