@@ -115,10 +115,11 @@ def test_check_reports_valid_scenarios(classic_toml: Path, tmp_path: Path) -> No
     assert list(tmp_path.iterdir()) == []
 
 
-def test_check_prints_how_soon_goals_of_a_lost_controller_are_offered_again() -> None:
+def test_check_prints_how_long_a_round_takes_and_when_lost_goals_are_offered_again() -> None:
     lines = succeed("check", "waypoints").stdout.splitlines()
-    start = "    controllers.base: goals of a lost controller"
-    assert any(line.startswith(start) for line in lines)
+    (line,) = [line for line in lines if line.startswith("    controllers.base: ")]
+    assert "a round of awards takes at most 0.60 s" in line
+    assert "goals of a lost controller have an owner or are reported" in line
 
 
 def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Path) -> None:
