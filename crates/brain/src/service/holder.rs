@@ -84,6 +84,11 @@ impl Holder {
         });
     }
 
+    /// From now on, no answer to an earlier request for a goal has an effect; its lease stays.
+    pub fn forget_requests(&mut self, goal: GoalId) {
+        self.requests.retain(|request| request.goal != Some(goal));
+    }
+
     /// Takes a grant of a goal; returns whether it is held now. A grant that answers no request, or
     /// too late, changes nothing.
     pub fn accept(&mut self, from: AgentId, claim: Claim, lasts_s: f64, now_s: f64) -> bool {

@@ -119,8 +119,10 @@ impl Controller {
         self.send(heir, Dispatch::Relieve(Claim { goal, number }));
     }
 
-    /// From now on, the goal is owned only under a lease.
+    /// From now on, the goal is owned only under a lease. An heir that answered an earlier request before it received the
+    /// binding did not know that it would be bound: such an answer relieves it no more.
     pub(super) fn bind(&mut self, goal: GoalId, heir: AgentId, number: u32) {
+        self.tenures.forget_requests(goal);
         let (now_s, lease_s) = (self.now_s, self.settings.service_lease_s);
         if let Some(owned) = self.goal_mut(goal) {
             owned.heir = Heir::Bound {
