@@ -171,9 +171,16 @@ impl Assignee {
             } else {
                 Reason::Unreachable
             };
-            job.rests_until_s = self.failures.add(goal, reason, self.now_s);
-            self.report_failure(goal, reason);
+            self.fail(goal, reason);
         }
+    }
+
+    /// A goal is impossible at present: others are served first, and its owner is to know.
+    fn fail(&mut self, goal: GoalId, reason: Reason) {
+        if let Some(job) = self.jobs.get_mut(goal) {
+            job.rests_until_s = self.failures.add(goal, reason, self.now_s);
+        }
+        self.report_failure(goal, reason);
     }
 
     /// Changes the ids of other agents; those without a new id are forgotten.
@@ -471,8 +478,7 @@ impl Assignee {
         if job.waited_s > IMPOSSIBLE_S && deviation_m > job.max_deviation_m() {
             (job.waited_s, job.verdict) = (0.0, Verdict::Impossible);
             let goal = job.task.id;
-            job.rests_until_s = self.failures.add(goal, Reason::Position, self.now_s);
-            self.report_failure(goal, Reason::Position);
+            self.fail(goal, Reason::Position);
         }
     }
 

@@ -149,7 +149,7 @@ impl Holder {
 
     /// Ends a lease; no grant that answers an earlier request has an effect from now on.
     pub fn release(&mut self, goal: GoalId) -> Option<Lease> {
-        self.requests.retain(|request| request.goal != Some(goal));
+        self.forget_requests(goal);
         let index = self.leases.iter().position(|lease| lease.goal == goal)?;
         Some(self.leases.remove(index))
     }
