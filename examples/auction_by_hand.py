@@ -47,7 +47,7 @@ def issued(number: int) -> dict[str, Any]:
         "work": "visit",
         "capability": 0,
     }
-    message = {"to": BASE, "about": {"dispatch": {"issue": task}}, "confidence": 1}
+    message = {"to": BASE, "about": {"contract": {"issue": task}}, "confidence": 1}
     return {"from": OPERATOR, "age_s": 0, "message": message}
 
 

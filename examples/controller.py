@@ -47,9 +47,10 @@ class Fair:
         self.outbox = []
         time_s = percept["time_s"] or 0.0
         for received in percept["inbox"]:
-            dispatch: Any = received["message"]["about"].get("dispatch", {})
-            for kind, content in dispatch.items():
-                self.receive(received["from"], kind, content, time_s)
+            about: Any = received["message"]["about"]
+            for subject in ("contract", "lease"):
+                for kind, content in about.get(subject, {}).items():
+                    self.receive(received["from"], kind, content, time_s)
         if time_s >= self.next_round_s:
             self.next_round_s = time_s + ROUND_S
             self.award(time_s)
@@ -61,7 +62,7 @@ class Fair:
         if kind == "issue":
             self.goals[content["id"]["number"]] = Goal(content)
         elif kind == "renew":  # of all leases at once: let the robot renew each by itself
-            self.send(sender, "differs", content["number"])
+            self.send(sender, "differs", content["number"], "lease")
         elif kind in ("bid", "renew_one", "done", "refuse", "stuck", "release"):
             self.answer(sender, kind, content, time_s)
 
@@ -78,7 +79,7 @@ class Fair:
             goal.bids.append((sender, content))
         elif sender == goal.robot and kind == "renew_one":
             goal.until_s = time_s + WAIT_S
-            self.send(sender, "renewed_one", claim)
+            self.send(sender, "renewed_one", claim, "lease")
         elif sender == goal.robot:  # it gives the goal back
             self.take_back(goal)
 
@@ -109,9 +110,9 @@ class Fair:
         self.awards[str(goal.robot)] -= 1
         goal.robot, goal.until_s = None, 0.0
 
-    def send(self, to: Any, kind: str, content: Any) -> None:
+    def send(self, to: Any, kind: str, content: Any, subject: str = "contract") -> None:
         """Send a message to an agent, or to all with None."""
-        message = {"about": {"dispatch": {kind: content}}, "confidence": 1.0}
+        message = {"about": {subject: {kind: content}}, "confidence": 1.0}
         self.outbox.append(message if to is None else message | {"to": to})
 
 

@@ -92,6 +92,7 @@ RULES: dict[str, Changes] = {
     "messages": {CONTROLLERS: 0},
     "nearest": {RULE: "nearest", **ONLY_SERVE},
     "auction": {RULE: "auction", **ONLY_SERVE},
+    "auction_last": {RULE: "auction_last", **ONLY_SERVE},
     "optimal": {RULE: "optimal", **ONLY_SERVE},
     "fixed plan": {LEASE: 3600, BEHAVIOURS: [SERVE | {"max_goals": 64}, AVOID]},
     "auction and messages": {RULE: "auction"},

@@ -125,8 +125,8 @@ RECEIVED = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         ({"heading_rad": 1.0}, "percept.heading_rad = 1.0: must be a dict with value and age_s"),
         (
             {"inbox": [RECEIVED | {"message": {"about": {}}}]},
-            "must be a dict with item, a dict with sender, a dict with goal, a dict with order or "
-            "a dict with dispatch",
+            "must be a dict with item, a dict with sender, a dict with goal, a dict with order, "
+            "a dict with contract, a dict with lease, a dict with ownership or a dict with lane",
         ),
         ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
         ({"touch": {"value": 3, "age_s": 0.0}}, "percept.touch.value = 3: must be True or False"),

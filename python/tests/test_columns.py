@@ -60,6 +60,15 @@ def scalar(schema: Any, chance: random.Random) -> float | bool:
     return chance.random() < 0.5
 
 
+UNIONS = {
+    "contract": "ContractMessage",
+    "lease": "LeaseMessage",
+    "ownership": "OwnershipMessage",
+    "lane": "LaneMessage",
+}
+"""The kinds of messages that are unions themselves, and their types."""
+
+
 def kinds_of_messages() -> list[tuple[str, ...]]:
     """Return the path of each type of message."""
     return [
@@ -67,8 +76,8 @@ def kinds_of_messages() -> list[tuple[str, ...]]:
         for part in TYPES["About"]["oneOf"]
         for name, content in part["properties"].items()
         for inner in (
-            [(key,) for each in TYPES["Dispatch"]["oneOf"] for key in each["properties"]]
-            if name == "dispatch"
+            [(key,) for each in TYPES[UNIONS[name]]["oneOf"] for key in each["properties"]]
+            if name in UNIONS
             else [()]
         )
     ]
@@ -88,7 +97,7 @@ def message(path: tuple[str, ...], chance: random.Random) -> dict[str, Any]:
 
 def content_of(path: tuple[str, ...]) -> Any:
     """Return the schema of the content of a type of message."""
-    union = TYPES["About" if len(path) == 1 else "Dispatch"]
+    union = TYPES["About" if len(path) == 1 else UNIONS[path[0]]]
     return next(
         part["properties"][path[-1]] for part in union["oneOf"] if path[-1] in part["properties"]
     )
@@ -155,11 +164,11 @@ def test_a_brain_on_arrays_bids_for_the_goal_of_a_controller_and_is_awarded_it()
         del memory
         bids: list[Any] = []
         for received in percepts["inbox"]:
-            dispatch = received["message"]["about"].get("dispatch", {})
-            if "award" in dispatch:
+            message = received["message"]["about"].get("contract", {})
+            if "award" in message:
                 awards.append(received["row"])
-            if "call" in dispatch:
-                call = dispatch["call"]
+            if "call" in message:
+                call = message["call"]
                 calls.append(call["task"]["at_m"][0])
                 content = {
                     "goal": call["task"]["id"],
@@ -169,7 +178,7 @@ def test_a_brain_on_arrays_bids_for_the_goal_of_a_controller_and_is_awarded_it()
                     "energy": 0.0,
                     "call": call["number"],
                 }
-                about = {"dispatch": {"bid": content}}
+                about = {"contract": {"bid": content}}
                 bid = {"to": received["from"], "about": about, "confidence": 0.9}
                 bids.append({"row": received["row"], **bid})
         return {"outbox": bids}

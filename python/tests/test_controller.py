@@ -25,9 +25,9 @@ def task(number: int) -> dict[str, Any]:
     }
 
 
-def received(sender: dict[str, Any], **dispatch: Any) -> dict[str, Any]:
+def received(sender: dict[str, Any], **contract: Any) -> dict[str, Any]:
     """Return a received message."""
-    message = {"to": BASE, "about": {"dispatch": dispatch}, "confidence": 1}
+    message = {"to": BASE, "about": {"contract": contract}, "confidence": 1}
     return {"from": sender, "age_s": 0.1, "message": message}
 
 
@@ -37,9 +37,9 @@ def percept(time_s: float, *inbox: dict[str, Any]) -> Any:
 
 
 def sent(command: Any, kind: str) -> list[Any]:
-    """Return the messages of a kind in a command."""
-    dispatches = [message["about"]["dispatch"] for message in command["outbox"]]
-    return [dispatch[kind] for dispatch in dispatches if kind in dispatch]
+    """Return the messages about contracts of a kind in a command."""
+    contracts = [message["about"].get("contract", {}) for message in command["outbox"]]
+    return [contract[kind] for contract in contracts if kind in contract]
 
 
 def awarded(controller: ae.Controller, bids: int = 1) -> list[Any]:
@@ -75,8 +75,8 @@ def test_a_goal_is_awarded_to_the_robot_that_bids() -> None:
     assert goal["assignee"] == ROVER
     assert goal["lease_s"] is not None
     assert goal["lease_s"] > 0
-    assert (goal["heir"], goal["owner_lease_s"], goal["unserved"]) == (None, None, None)
-    assert (controller.orphans, controller.refused) == ([], 0)
+    assert (goal["backup"], goal["owner_lease_s"], goal["unserved"]) == (None, None, None)
+    assert (controller.lost, controller.refused) == ([], 0)
 
 
 def test_the_rule_none_awards_nothing() -> None:

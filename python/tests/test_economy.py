@@ -281,8 +281,8 @@ def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
         "capability": 0,
     }
 
-    def step(time_s: float, dispatch: dict[str, Any]) -> list[Any]:
-        message = {"about": {"dispatch": dispatch}, "confidence": 1.0}
+    def step(time_s: float, contract: dict[str, Any]) -> list[Any]:
+        message = {"about": {"contract": contract}, "confidence": 1.0}
         message["to"] = {"kind": 0, "index": 0}
         inbox = [
             {
@@ -293,7 +293,7 @@ def test_a_brain_stepped_by_hand_shows_the_leases_that_it_holds() -> None:
         ]
         percept = {"time_s": time_s, "position": position, "heading_rad": heading, "inbox": inbox}
         outbox = brain.step(percept)["outbox"]  # type: ignore[arg-type]
-        return [each["about"]["dispatch"] for each in outbox if "dispatch" in each["about"]]
+        return [each["about"]["contract"] for each in outbox if "contract" in each["about"]]
 
     (bid,) = [
         each["bid"] for each in step(1.0, {"call": {"number": 0, "task": task}}) if "bid" in each

@@ -111,7 +111,7 @@ def test_a_long_auction_and_a_lost_owner_are_waited_for(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("[[2, 2]]", "[[2, 2], [3, 3]]"))
     watch = Watch(path)
     assert watch.goals.quiet_s == QUIET_S + 2 * 40 + 30 + 60
-    watch.step(20)  # the heir of each goal knows it
+    watch.step(20)  # the backup of each goal knows it
     watch.simulation.fail("base/0")
     verdicts = [verdict for _ in range(300) for verdict, _ in watch.step(1).values()]
     assert verdicts[-3:] == ["complete"] * 3

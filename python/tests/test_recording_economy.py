@@ -63,7 +63,7 @@ def test_each_recorded_step_has_the_goals_and_the_controllers(mcap: Path) -> Non
     for row in awarded:
         assert row["assignee"] in simulation.robots
         assert row["lease_s"] > 0
-    assert any({row["owner"], row["heir"]} == {"base/0", "base/1"} for row in rows)
+    assert any({row["owner"], row["backup"]} == {"base/0", "base/1"} for row in rows)
 
 
 def test_a_scenario_without_goals_and_controllers_has_no_such_topic(mcap: Path) -> None:
@@ -97,17 +97,17 @@ def test_a_controller_that_fails_is_in_the_log_once(mcap: Path) -> None:
     assert ae.replay(mcap).agrees
 
 
-def test_goals_whose_heir_has_failed_are_orphaned_in_the_log(mcap: Path) -> None:
+def test_goals_whose_backup_has_failed_are_lost_in_the_log(mcap: Path) -> None:
     simulation = ae.Simulation(scenario(controllers__base__owner_lease_s=5), seed=1)
     with ae.Recording(simulation, mcap) as recording:
         recording.step(100)
         simulation.fail("base/1")
         recording.step(200)
-    orphans = simulation.controllers[0]["orphans"]
-    assert orphans
-    orphaned = [name for name, words in events(mcap) if words.startswith("orphaned")]
-    assert set(orphans) <= set(orphaned)
-    assert len(orphaned) == len(set(orphaned))
+    lost = simulation.controllers[0]["lost"]
+    assert lost
+    logged = [name for name, words in events(mcap) if words.startswith("lost")]
+    assert set(lost) <= set(logged)
+    assert len(logged) == len(set(logged))
 
 
 def test_the_heir_of_a_failed_controller_is_recorded_as_the_owner(mcap: Path) -> None:
@@ -122,13 +122,13 @@ def test_the_heir_of_a_failed_controller_is_recorded_as_the_owner(mcap: Path) ->
     last = economy[-1].content
     assert last["controllers"]["working"] == [False, True]
     assert set(last["goals"]["owner"]) == {None, "base/1"}
-    inherited = [
+    taken_over = [
         before == "base/0" and after == "base/1"
         for before, after in zip(
             economy[100].content["goals"]["owner"], last["goals"]["owner"], strict=True
         )
     ]
-    assert any(inherited)
+    assert any(taken_over)
 
 
 def test_a_player_that_steps_back_returns_to_the_same_controllers(mcap: Path) -> None:

@@ -56,17 +56,19 @@ pub use io::act::{Act, ActKind, Acted, MAX_ACTS, Tool};
 pub use io::agent_id::{AgentId, AgentRole, Receiver};
 pub use io::body::{Body, Detector, Other, RangeRing};
 pub use io::command::{Command, Motion, SensorRequest};
-pub use io::dispatch::{
-    Assignment, Award, Bid, Claim, Dispatch, Fitness, Reason, Refusal, Renewal, Report, Seen, Task,
-    Work,
-};
+pub use io::contract::{Award, Bid, ContractMessage, Fitness, Refusal, Report};
 pub use io::goal_id::{GoalId, GoalList, Issuer, issuer_of};
-pub use io::lane::{
-    CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, MARK_KINDS, Mark, MarkVerdict, Statement,
-};
+pub use io::lease::{Claim, LeaseMessage, Renewal};
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
+pub use io::ownership::{Assignment, OwnershipMessage, Seen};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
+pub use io::reason::Reason;
+pub use io::work::lane::{
+    CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, LaneMessage, MARK_KINDS, Mark, MarkVerdict,
+    Statement,
+};
+pub use io::work::{Task, Work};
 pub use navigation::hazards::min_work_range_m;
 pub use navigation::speed_governor::stopping_m;
 pub use perception::beliefs::pose::Pose;

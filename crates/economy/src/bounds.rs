@@ -6,12 +6,12 @@ use brain::wait_s;
 
 impl Settings {
     /// The time within which each open goal that a working agent knows has an owner or is reported as
-    /// orphaned, and each robot in the owner's range without an award has been offered the goals for
+    /// lost, and each robot in the owner's range without an award has been offered the goals for
     /// which it can bid. It holds without lost messages, with the agents connected and no further
     /// failure, for a number of goals and steps and delays of these durations in seconds.
     ///
     /// ```text
-    ///   owner lease      until the heir owns the goal, or the owner reports it as orphaned; an agent
+    ///   owner lease      until the backup owns the goal, or the owner reports it as lost; an agent
     ///                    that restarts grants nothing for that long
     /// + service lease    until it can be awarded: a robot may still serve it
     /// + call period      until each goal has been called again

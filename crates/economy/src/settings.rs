@@ -16,7 +16,7 @@ pub struct Settings {
     /// Time for which a robot may serve a goal without renewal.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub service_lease_s: f64,
-    /// Time for which a controller owns a goal without renewal by its heir.
+    /// Time for which a controller owns a goal without renewal by its backup.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
     /// Time from the first call for bids to the award; at least [`answer_s`](Self::answer_s).
@@ -57,7 +57,7 @@ impl Settings {
         (1.0 + self.max_drift) * (auction_s + trip_s)
     }
 
-    /// The shortest lease that an heir can grant: a shorter one could end before it is renewed, and
+    /// The shortest lease that a backup can grant: a shorter one could end before it is renewed, and
     /// leave the goal without an owner.
     pub(crate) fn min_owner_lease_s(&self) -> f64 {
         self.owner_lease_s / 10.0

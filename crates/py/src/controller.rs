@@ -28,7 +28,7 @@ struct Owned {
     task: Task,
     assignee: Option<AgentId>,
     lease_s: Option<f64>,
-    heir: Option<AgentId>,
+    backup: Option<AgentId>,
     owner_lease_s: Option<f64>,
     unserved: Option<Reason>,
 }
@@ -78,9 +78,9 @@ impl Controller {
     }
 
     /// The goals that it owned until its lease ended.
-    fn orphans<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let orphans: Vec<Task> = self.with(|controller| controller.orphans().collect());
-        convert::write(py, &orphans)
+    fn lost<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let lost: Vec<Task> = self.with(|controller| controller.lost().collect());
+        convert::write(py, &lost)
     }
 
     /// Number of goals that it refused.
@@ -138,8 +138,8 @@ fn as_owned(goal: OwnedGoal) -> Owned {
         task: goal.task,
         assignee: goal.assignee.map(|(robot, _)| robot),
         lease_s: goal.assignee.map(|(_, lease_s)| lease_s),
-        heir: goal.heir.map(|(heir, _)| heir),
-        owner_lease_s: goal.heir.map(|(_, lease_s)| lease_s),
+        backup: goal.backup.map(|(backup, _)| backup),
+        owner_lease_s: goal.backup.map(|(_, lease_s)| lease_s),
         unserved: goal.unserved,
     }
 }

@@ -67,7 +67,7 @@ pub(crate) fn goals<'py>(
 }
 
 /// The controllers of a run, each as a dict with its `name` (KIND/INDEX), `x_m`, `y_m`, `aboard`, `range_m`, `working`,
-/// `refused`, the `goals` that it owns as far as it knows, and `orphans`.
+/// `refused`, the `goals` that it owns as far as it knows, and `lost`.
 #[pyfunction]
 pub(crate) fn controllers<'py>(
     py: Python<'py>,
@@ -132,15 +132,15 @@ fn dict_of<'py>(
         dict.set_item("assignee", assignee)?;
         dict.set_item("lease_s", owned.assignee.map(|(_, lease_s)| lease_s))?;
         dict.set_item("unserved", owned.unserved.as_ref().and_then(word))?;
-        let heir = owned.heir.map(|(id, _)| name_of(scenario, id));
-        dict.set_item("heir", heir)?;
-        dict.set_item("owner_lease_s", owned.heir.map(|(_, lease_s)| lease_s))?;
+        let backup = owned.backup.map(|(id, _)| name_of(scenario, id));
+        dict.set_item("backup", backup)?;
+        dict.set_item("owner_lease_s", owned.backup.map(|(_, lease_s)| lease_s))?;
         Ok(dict)
     });
     dict.set_item("goals", owned.collect::<PyResult<Vec<_>>>()?)?;
-    let orphans = controller.orphans.iter();
-    let orphans = orphans.map(|task| name_of_goal(scenario, task.id, goals));
-    dict.set_item("orphans", orphans.collect::<Vec<_>>())?;
+    let lost = controller.lost.iter();
+    let lost = lost.map(|task| name_of_goal(scenario, task.id, goals));
+    dict.set_item("lost", lost.collect::<Vec<_>>())?;
     Ok(dict)
 }
 

@@ -38,7 +38,7 @@ impl EventReader {
     /// | issued, expired | goal | None |
     /// | unserved | goal | the reason |
     /// | awarded | goal | the controller, and the robot |
-    /// | orphaned | goal | the controller |
+    /// | lost | goal | the controller |
     /// | failed | controller | None |
     /// | marked | controller | its number of the mark, and the verdict or None |
     /// | stated | controller | whether it has declared the lane clear, and the risk or None |
@@ -117,9 +117,7 @@ fn parts<'py>(
             let value = (robot(by), robot(to)).into_bound_py_any(py)?;
             ("awarded", any(goal), value)
         }
-        EventKind::Orphaned { goal, by } => {
-            ("orphaned", any(goal), robot(by).into_bound_py_any(py)?)
-        }
+        EventKind::Lost { goal, by } => ("lost", any(goal), robot(by).into_bound_py_any(py)?),
         EventKind::Failed { controller } => ("failed", robot(controller), none()),
         EventKind::Marked {
             by,

@@ -10,14 +10,14 @@ from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log
-from agent_economy.runs.events import ORPHANED
+from agent_economy.runs.events import OWNERSHIP_LOST
 from agent_economy.runs.simulation import Simulation
 
 TOPIC = "/economy"
 
 Content = Mapping[str, Mapping[str, Any]]
 
-OF_OWNERS = ("assignee", "lease_s", "heir", "owner_lease_s", "unserved")
+OF_OWNERS = ("assignee", "lease_s", "backup", "owner_lease_s", "unserved")
 OF_CONTROLLERS = ("name", "x_m", "y_m", "range_m", "working", "refused")
 
 
@@ -40,9 +40,11 @@ class EconomyTopic:
         content = economy_of(self._simulation)
         self._file.write_json(TOPIC, content, time_ns)
         goals = content["goals"]
-        # An owned goal can become orphaned again; that a goal cannot be served is reported once.
+        # An owned goal can be lost again; that a goal cannot be served is reported once.
         names = zip(goals["name"], goals["owner"], strict=True)
-        self._logged.difference_update(f"{name}: {ORPHANED}" for name, owner in names if owner)
+        self._logged.difference_update(
+            f"{name}: {OWNERSHIP_LOST}" for name, owner in names if owner
+        )
         for name, words in warnings(content).items():
             if (event := f"{name}: {words}") not in self._logged:
                 self._logged.add(event)
@@ -59,10 +61,10 @@ def economy_of(simulation: Simulation) -> Content:
         for each in reversed(working)
         for goal in each["goals"]
     }
-    orphans = {name for each in working for name in each["orphans"]}
+    lost = {name for each in working for name in each["lost"]}
     owners = [owned.get(name, {}) for name in goals["name"]]
     states = [
-        state(goals, place, owner, is_orphan=name in orphans)
+        state(goals, place, owner, is_lost=name in lost)
         for place, (name, owner) in enumerate(zip(goals["name"], owners, strict=True))
     ]
     return {
@@ -77,9 +79,7 @@ def economy_of(simulation: Simulation) -> Content:
     }
 
 
-def state(
-    goals: Mapping[str, Any], place: int, owner: Mapping[str, Any], *, is_orphan: bool
-) -> str:
+def state(goals: Mapping[str, Any], place: int, owner: Mapping[str, Any], *, is_lost: bool) -> str:
     """Return the state of a goal, in one word."""
     if np.isfinite(goals["served_s"][place]):
         return "served"
@@ -88,7 +88,7 @@ def state(
     if not np.isfinite(goals["issued_s"][place]):
         return "later"
     if not owner:
-        return "orphaned" if is_orphan else "unowned"
+        return "lost" if is_lost else "unowned"
     return "open" if owner["assignee"] is None else "awarded"
 
 
@@ -102,8 +102,8 @@ def warnings(content: Content) -> dict[str, str]:
     rows = zip(goals["name"], goals["state"], goals["unserved"], strict=True)
     found = {}
     for name, is_state, reason in rows:
-        if is_state == "orphaned":
-            found[name] = ORPHANED
+        if is_state == "lost":
+            found[name] = OWNERSHIP_LOST
         elif is_state == "open" and reason is not None:
             found[name] = f"no robot can serve it: {reason}"
     names = zip(controllers["name"], controllers["working"], strict=True)

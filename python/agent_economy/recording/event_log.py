@@ -14,7 +14,7 @@ from agent_economy.recording.logged import Logged
 from agent_economy.runs.events import BROKEN, FAILED_ACT, Event, in_words
 from agent_economy.runs.simulation import Simulation
 
-WARNINGS = ("unserved", "orphaned", "failed")
+WARNINGS = ("unserved", "lost", "failed")
 """Events that `EconomyTopic` logs too, if they were before the first step of a recording."""
 
 

@@ -116,7 +116,7 @@ CLASSIC_ROBOTS = of_object(
 TEXT_OR_NULL = {"type": ["string", "null"]}
 NUMBER_OR_NULL = {"type": ["number", "null"]}
 
-STATES = ["later", "unowned", "open", "awarded", "orphaned", "served", "expired"]
+STATES = ["later", "unowned", "open", "awarded", "lost", "served", "expired"]
 
 OWNED: dict[str, Schema] = {
     "name": each("Name, KIND/INDEX.", STRING),
@@ -126,7 +126,7 @@ OWNED: dict[str, Schema] = {
     "owner": each("The controller that owns it, as far as that one knows.", TEXT_OR_NULL),
     "assignee": each("The robot that it is awarded to.", TEXT_OR_NULL),
     "lease_s": each("Remaining time of that robot's lease.", NUMBER_OR_NULL),
-    "heir": each("The controller that renews the owner's lease.", TEXT_OR_NULL),
+    "backup": each("The controller that renews the owner's lease.", TEXT_OR_NULL),
     "owner_lease_s": each("Remaining time of the owner's lease.", NUMBER_OR_NULL),
     "unserved": each("Why no robot can serve it at present.", TEXT_OR_NULL),
 }

@@ -25,7 +25,7 @@ class ControllerSettings(TypedDict, total=False):
     Attributes:
         allocation: The rule by which it allocates its goals to robots; "auction" by default.
         service_lease_s: Time for which a robot may serve a goal without renewal; 20 by default.
-        owner_lease_s: Time for which it owns a goal without renewal by its heir; 30 by default.
+        owner_lease_s: Time for which it owns a goal without renewal by its backup; 30 by default.
         auction_s: Time from the first call for bids to the award; 1 by default.
         answer_s: Longest time from an award until the robot's next bid has arrived, for which the
             next award waits; 0.5 by default. In a scenario, it follows from radios and brains.
@@ -49,16 +49,16 @@ class OwnedGoal(TypedDict):
         task: The goal.
         assignee: The robot that it is awarded to; None if there is none.
         lease_s: Remaining time of that robot's lease; None without a robot.
-        heir: The controller that renews the owner's lease, and inherits the goal; None if there is
-            none: the controller then owns the goal without a lease.
-        owner_lease_s: Remaining time of the owner's lease; None without an heir.
+        backup: The controller that renews the owner's lease, and takes the goal over when that
+            ends; None if there is none: the controller then owns the goal without a lease.
+        owner_lease_s: Remaining time of the owner's lease; None without a backup.
         unserved: Why no robot can serve it at present; None if one can.
     """
 
     task: Task
     assignee: AgentId | None
     lease_s: float | None
-    heir: AgentId | None
+    backup: AgentId | None
     owner_lease_s: float | None
     unserved: Reason | None
 
@@ -79,11 +79,11 @@ class Controller:
         >>> goal = {"issuer": operator, "number": 0}
         >>> task = {"id": goal, "at_m": [3, 4], "radius_m": 1, "value": 1, "service_s": 0,
         ...         "due_s": 60, "work": "visit", "capability": 0}
-        >>> issue = {"to": me, "about": {"dispatch": {"issue": task}}, "confidence": 1}
+        >>> issue = {"to": me, "about": {"contract": {"issue": task}}, "confidence": 1}
         >>> received = {"from": operator, "age_s": 0, "message": issue}
         >>> controller = Controller({"allocation": "nearest"})
         >>> sent = controller.step({"time_s": 0, "id": me, "inbox": [received]})["outbox"]
-        >>> any("call" in message["about"]["dispatch"] for message in sent)
+        >>> any("call" in message["about"].get("contract", {}) for message in sent)
         True
         >>> [owned["task"]["at_m"] for owned in controller.goals]
         [[3.0, 4.0]]
@@ -113,7 +113,7 @@ class Controller:
 
         Of the percept, it uses `time_s` (of its own clock), `id`, `position`, `neighbours` and
         `inbox`; of the command, only the outbox counts. Goals reach it as messages of the operator
-        (kind 255, index 0) with a dispatch `issue`. A percept from before the last one changes
+        (role `person`) about a contract: `issue`. A percept from before the last one changes
         nothing.
 
         Raises:
@@ -129,9 +129,9 @@ class Controller:
         return cast("list[OwnedGoal]", self._controller.goals())
 
     @property
-    def orphans(self) -> list[Task]:
-        """The goals that it owned until its lease ended, because the heir did not renew it."""
-        return cast("list[Task]", self._controller.orphans())
+    def lost(self) -> list[Task]:
+        """The goals that it owned until its lease ended, because the backup did not renew it."""
+        return cast("list[Task]", self._controller.lost())
 
     @property
     def refused(self) -> int:

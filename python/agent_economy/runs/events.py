@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from agent_economy.runs.simulation import STATUSES
 
 BROKEN, FAILED_ACT = "broken", ", failed"
-ORPHANED = "orphaned: its owner's lease has ended"
+OWNERSHIP_LOST = "lost: its owner's lease has ended"
 
 
 class Event(NamedTuple):
@@ -94,7 +94,7 @@ WORDS: dict[str, Callable[[str, Any], Words]] = {
     "expired": lambda of, _: ("failed", of, "expired", ""),
     "unserved": lambda of, reason: ("failed", of, f"no robot can serve it: {reason}", ""),
     "awarded": awarded,
-    "orphaned": lambda of, by: ("failed", of, ORPHANED, by),
+    "lost": lambda of, by: ("failed", of, OWNERSHIP_LOST, by),
     "failed": lambda of, _: ("failed", of, "has failed", of),
     "marked": marked,
     "stated": stated,

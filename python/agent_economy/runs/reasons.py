@@ -9,7 +9,7 @@ REASONS = {
     "lease": "the service takes longer than a lease",
     "out_of_service": "the robots are out of service",
     "no_robot": "no robot is in range",
-    "orphaned": "its owner has lost it, because the heir did not renew the lease",
+    "ownership_lost": "its owner has lost it, because the backup did not renew the lease",
     "no_controller": "no controller works that could own it",
     "position": "no robot knows its position well enough",
     "invalid": "its numbers are impossible",

@@ -204,7 +204,7 @@ Reason: TypeAlias = Literal[
     "lease",
     "out_of_service",
     "no_robot",
-    "orphaned",
+    "ownership_lost",
     "no_controller",
     "position",
     "invalid",
@@ -226,6 +226,48 @@ class Refusal(TypedDict):
     reason: Reason
 
 
+class ContractMessageQuery(TypedDict):
+    """From a controller to robots: a request of a report."""
+
+
+class ContractMessageCall(TypedDict):
+    """From a controller to robots: a goal that they can bid for.
+
+    A call to one robot requests an answer, a bid or a refusal.
+
+    Attributes:
+        number: The number that the caller gave the offer; it is the same when the call is
+            repeated.
+        task: The goal.
+    """
+
+    number: int
+    task: Task
+
+
+class ContractMessage(TypedDict, total=False):
+    """A message about a goal that a controller owns, awards or has awarded.
+
+    It has one of these keys.
+    """
+
+    issue: Task
+    acknowledge: GoalId
+    service: bool
+    query: ContractMessageQuery
+    report: Report
+    fitness: Fitness
+    call: ContractMessageCall
+    bid: Bid
+    award: Award
+    commit: Claim
+    refuse: Refusal
+    stuck: Refusal
+    release: Claim
+    done: Claim
+    withdraw: Claim
+
+
 class Renewal(TypedDict):
     """A request to renew all leases between two agents.
 
@@ -238,6 +280,19 @@ class Renewal(TypedDict):
     number: int
     count: int
     hash: Sequence[int]
+
+
+class LeaseMessage(TypedDict, total=False):
+    """A message about leases between their holder and their grantor.
+
+    It has one of these keys.
+    """
+
+    renew: Renewal
+    renewed: int
+    differs: int
+    renew_one: Claim
+    renewed_one: Claim
 
 
 class Seen(TypedDict):
@@ -262,6 +317,23 @@ class Assignment(TypedDict):
 
     goal: GoalId
     robot: AgentId
+
+
+class OwnershipMessage(TypedDict, total=False):
+    """A message between controllers.
+
+    It has one of these keys.
+    """
+
+    serial: int
+    seen: Seen
+    entrust: Task
+    entrusted: Award
+    bind: Award
+    assigned: Assignment
+    relieve: Claim
+    relieved: Claim
+    restore: Task
 
 
 class Lane(TypedDict):
@@ -349,65 +421,17 @@ class Statement(TypedDict):
     verdict: MarkVerdict
 
 
-class DispatchQuery(TypedDict):
-    """From a controller to robots: a request of a report."""
-
-
-class DispatchCall(TypedDict):
-    """From a controller to robots: a goal that they can bid for.
-
-    A call to one robot requests an answer, a bid or a refusal.
-
-    Attributes:
-        number: The number that the caller gave the offer; it is the same when the call is
-            repeated.
-        task: The goal.
-    """
-
-    number: int
-    task: Task
-
-
-class Dispatch(TypedDict, total=False):
-    """A message about a goal that a controller owns or awards.
+class LaneMessage(TypedDict, total=False):
+    """A message about a mined lane.
 
     It has one of these keys.
     """
 
-    issue: Task
-    serial: int
-    query: DispatchQuery
-    report: Report
-    fitness: Fitness
-    call: DispatchCall
-    bid: Bid
-    award: Award
-    commit: Claim
-    refuse: Refusal
-    done: Claim
-    stuck: Refusal
-    release: Claim
-    acknowledge: GoalId
-    withdraw: Claim
-    renew: Renewal
-    renewed: int
-    differs: int
-    renew_one: Claim
-    renewed_one: Claim
-    seen: Seen
-    entrust: Task
-    entrusted: Award
-    relieve: Claim
-    relieved: Claim
-    restore: Task
-    bind: Award
-    assigned: Assignment
-    service: bool
     lane: Lane
     coverage: Coverage
     mark: Mark
     statement: Statement
-    lane_gain: float
+    gain: float
 
 
 class AboutItem(TypedDict):
@@ -482,7 +506,10 @@ class About(TypedDict, total=False):
     sender: AboutSender
     goal: AboutGoal
     order: AboutOrder
-    dispatch: Dispatch
+    contract: ContractMessage
+    lease: LeaseMessage
+    ownership: OwnershipMessage
+    lane: LaneMessage
 
 
 ActKind: TypeAlias = Literal[

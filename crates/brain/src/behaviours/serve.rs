@@ -99,7 +99,7 @@ impl Ready {
 
     /// The motion at a goal: robots face the marks at which they look or act.
     fn standing(&self, job: &Job, pose: &Pose, situation: &Situation) -> Motion {
-        let looks = job.task.work.is_at_item();
+        let looks = job.task.work.manner().is_at_item;
         if !looks || self.ability.is_stationary() {
             return Motion::default();
         }

@@ -1,8 +1,8 @@
 //! The progress towards a goal.
 
 use crate::goals::proposal::Destination;
-use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalPlace;
+use crate::io::reason::Reason;
 pub use crate::io::verdict::Verdict;
 use base::geometry::Point;
 use base::hashed::Hashed;

@@ -1,7 +1,7 @@
 //! The goals that a robot has given up, and when it tries them again.
 
-use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalPlace;
+use crate::io::reason::Reason;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 

@@ -19,8 +19,8 @@ pub(crate) mod proposal;
 pub(crate) mod tour;
 
 use crate::goals::proposal::Destination;
-use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalId;
+use crate::io::reason::Reason;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;

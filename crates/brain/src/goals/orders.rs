@@ -6,10 +6,10 @@
 use super::fitness::{Fitness, Pursuit, Step, Verdict};
 use super::proposal::Destination;
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::Reason;
 use crate::io::goal_id::{GoalId, GoalPlace, issuer_of};
 use crate::io::message::{About, OrderAction};
 use crate::io::percept::ReceivedMessage;
+use crate::io::reason::Reason;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;

@@ -4,7 +4,7 @@ use super::heading_options::HeadingOptions;
 use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
 use crate::goals::precedence::{reachable_probability, time_s};
 use crate::goals::{Goal, Verdict};
-use crate::io::dispatch::Reason;
+use crate::io::reason::Reason;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::believed::{BelievedItem, BelievedRobot};

@@ -1,8 +1,11 @@
 //! Messages between robots.
 
 use super::agent_id::{AgentId, Receiver};
-use super::dispatch::Dispatch;
+use super::contract::ContractMessage;
 use super::goal_id::GoalId;
+use super::lease::LeaseMessage;
+use super::ownership::OwnershipMessage;
+use super::work::lane::LaneMessage;
 use base::geometry::Point;
 use base::hash::Hash;
 use base::hashed::Hashed;
@@ -32,20 +35,25 @@ impl Message {
 
     /// A message to one receiver, with full confidence.
     #[must_use]
-    pub fn to(to: impl Into<Receiver>, about: About) -> Self {
+    pub fn to(to: impl Into<Receiver>, about: impl Into<About>) -> Self {
         Self {
             to: to.into(),
-            about,
+            about: about.into(),
             confidence: 1.0,
         }
     }
 
-    /// Its rank among the messages of a step: [`Dispatch::urgency`]. Of other messages, those about goals are before
-    /// offers, and the others are last.
+    /// Its rank among the messages of a step, which a radio sends until it has sent its maximum: 0 is first.
+    ///
+    /// 0: leases end early without it; 1: another agent waits for it, and it may not be repeated; 2: offers, which are
+    /// repeated; 3: information.
     #[must_use]
     pub fn urgency(&self) -> u8 {
         match &self.about {
-            About::Dispatch(dispatch) => dispatch.urgency(),
+            About::Lease(_) => 0,
+            About::Contract(message) => message.urgency(),
+            About::Ownership(message) => message.urgency(),
+            About::Lane(message) => message.urgency(),
             About::Goal { .. } | About::Order { .. } => 1,
             About::Item { .. } | About::Sender { .. } => 3,
         }
@@ -115,8 +123,44 @@ pub enum About {
         action: OrderAction,
     },
     /// A goal that a controller owns or awards.
-    Dispatch(Dispatch),
+    Contract(ContractMessage),
+    /// Leases of robots and controllers.
+    Lease(LeaseMessage),
+    /// The ownership of a goal, from a controller to others.
+    Ownership(OwnershipMessage),
+    /// A mined lane.
+    Lane(LaneMessage),
 }
+
+impl About {
+    /// Whether it is between persons, controllers and robots of the economy of goals.
+    #[must_use]
+    pub fn is_of_economy(&self) -> bool {
+        match self {
+            Self::Contract(_) | Self::Lease(_) | Self::Ownership(_) | Self::Lane(_) => true,
+            Self::Item { .. } | Self::Sender { .. } | Self::Goal { .. } | Self::Order { .. } => {
+                false
+            }
+        }
+    }
+}
+
+macro_rules! content {
+    ($($about:ident($message:ty)),*) => {
+        $(impl From<$message> for About {
+            fn from(message: $message) -> Self {
+                Self::$about(message)
+            }
+        })*
+    };
+}
+
+content!(
+    Contract(ContractMessage),
+    Lease(LeaseMessage),
+    Ownership(OwnershipMessage),
+    Lane(LaneMessage)
+);
 
 /// The observations of one item by one robot: they count once, whichever robot reports them, and
 /// however often.

@@ -3,8 +3,9 @@
 use super::lanes::Lanes;
 use crate::io::act::Tool;
 use crate::io::body::Body;
-use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::percept::Percept;
+use crate::io::reason::Reason;
+use crate::io::work::{Effect, Task};
 use crate::navigation::hazards::WORK_REACH_M;
 use crate::perception::beliefs::{Beliefs, Map};
 use alloc::sync::Arc;
@@ -56,7 +57,8 @@ impl Ability {
     /// Why the robot can never serve a goal with the charges that it has left, if it cannot.
     pub(crate) fn lacks(&self, task: &Task, charges: Option<u32>) -> Option<Reason> {
         let has = task.capability == 0 || self.capabilities.contains(&task.capability);
-        let can = task.work != Work::Neutralise || self.charge.is_some() && charges != Some(0);
+        let needs_charge = task.work.manner().effect == Some(Effect::Neutralise);
+        let can = !needs_charge || self.charge.is_some() && charges != Some(0);
         (!has || !can).then_some(Reason::Capability)
     }
 
@@ -67,22 +69,21 @@ impl Ability {
         } else {
             0.0
         };
-        let charge = self.charge.filter(|_| task.work == Work::Neutralise);
-        let fence = self.fence.filter(|_| task.work == Work::Interrogate);
-        let charge_s = charge.or(fence).map_or(0.0, |tool| tool.duration_s);
-        f64::from(task.service_s) + charge_s + self.travel_s(search_m)
+        let tool = match task.work.manner().effect {
+            Some(Effect::Neutralise) => self.charge,
+            Some(Effect::Isolate) => self.fence,
+            None => None,
+        };
+        let tool_s = tool.map_or(0.0, |tool| tool.duration_s);
+        f64::from(task.service_s) + tool_s + self.travel_s(search_m)
     }
 
     /// Whether it drives lanes through the area of a goal: of a search, and of a mark whose uncertain
     /// position it does not see from one place.
     pub(crate) fn sweeps(&self, task: &Task) -> bool {
-        match task.work {
-            Work::Visit => false,
-            Work::Search => true,
-            Work::Interrogate | Work::Neutralise => {
-                self.ahead_m > 0.0 && self.uncertain_m(task) > self.ahead_m / 2.0
-            }
-        }
+        let manner = task.work.manner();
+        let is_beyond_view = self.ahead_m > 0.0 && self.uncertain_m(task) > self.ahead_m / 2.0;
+        manner.covers_area || manner.is_at_item && is_beyond_view
     }
 
     /// Distance from a mark at which it sees the whole area in which the marked item may be; without an item
@@ -118,7 +119,7 @@ impl Ability {
 
     /// How near it drives to a place at which it has to be within a distance.
     pub(crate) fn approach_m(&self, task: &Task, near_m: f64) -> f64 {
-        if !task.work.is_at_item() {
+        if !task.work.manner().is_at_item {
             return near_m;
         }
         (APPROACH * near_m).max(near_m.min(self.within_reach_m(f64::INFINITY)))
@@ -141,7 +142,7 @@ impl Ability {
 
     /// Whether it looks at, or acts on, an item there that may destroy it.
     pub(crate) fn is_at_hazard(&self, task: &Task) -> bool {
-        self.keep_m > 0.0 && task.work.is_at_item()
+        self.keep_m > 0.0 && task.work.manner().is_at_item
     }
 
     /// How far a marked item may be from the mark, by the errors of the mark and of its own position.
@@ -167,7 +168,7 @@ impl Ability {
     /// in the whole area.
     pub(crate) fn covers(&self, task: &Task, at: Point) -> bool {
         let (away_m, radius_m) = (at.to(task.at()).length(), f64::from(task.radius_m));
-        let is_seen = task.work != Work::Search || away_m + radius_m <= self.all_round_m;
+        let is_seen = !task.work.manner().covers_area || away_m + radius_m <= self.all_round_m;
         away_m <= radius_m && is_seen
     }
 }

@@ -15,11 +15,15 @@ use crate::goals::fitness::IMPOSSIBLE_S;
 use crate::io::act::Act;
 use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::command::Command;
-use crate::io::dispatch::{Award, Claim, Dispatch, Reason, Task, Work};
+use crate::io::contract::{Award, ContractMessage};
 use crate::io::goal_id::GoalId;
+use crate::io::lease::{Claim, LeaseMessage};
 use crate::io::message::{About, Message};
 use crate::io::percept::ReceivedMessage;
+use crate::io::reason::Reason;
 use crate::io::verdict::Verdict;
+use crate::io::work::lane::LaneMessage;
+use crate::io::work::{Task, Work};
 use crate::messaging::phase::phase;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
@@ -59,6 +63,7 @@ impl Assignee {
     pub(crate) fn step(&mut self, ability: &Ability, moment: &Moment) {
         self.outbox.clear();
         self.acts.clear();
+        self.numbers.step(moment.percept);
         self.interrogated = None;
         self.proposed = self.proposed.filter(|goal| self.serves(*goal));
         self.now_s = moment
@@ -83,7 +88,7 @@ impl Assignee {
         }
         self.work(ability, moment);
         self.bid(ability, moment);
-        self.renew(moment.percept);
+        self.renew();
         self.report(ability, moment);
     }
 
@@ -92,7 +97,7 @@ impl Assignee {
     pub(crate) fn report_lane(&mut self, ability: &Ability, moment: &Moment, beliefs: &Beliefs) {
         let inbox = moment.percept.inbox.iter();
         for received in inbox.filter(|received| received.from.is_controller()) {
-            if let About::Dispatch(Dispatch::Lane(lane)) = received.message.about {
+            if let About::Lane(LaneMessage::Lane(lane)) = received.message.about {
                 let phase = phase(
                     moment.percept.id,
                     [LANE_REPORT_PERIOD_S, moment.body.period_s],
@@ -110,7 +115,7 @@ impl Assignee {
         }
         for dispatch in self.lane.step(moment, beliefs, self.now_s) {
             match dispatch {
-                Dispatch::Statement(_) => self.send(Receiver::All, dispatch),
+                LaneMessage::Statement(_) => self.send(Receiver::All, dispatch),
                 // Broadcast, these would be most of the messages that other robots receive.
                 _ => self.send_to_controllers(dispatch),
             }
@@ -197,13 +202,14 @@ impl Assignee {
             .retain(|contact| is_unchanged(contact.id));
     }
 
-    pub(super) fn send(&mut self, to: impl Into<Receiver>, dispatch: Dispatch) {
-        self.outbox.push(Message::to(to, About::Dispatch(dispatch)));
+    pub(super) fn send(&mut self, to: impl Into<Receiver>, about: impl Into<About>) {
+        self.outbox.push(Message::to(to, about));
     }
 
-    fn send_to_controllers(&mut self, dispatch: Dispatch) {
+    fn send_to_controllers(&mut self, about: impl Into<About>) {
+        let about = about.into();
         let each = self.schedule.contacts.iter();
-        let messages = each.map(|contact| Message::to(contact.id, About::Dispatch(dispatch)));
+        let messages = each.map(|contact| Message::to(contact.id, about));
         self.outbox.extend(messages);
     }
 
@@ -243,7 +249,7 @@ impl Assignee {
     /// goals of the same controller would win whenever there is room for one.
     fn in_order<'p>(&self, ability: &Ability, moment: &'p Moment) -> Vec<&'p ReceivedMessage> {
         let cost_s = |received: &ReceivedMessage| match received.message.about {
-            About::Dispatch(Dispatch::Award(award)) => {
+            About::Contract(ContractMessage::Award(award)) => {
                 let offer = self.offers.get(award.goal);
                 let estimate = offer.and_then(|offer| self.estimate(offer, ability, moment).ok());
                 estimate.map_or(f64::INFINITY, |estimate| estimate.cost_s())
@@ -258,33 +264,41 @@ impl Assignee {
     }
 
     fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {
-        let About::Dispatch(dispatch) = received.message.about else {
-            return;
-        };
-        let from = received.from;
-        if let (AgentId::OPERATOR, Dispatch::Service(is_in)) = (from, dispatch) {
+        let (from, about) = (received.from, received.message.about);
+        if let (AgentId::OPERATOR, About::Contract(ContractMessage::Service(is_in))) = (from, about)
+        {
             self.set_service(is_in);
         }
-        if !from.is_controller() {
+        if !from.is_controller() || !about.is_of_economy() {
             return;
         }
         self.schedule.note(from, self.now_s);
-        match dispatch {
-            Dispatch::Query {} => self.schedule.report_now(from, self.now_s),
-            Dispatch::Call { number, task } if task.is_valid() => {
-                let is_only_one = !received.message.to.is_all();
+        let is_only_one = !received.message.to.is_all();
+        match about {
+            About::Contract(ContractMessage::Query {}) => {
+                self.schedule.report_now(from, self.now_s);
+            }
+            About::Contract(ContractMessage::Call { number, task }) if task.is_valid() => {
                 let offer = Offer::new(task, from, number, self.now_s);
                 self.take_call(offer, is_only_one, ability, moment);
             }
-            Dispatch::Award(award) => self.take_award(from, award, ability, moment),
-            Dispatch::Withdraw(claim) => {
-                let is_only_one = !received.message.to.is_all();
+            About::Contract(ContractMessage::Award(award)) => {
+                self.take_award(from, award, ability, moment);
+            }
+            About::Contract(ContractMessage::Withdraw(claim)) => {
                 self.take_withdrawal(from, claim, is_only_one);
             }
-            Dispatch::Renewed(number) => self.holder.renew(from, number, self.now_s),
-            Dispatch::RenewedOne(claim) => self.holder.renew_one(from, claim, self.now_s),
-            Dispatch::Differs(number) if self.holder.differs(from, number) => {
-                self.renew_each(from, moment.percept);
+            About::Lease(message) => self.take_lease(from, message),
+            _ => {}
+        }
+    }
+
+    fn take_lease(&mut self, from: AgentId, message: LeaseMessage) {
+        match message {
+            LeaseMessage::Renewed(number) => self.holder.renew(from, number, self.now_s),
+            LeaseMessage::RenewedOne(claim) => self.holder.renew_one(from, claim, self.now_s),
+            LeaseMessage::Differs(number) if self.holder.differs(from, number) => {
+                self.renew_each(from);
             }
             _ => {}
         }
@@ -303,7 +317,7 @@ impl Assignee {
         self.offers.put(offer);
         if is_only_one {
             match self.estimate(&offer, ability, moment) {
-                Ok(estimate) => self.send_bid(&estimate, moment.percept),
+                Ok(estimate) => self.send_bid(&estimate),
                 Err(reason) => self.refuse(offer.owner, goal, offer.call.into(), reason),
             }
         }
@@ -322,12 +336,12 @@ impl Assignee {
                 .lease(goal)
                 .is_some_and(|lease| lease.number == number)
             {
-                self.send(from, Dispatch::Commit(claim));
+                self.send(from, ContractMessage::Commit(claim));
             }
             return;
         }
         match self.accepted(from, award, ability, moment) {
-            Ok(()) => self.send(from, Dispatch::Commit(claim)),
+            Ok(()) => self.send(from, ContractMessage::Commit(claim)),
             Err(reason) => {
                 self.holder.release(goal);
                 self.refuse(from, goal, number, reason);
@@ -410,7 +424,7 @@ impl Assignee {
             // From now on, the robot accepts no grant that answers an earlier request.
             None if is_only_one && !self.finished.contains(goal) => {
                 self.holder.release(goal);
-                self.send(from, Dispatch::Release(claim));
+                self.send(from, ContractMessage::Release(claim));
             }
             _ => {}
         }
@@ -439,7 +453,7 @@ impl Assignee {
         if !job.is_swept(ability) {
             job.corners += 1;
             job.visited += 1;
-        } else if job.task.work == Work::Neutralise {
+        } else if job.neutralises() {
             // A charge that has gone off is part of the service that has begun.
             if job.served_s > 0.0 || left_s > ability.work_s(&job.task) {
                 self.neutralise(goal, ability, moment);
@@ -497,7 +511,10 @@ impl Assignee {
         self.jobs.remove(goal);
         if let Some(lease) = self.holder.release(goal) {
             let number = lease.number;
-            self.send(lease.grantor, Dispatch::Release(Claim { goal, number }));
+            self.send(
+                lease.grantor,
+                ContractMessage::Release(Claim { goal, number }),
+            );
         }
     }
 
@@ -508,7 +525,10 @@ impl Assignee {
 }
 
 fn is_award(received: &ReceivedMessage) -> bool {
-    matches!(received.message.about, About::Dispatch(Dispatch::Award(_)))
+    matches!(
+        received.message.about,
+        About::Contract(ContractMessage::Award(_))
+    )
 }
 
 /// Whether a robot at a position with a standard deviation is at a goal.

@@ -11,7 +11,9 @@ use super::offers::Offer;
 use super::reach::Reach;
 use crate::goals::precedence::reachable_probability;
 use crate::goals::tour::Tour;
-use crate::io::dispatch::{Bid, Reason, Task};
+use crate::io::contract::Bid;
+use crate::io::reason::Reason;
+use crate::io::work::Task;
 use base::geometry::Point;
 
 /// The basis of all bids of a step.
@@ -143,9 +145,9 @@ mod tests {
     use super::*;
     use crate::io::agent_id::AgentId;
     use crate::io::body::Body;
-    use crate::io::dispatch::Work;
     use crate::io::goal_id::{GoalId, Issuer};
     use crate::io::percept::Percept;
+    use crate::io::work::Work;
     use crate::perception::beliefs::Map;
     use crate::perception::beliefs::coverage_map::tests::map;
     use crate::perception::beliefs::occupancy::Ray;

@@ -5,9 +5,9 @@ use super::assignee::Assignee;
 use super::bidding::{Bidder, Estimate};
 use super::offers::Offer;
 use super::schedule::StandingBid;
-use crate::io::dispatch::{Dispatch, Reason};
+use crate::io::contract::ContractMessage;
 use crate::io::message::{About, Message};
-use crate::io::percept::Percept;
+use crate::io::reason::Reason;
 use alloc::vec::Vec;
 
 impl Assignee {
@@ -46,7 +46,7 @@ impl Assignee {
             let stands = standing
                 .is_some_and(|bid| bid.stands(task.id, call, self.jobs.version, self.now_s));
             if !stands {
-                self.send_bid(&estimate, moment.percept);
+                self.send_bid(&estimate);
             }
         }
     }
@@ -65,16 +65,16 @@ impl Assignee {
         bidder.map_or(Err(Reason::Unreachable), |bidder| bidder.estimate(offer))
     }
 
-    pub(super) fn send_bid(&mut self, estimate: &Estimate, percept: &Percept) {
+    pub(super) fn send_bid(&mut self, estimate: &Estimate) {
         let Offer {
             owner, call, task, ..
         } = estimate.offer;
-        let number = self.numbers.next(percept);
+        let number = self.numbers.draw();
         self.holder
             .request(number, owner, Some(task.id), self.now_s);
         self.outbox.push(Message {
             to: owner.into(),
-            about: About::Dispatch(Dispatch::Bid(estimate.bid(number))),
+            about: About::Contract(ContractMessage::Bid(estimate.bid(number))),
             confidence: estimate.confidence,
         });
         let bid = StandingBid {

@@ -1,7 +1,7 @@
 //! The charges of a robot at a goal, and what they are aimed at.
 
-use crate::io::dispatch::Task;
 use crate::io::goal_id::GoalId;
+use crate::io::work::Task;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::track::{Track, probability};
 use base::geometry::Point;

@@ -6,9 +6,10 @@ use super::assignee::Assignee;
 use super::charge_state::{Aim, Fence, Firing};
 use super::jobs::Job;
 use crate::io::act::{Act, ActKind};
-use crate::io::dispatch::{Reason, Task, Work};
 use crate::io::goal_id::GoalId;
-use crate::io::lane::{MarkVerdict, Statement};
+use crate::io::reason::Reason;
+use crate::io::work::lane::{MarkVerdict, Statement};
+use crate::io::work::{Effect, Task};
 
 /// Charges at one goal; then another robot may try.
 const MAX_CHARGES: u8 = 3;
@@ -21,11 +22,10 @@ impl Assignee {
         };
         let lane = &self.lane;
         for job in &mut self.jobs.list {
-            let isolates = ability.isolates(moment.percept.charges);
-            let is_aimed = match job.task.work {
-                Work::Neutralise => true,
-                Work::Interrogate => isolates,
-                Work::Visit | Work::Search => false,
+            let is_aimed = match job.task.work.manner().effect {
+                Some(Effect::Neutralise) => true,
+                Some(Effect::Isolate) => ability.isolates(moment.percept.charges),
+                None => false,
             };
             if is_aimed {
                 let within_m = ability.uncertain_m(&job.task);
@@ -117,7 +117,8 @@ impl Assignee {
         let Some(job) = self.jobs.get_mut(goal) else {
             return false;
         };
-        let is_confirmed = job.task.work == Work::Interrogate && job.aim.is_some();
+        let is_fenced = job.task.work.manner().effect == Some(Effect::Isolate);
+        let is_confirmed = is_fenced && job.aim.is_some();
         if is_confirmed
             && job.charges.fence == Fence::None
             && ability.isolates(moment.percept.charges)
@@ -147,9 +148,7 @@ impl Assignee {
         } else {
             Fence::Failed
         };
-        let aim = job
-            .aim
-            .filter(|_| is_success && job.task.work == Work::Neutralise);
+        let aim = job.aim.filter(|_| is_success && job.neutralises());
         let statement = aim.map(|aim| Statement {
             mark: aim.mark,
             at_m: [aim.at.x, aim.at.y].map(short),

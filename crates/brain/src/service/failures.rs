@@ -1,7 +1,7 @@
 //! The goals that a robot could not serve: it bids for them later, and with less confidence.
 
-use crate::io::dispatch::Reason;
 use crate::io::goal_id::GoalId;
+use crate::io::reason::Reason;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 

@@ -1,8 +1,8 @@
 //! The goals that a robot has served: it reports each until the owner has withdrawn it.
 
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::Claim;
 use crate::io::goal_id::GoalId;
+use crate::io::lease::Claim;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 

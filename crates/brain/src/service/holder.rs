@@ -6,8 +6,8 @@
 
 use super::set_hash::set_hash;
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::{Claim, Renewal};
 use crate::io::goal_id::GoalId;
+use crate::io::lease::{Claim, Renewal};
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 

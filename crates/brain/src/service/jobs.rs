@@ -5,9 +5,9 @@ use super::charge_state::{Aim, Charges, Fence};
 use crate::goals::proposal::max_deviation_m;
 use crate::goals::tour::Tour;
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::{Task, Work};
 use crate::io::goal_id::GoalId;
 use crate::io::verdict::Verdict;
+use crate::io::work::{Effect, Task};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
@@ -77,11 +77,17 @@ impl Job {
         if let Some(corner) = corner.filter(|_| ability.sweeps(&self.task)) {
             return (corner, (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0));
         }
-        let radius_m = match self.task.work {
-            Work::Visit | Work::Search => self.task.radius_m.into(),
-            Work::Interrogate | Work::Neutralise => ability.look_from_m(&self.task),
+        let radius_m = if self.task.work.manner().is_at_item {
+            ability.look_from_m(&self.task)
+        } else {
+            self.task.radius_m.into()
         };
         (self.task.at(), radius_m)
+    }
+
+    /// Whether it ends with a charge.
+    pub(super) fn neutralises(&self) -> bool {
+        self.task.work.manner().effect == Some(Effect::Neutralise)
     }
 
     /// Whether the service has begun: looks or a charge, which end if the robot drives on.
@@ -92,9 +98,10 @@ impl Job {
     /// How near to its goal the robot drives, and has to believe itself to be: a position with a standard deviation is
     /// rarely outside of the goal then.
     pub(crate) fn within_m(&self, near_m: f64, deviation_m: f64) -> f64 {
-        match self.task.work {
-            Work::Visit => (near_m - MARGIN_DEVIATIONS * deviation_m).max(MIN_WITHIN * near_m),
-            Work::Search | Work::Interrogate | Work::Neutralise => near_m,
+        if self.task.work.manner().is_precise {
+            (near_m - MARGIN_DEVIATIONS * deviation_m).max(MIN_WITHIN * near_m)
+        } else {
+            near_m
         }
     }
 
@@ -108,9 +115,10 @@ impl Job {
     /// The largest standard deviation of its position with which the robot knows that it is there.
     /// Any is enough for a search, and for looks and acts, whose distances allow for the error.
     pub(crate) fn max_deviation_m(&self) -> f64 {
-        match self.task.work {
-            Work::Visit => max_deviation_m(self.task.radius_m.into()),
-            Work::Search | Work::Interrogate | Work::Neutralise => f64::INFINITY,
+        if self.task.work.manner().is_precise {
+            max_deviation_m(self.task.radius_m.into())
+        } else {
+            f64::INFINITY
         }
     }
 
@@ -123,7 +131,7 @@ impl Job {
     /// Where it is to act with a charge, if it is: at what it has detected, or at the mark itself if it
     /// has detected nothing and no charge has gone off there.
     pub(crate) fn charge_at(&self) -> Option<Point> {
-        if self.task.work != Work::Neutralise {
+        if !self.neutralises() {
             return None;
         }
         let has_looked = self.charges.has_looked && self.charges.fired == 0;
@@ -214,6 +222,7 @@ impl Jobs {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::work::Work;
     use crate::service::lanes::Lanes;
 
     fn search() -> (Job, Ability) {

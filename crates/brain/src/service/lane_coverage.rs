@@ -6,7 +6,7 @@
 use super::ability::Moment;
 use super::lane_driven::{Driven, danger_m};
 use super::lane_masks::masks;
-use crate::io::lane::{CELLS_PER_MESSAGE, Coverage, Lane};
+use crate::io::work::lane::{CELLS_PER_MESSAGE, Coverage, Lane};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::coverage_map::{CoverageMap, DetectorScan};
 use crate::perception::beliefs::field::Field;

@@ -3,7 +3,7 @@
 //! An item that destroys robots would have destroyed it there, whether its sensors can detect the item or not.
 
 use crate::io::body::Body;
-use crate::io::lane::Lane;
+use crate::io::work::lane::Lane;
 use crate::perception::beliefs::field::Field;
 use crate::perception::beliefs::pose::Pose;
 use alloc::vec;

@@ -5,7 +5,7 @@
 
 use crate::io::agent_id::AgentId;
 use crate::io::goal_id::GoalId;
-use crate::io::lane::{Coverage, MARK_KINDS, Mark};
+use crate::io::work::lane::{Coverage, MARK_KINDS, Mark};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::kinds::KindModel;
 use crate::perception::beliefs::items::track::Track;

@@ -13,7 +13,7 @@
 //! is to be cleared, q counts as 0: when it is destroyed, the tracks there end, and the place is searched again.
 
 use crate::io::body::Detector;
-use crate::io::lane::Lane;
+use crate::io::work::lane::Lane;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::coverage_map::Mask;
 use crate::perception::beliefs::items::track::{MIN_DEVIATION_M, Track};

@@ -5,8 +5,9 @@ use super::lane_coverage::LaneCoverage;
 use super::lane_marks::LaneMarks;
 use crate::io::act::{Act, ActKind, MAX_ACTS};
 use crate::io::body::Body;
-use crate::io::dispatch::{Dispatch, Task};
-use crate::io::lane::{Lane, MarkVerdict, Statement};
+use crate::io::work::Task;
+use crate::io::work::lane::LaneMessage;
+use crate::io::work::lane::{Lane, MarkVerdict, Statement};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::items::track::probability;
 use alloc::boxed::Box;
@@ -156,27 +157,32 @@ impl LaneReports {
     }
 
     /// Takes the looks and tracks of a step; returns the messages that are due.
-    pub(crate) fn step(&mut self, moment: &Moment, beliefs: &Beliefs, now_s: f64) -> Vec<Dispatch> {
+    pub(crate) fn step(
+        &mut self,
+        moment: &Moment,
+        beliefs: &Beliefs,
+        now_s: f64,
+    ) -> Vec<LaneMessage> {
         let mut due = self.statements_due(now_s);
         due.append(&mut self.lane_due(moment, beliefs, now_s));
         due
     }
 
-    fn statements_due(&mut self, now_s: f64) -> Vec<Dispatch> {
+    fn statements_due(&mut self, now_s: f64) -> Vec<LaneMessage> {
         if now_s < self.next_statement_s || self.statements.is_empty() {
             return Vec::new();
         }
         self.next_statement_s = now_s + LANE_REPORT_PERIOD_S;
         let send = |(statement, times): &mut (Statement, u32)| {
             *times -= 1;
-            Dispatch::Statement(*statement)
+            LaneMessage::Statement(*statement)
         };
         let due = self.statements.iter_mut().map(send).collect();
         self.statements.retain(|(_, times)| *times > 0);
         due
     }
 
-    fn lane_due(&mut self, moment: &Moment, beliefs: &Beliefs, now_s: f64) -> Vec<Dispatch> {
+    fn lane_due(&mut self, moment: &Moment, beliefs: &Beliefs, now_s: f64) -> Vec<LaneMessage> {
         let Some(work) = &mut self.work else {
             return Vec::new();
         };
@@ -201,7 +207,7 @@ impl LaneReports {
         }
         let marks = marks.into_iter().map(|(mark, _)| mark);
         let coverage = work.coverage.due(work.marks.count(), MAX_COVERAGE as usize);
-        let coverage = coverage.into_iter().map(Dispatch::Coverage);
-        marks.map(Dispatch::Mark).chain(coverage).collect()
+        let coverage = coverage.into_iter().map(LaneMessage::Coverage);
+        marks.map(LaneMessage::Mark).chain(coverage).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! The path of a search: lanes through a disc, back and forth.
 
-use crate::io::dispatch::Task;
+use crate::io::work::Task;
 use base::geometry::{Point, Rectangle};
 
 /// Maximum number of lanes.
@@ -137,8 +137,8 @@ impl Lanes {
 mod tests {
     use super::*;
     use crate::io::agent_id::AgentId;
-    use crate::io::dispatch::Work;
     use crate::io::goal_id::{GoalId, Issuer};
+    use crate::io::work::Work;
 
     const TASK: Task = Task {
         id: GoalId {

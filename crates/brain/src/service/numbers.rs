@@ -14,18 +14,21 @@ pub struct Numbers {
 }
 
 impl Numbers {
+    /// Takes the percept of a step; the first one decides about the first number.
+    pub fn step(&mut self, percept: &Percept) {
+        self.last.get_or_insert_with(|| before_first(percept));
+    }
+
     /// The next number.
-    pub fn next(&mut self, percept: &Percept) -> u32 {
-        let next = self
-            .last
-            .map_or_else(|| first(percept), |last| last.wrapping_add(1));
+    pub fn draw(&mut self) -> u32 {
+        let next = self.last.unwrap_or_default().wrapping_add(1);
         self.last = Some(next);
         next
     }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a hash")]
-fn first(percept: &Percept) -> u32 {
+fn before_first(percept: &Percept) -> u32 {
     let mut hash = Hash::default();
     percept.time_s.add_to(&mut hash);
     percept.random_words.add_to(&mut hash);
@@ -48,9 +51,11 @@ mod tests {
     #[test]
     fn numbers_differ_also_after_a_restart() {
         let mut numbers = Numbers::default();
-        let before: Vec<u32> = (0..100).map(|_| numbers.next(&at(1.0))).collect();
+        numbers.step(&at(1.0));
+        let before: Vec<u32> = (0..100).map(|_| numbers.draw()).collect();
         let mut restarted = Numbers::default();
-        assert!((0..100).all(|_| !before.contains(&restarted.next(&at(2.0)))));
+        restarted.step(&at(2.0));
+        assert!((0..100).all(|_| !before.contains(&restarted.draw())));
     }
 
     #[test]
@@ -60,7 +65,9 @@ mod tests {
                 random_words: [words; 4],
                 ..at(1.0)
             };
-            Numbers::default().next(&percept)
+            let mut numbers = Numbers::default();
+            numbers.step(&percept);
+            numbers.draw()
         };
         assert_ne!(first(1), first(2));
     }

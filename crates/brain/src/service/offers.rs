@@ -1,8 +1,8 @@
 //! The goals for which controllers have called for bids.
 
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::Task;
 use crate::io::goal_id::GoalId;
+use crate::io::work::Task;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 
@@ -86,7 +86,7 @@ impl Offers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::dispatch::Work;
+    use crate::io::work::Work;
 
     fn offer(number: u32, now_s: f64) -> Offer {
         let id = GoalId {

@@ -3,8 +3,7 @@
 use super::assignee::Assignee;
 use super::holder::Lease;
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::{Claim, Dispatch};
-use crate::io::percept::Percept;
+use crate::io::lease::{Claim, LeaseMessage};
 use alloc::vec::Vec;
 
 /// Minimum time between two attempts to renew, in seconds.
@@ -18,7 +17,7 @@ const MAX_RENEWALS: usize = 8;
 
 impl Assignee {
     /// Renews the leases of each controller when a third of one has passed.
-    pub(super) fn renew(&mut self, percept: &Percept) {
+    pub(super) fn renew(&mut self) {
         for index in 0..self.schedule.contacts.len() {
             let contact = &self.schedule.contacts[index];
             let (id, next_s) = (contact.id, contact.next_renewal_s);
@@ -29,26 +28,26 @@ impl Assignee {
             if self.now_s < next_s || !self.holder.leases().iter().any(is_due) {
                 continue;
             }
-            let number = self.numbers.next(percept);
+            let number = self.numbers.draw();
             if let Some(renewal) = self.holder.renewal(id, number) {
                 self.holder.request(number, id, None, self.now_s);
-                self.send(id, Dispatch::Renew(renewal));
+                self.send(id, LeaseMessage::Renew(renewal));
                 self.schedule.contacts[index].next_renewal_s = self.now_s + RETRY_S;
             }
         }
     }
 
     /// Renews the leases of a controller one by one, those that end first.
-    pub(super) fn renew_each(&mut self, from: AgentId, percept: &Percept) {
+    pub(super) fn renew_each(&mut self, from: AgentId) {
         let own = self.holder.leases().iter();
         let own = own.filter(|lease| lease.grantor == from);
         let mut own: Vec<Lease> = own.copied().collect();
         own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
         for lease in own.into_iter().take(MAX_RENEWALS) {
-            let number = self.numbers.next(percept);
+            let number = self.numbers.draw();
             let goal = lease.goal;
             self.holder.request(number, from, Some(goal), self.now_s);
-            self.send(from, Dispatch::RenewOne(Claim { goal, number }));
+            self.send(from, LeaseMessage::RenewOne(Claim { goal, number }));
         }
     }
 }

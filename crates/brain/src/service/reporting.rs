@@ -3,8 +3,10 @@
 use super::ability::{Ability, Moment};
 use super::assignee::Assignee;
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::{Claim, Dispatch, Fitness, Reason, Refusal, Report};
+use crate::io::contract::{ContractMessage, Fitness, Refusal, Report};
 use crate::io::goal_id::GoalId;
+use crate::io::lease::Claim;
+use crate::io::reason::Reason;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -13,16 +15,16 @@ impl Assignee {
     pub(super) fn report(&mut self, ability: &Ability, moment: &Moment) {
         let done: Vec<(AgentId, Claim)> = self.finished.due(self.now_s).collect();
         for (owner, claim) in done {
-            self.send(owner, Dispatch::Done(claim));
+            self.send(owner, ContractMessage::Done(claim));
         }
         let Some(at) = moment.at.filter(|_| !self.is_out_of_service) else {
             return;
         };
         let receivers: Vec<AgentId> = self.schedule.due(self.now_s).collect();
         for to in receivers {
-            self.send(to, Dispatch::Report(self.state(ability, moment, at)));
+            self.send(to, ContractMessage::Report(self.state(ability, moment, at)));
             if let Some(fitness) = self.fitness(to, ability, at) {
-                self.send(to, Dispatch::Fitness(fitness));
+                self.send(to, ContractMessage::Fitness(fitness));
             }
         }
     }
@@ -58,7 +60,7 @@ impl Assignee {
             let (to, number) = (lease.grantor, lease.number);
             self.send(
                 to,
-                Dispatch::Stuck(Refusal {
+                ContractMessage::Stuck(Refusal {
                     goal,
                     number,
                     reason,
@@ -70,7 +72,7 @@ impl Assignee {
     pub(super) fn refuse(&mut self, to: AgentId, goal: GoalId, number: u32, reason: Reason) {
         self.send(
             to,
-            Dispatch::Refuse(Refusal {
+            ContractMessage::Refuse(Refusal {
                 goal,
                 number,
                 reason,

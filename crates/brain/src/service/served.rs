@@ -2,8 +2,8 @@
 
 use super::assignee::Assignee;
 use crate::io::agent_id::AgentId;
-use crate::io::dispatch::Task;
 use crate::io::verdict::Verdict;
+use crate::io::work::Task;
 use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -3,9 +3,9 @@
 use crate::{body, brain, percept_at};
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, AgentId, Award, Body, Brain, Command, Contact, Coverage, Detector, Dispatch, GoalId,
-    Lane, Mark, MarkVerdict, Message, Observation, Other, Percept, Reason, ReceivedMessage,
-    Statement, Task, Work,
+    About, AgentId, Award, Body, Brain, Command, Contact, ContractMessage, Coverage, Detector,
+    GoalId, Lane, LaneMessage, Mark, MarkVerdict, Message, Observation, Other, Percept, Reason,
+    ReceivedMessage, Statement, Task, Work,
 };
 
 const OWNER: AgentId = AgentId::controller(1, 0);
@@ -90,22 +90,19 @@ impl Robot {
         command
     }
 
-    fn step(&mut self, messages: &[Dispatch], contacts: &[(u16, f64)]) -> Vec<Dispatch> {
+    fn step(&mut self, messages: &[About], contacts: &[(u16, f64)]) -> Vec<About> {
         let messages = messages.iter();
-        let messages: Vec<_> = messages
-            .map(|dispatch| (OWNER, About::Dispatch(*dispatch)))
-            .collect();
+        let messages: Vec<_> = messages.map(|about| (OWNER, *about)).collect();
         let sent = self.command(&messages, contacts).outbox.into_iter();
-        let sent = sent.filter_map(|message| match message.about {
-            About::Dispatch(dispatch) => Some(dispatch),
-            _ => None,
-        });
+        let sent = sent
+            .map(|message| message.about)
+            .filter(About::is_of_economy);
         sent.collect()
     }
 
     /// Some steps after a lane has been named; returns all messages.
-    fn steps(&mut self, count: u32, contacts: &[(u16, f64)]) -> Vec<Dispatch> {
-        let mut sent = self.step(&[Dispatch::Lane(LANE)], contacts);
+    fn steps(&mut self, count: u32, contacts: &[(u16, f64)]) -> Vec<About> {
+        let mut sent = self.step(&[About::Lane(LaneMessage::Lane(LANE))], contacts);
         (1..count).for_each(|_| sent.extend(self.step(&[], contacts)));
         sent
     }
@@ -125,19 +122,22 @@ impl Robot {
             work,
             capability: 0,
         };
-        let sent = self.step(&[Dispatch::Call { number: 0, task }], &[]);
+        let sent = self.step(
+            &[About::Contract(ContractMessage::Call { number: 0, task })],
+            &[],
+        );
         for sent in sent {
             match sent {
-                Dispatch::Bid(bid) => {
+                About::Contract(ContractMessage::Bid(bid)) => {
                     let award = Award {
                         goal: task.id,
                         number: bid.number,
                         lease_s: 3600.0,
                     };
-                    self.step(&[Dispatch::Award(award)], &[]);
+                    self.step(&[About::Contract(ContractMessage::Award(award))], &[]);
                     return Ok(());
                 }
-                Dispatch::Refuse(refusal) => return Err(refusal.reason),
+                About::Contract(ContractMessage::Refuse(refusal)) => return Err(refusal.reason),
                 _ => {}
             }
         }
@@ -146,14 +146,14 @@ impl Robot {
 }
 
 /// The last value that is reported of the cell at a position.
-fn nats(sent: &[Dispatch], x: f64, y: f64) -> f64 {
+fn nats(sent: &[About], x: f64, y: f64) -> f64 {
     nats_of(LANE, sent, x, y)
 }
 
-fn nats_of(lane: Lane, sent: &[Dispatch], x: f64, y: f64) -> f64 {
+fn nats_of(lane: Lane, sent: &[About], x: f64, y: f64) -> f64 {
     let cell = lane.cell_at(Point { x, y }).unwrap();
     let mut steps = sent.iter().filter_map(|sent| match sent {
-        Dispatch::Coverage(Coverage { first, missed, .. }) => {
+        About::Lane(LaneMessage::Coverage(Coverage { first, missed, .. })) => {
             let index = cell.checked_sub(*first as usize)?;
             missed.get(index).copied()
         }
@@ -162,17 +162,17 @@ fn nats_of(lane: Lane, sent: &[Dispatch], x: f64, y: f64) -> f64 {
     Coverage::nats(Coverage::sixteenths(steps.next_back().unwrap_or_default()))
 }
 
-fn marks(sent: &[Dispatch]) -> Vec<Mark> {
+fn marks(sent: &[About]) -> Vec<Mark> {
     let marks = sent.iter().filter_map(|sent| match sent {
-        Dispatch::Mark(mark) => Some(*mark),
+        About::Lane(LaneMessage::Mark(mark)) => Some(*mark),
         _ => None,
     });
     marks.collect()
 }
 
-fn statements(sent: &[Dispatch]) -> Vec<Statement> {
+fn statements(sent: &[About]) -> Vec<Statement> {
     let statements = sent.iter().filter_map(|sent| match sent {
-        Dispatch::Statement(statement) => Some(*statement),
+        About::Lane(LaneMessage::Statement(statement)) => Some(*statement),
         _ => None,
     });
     statements.collect()
@@ -197,7 +197,7 @@ fn a_robot_reports_the_ground_where_a_mine_would_have_destroyed_it() {
         let sent = Robot::among(hazards_m.to_vec()).steps(12, &[]);
         let cell = LANE.cell_at(Point { x, y: 5.0 }).unwrap();
         let mut of_cell = sent.iter().filter_map(|sent| match sent {
-            Dispatch::Coverage(Coverage { first, driven, .. }) => {
+            About::Lane(LaneMessage::Coverage(Coverage { first, driven, .. })) => {
                 driven.get(cell.checked_sub(*first as usize)?).copied()
             }
             _ => None,
@@ -213,14 +213,19 @@ fn a_robot_reports_the_ground_where_a_mine_would_have_destroyed_it() {
 fn a_robot_that_knows_no_lane_reports_nothing_about_one() {
     let mut robot = Robot::new();
     let sent: Vec<_> = (0..30).flat_map(|_| robot.step(&[], &[(0, 1.0)])).collect();
-    let is_report = |sent: &Dispatch| matches!(sent, Dispatch::Coverage(_) | Dispatch::Mark(_));
+    let is_report = |sent: &About| {
+        matches!(
+            sent,
+            About::Lane(LaneMessage::Coverage(_) | LaneMessage::Mark(_))
+        )
+    };
     assert!(!sent.iter().any(is_report));
 }
 
 #[test]
 fn looks_of_team_mates_are_not_reported_as_own() {
     let mut robot = Robot::new();
-    robot.step(&[Dispatch::Lane(LANE)], &[]);
+    robot.step(&[About::Lane(LaneMessage::Lane(LANE))], &[]);
     let mate = About::Sender {
         at: Point { x: 15.0, y: 5.0 },
         heading_rad: 0.0,
@@ -232,10 +237,8 @@ fn looks_of_team_mates_are_not_reported_as_own() {
         sent.extend(
             outbox
                 .into_iter()
-                .filter_map(|message| match message.about {
-                    About::Dispatch(dispatch) => Some(dispatch),
-                    _ => None,
-                }),
+                .map(|message| message.about)
+                .filter(About::is_of_economy),
         );
     }
     assert!(nats(&sent, 5.0, 5.0) > 1.0 && nats(&sent, 15.0, 5.0) < 1e-9);
@@ -246,7 +249,7 @@ fn reports_are_sent_once_a_second_with_a_bounded_number_of_messages() {
     let sent = Robot::new().steps(50, &[(0, 1.0)]);
     let reports = sent
         .iter()
-        .filter(|sent| matches!(sent, Dispatch::Coverage(_)));
+        .filter(|sent| matches!(sent, About::Lane(LaneMessage::Coverage(_))));
     // Three blocks of cells, five seconds.
     assert_eq!(reports.count(), 15);
     assert!(marks(&sent).len() <= 10);
@@ -255,12 +258,12 @@ fn reports_are_sent_once_a_second_with_a_bounded_number_of_messages() {
 /// The mark of one contact after a number of looks, as reported after eleven looks.
 fn mark_after(looks: u32) -> Mark {
     let mut robot = Robot::new();
-    robot.step(&[Dispatch::Lane(LANE)], &[]);
+    robot.step(&[About::Lane(LaneMessage::Lane(LANE))], &[]);
     (0..looks).for_each(|_| assert_eq!(marks(&robot.step(&[], &[])), []));
     robot.step(&[], &[(0, 1.0)]);
     let sent = robot.steps(9 - looks, &[]);
     let mut counts = sent.iter().filter_map(|sent| match sent {
-        Dispatch::Coverage(coverage) => Some(coverage.marks),
+        About::Lane(LaneMessage::Coverage(coverage)) => Some(coverage.marks),
         _ => None,
     });
     assert_eq!(counts.next_back(), Some(1));
@@ -288,7 +291,7 @@ fn a_robot_confirms_a_mark_at_which_it_detects_a_mine_and_rejects_others() {
         (&[][..], MarkVerdict::Rejected),
     ] {
         let mut robot = Robot::new();
-        robot.step(&[Dispatch::Lane(LANE)], &[]);
+        robot.step(&[About::Lane(LaneMessage::Lane(LANE))], &[]);
         assert_eq!(robot.interrogate(Work::Interrogate), Ok(()));
         let sent = robot.steps(100, contacts);
         let stated = statements(&sent);
@@ -328,7 +331,7 @@ fn looks_at_a_mine_are_no_search_for_a_second_one_beside_it() {
     let looks = 20.0 * 2.0_f64.ln();
     let beside = |kind: u16| {
         let mut robot = Robot::new();
-        let mut sent = robot.step(&[Dispatch::Lane(lane)], &[(kind, 1.0)]);
+        let mut sent = robot.step(&[About::Lane(LaneMessage::Lane(lane))], &[(kind, 1.0)]);
         (0..30).for_each(|_| sent.extend(robot.step(&[], &[(kind, 1.0)])));
         assert!(nats_of(lane, &sent, 7.4, 5.2) > looks.min(15.9) - 1.0);
         nats_of(lane, &sent, 6.2, 5.2)
@@ -349,7 +352,7 @@ fn the_mark_of_an_item_that_another_robot_has_destroyed_counts_the_looks_since_t
         at_m: before.at_m,
         verdict: MarkVerdict::Neutralised,
     };
-    robot.step(&[Dispatch::Statement(destroyed)], &[]);
+    robot.step(&[About::Lane(LaneMessage::Statement(destroyed))], &[]);
     let sent = robot.steps(30, &[]);
     let after = marks(&sent);
     let after = after.iter().rfind(|mark| mark.id == before.id).unwrap();
@@ -368,7 +371,7 @@ fn what_is_detected_where_a_mine_has_been_destroyed_has_a_mark_of_its_own() {
         at_m: before.at_m,
         verdict: MarkVerdict::Neutralised,
     };
-    robot.step(&[Dispatch::Statement(destroyed)], &[]);
+    robot.step(&[About::Lane(LaneMessage::Statement(destroyed))], &[]);
     let sent = robot.steps(30, &[(0, 1.1)]);
     let new = marks(&sent);
     let new = new.iter().rfind(|mark| mark.id != before.id).unwrap();

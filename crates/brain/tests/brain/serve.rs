@@ -2,8 +2,8 @@
 
 use crate::{body, brain, now, percept_at};
 use brain::{
-    About, AgentId, Award, Body, Brain, Claim, Command, CommitmentStatus, Dispatch, GoalId, Issuer,
-    Message, Other, Percept, Reason, ReceivedMessage, Task, Work,
+    About, AgentId, Award, Body, Brain, Claim, Command, CommitmentStatus, ContractMessage, GoalId,
+    Issuer, Message, Other, Percept, Reason, ReceivedMessage, Task, Work,
 };
 
 const OWNER: AgentId = AgentId::controller(1, 0);
@@ -48,34 +48,31 @@ impl Robot {
     }
 
     /// A step; returns the messages about goals.
-    fn step(&mut self, messages: &[Dispatch], touches: bool) -> Vec<Dispatch> {
+    fn step(&mut self, messages: &[About], touches: bool) -> Vec<About> {
         let sent = self.command(messages, touches).outbox.into_iter();
-        let sent = sent.filter_map(|message| match message.about {
-            About::Dispatch(dispatch) => Some(dispatch),
-            _ => None,
-        });
+        let sent = sent
+            .map(|message| message.about)
+            .filter(About::is_of_economy);
         sent.collect()
     }
 
-    fn command(&mut self, messages: &[Dispatch], touches: bool) -> Command {
-        let messages = messages.iter().map(|dispatch| (OWNER, *dispatch));
+    fn command(&mut self, messages: &[About], touches: bool) -> Command {
+        let messages = messages.iter().map(|about| (OWNER, *about));
         self.command_from(messages, touches)
     }
 
     /// A step with messages of several controllers.
     fn command_from(
         &mut self,
-        messages: impl IntoIterator<Item = (AgentId, Dispatch)>,
+        messages: impl IntoIterator<Item = (AgentId, About)>,
         touches: bool,
     ) -> Command {
         self.time_s += 0.1;
-        let inbox = messages
-            .into_iter()
-            .map(|(from, dispatch)| ReceivedMessage {
-                from,
-                age_s: 0.0,
-                message: Message::to_all(About::Dispatch(dispatch)),
-            });
+        let inbox = messages.into_iter().map(|(from, about)| ReceivedMessage {
+            from,
+            age_s: 0.0,
+            message: Message::to_all(about),
+        });
         let percept = Percept {
             time_s: Some(self.time_s),
             inbox: inbox.collect(),
@@ -98,9 +95,12 @@ impl Robot {
     }
 
     fn win_task(&mut self, task: Task) {
-        let sent = self.step(&[Dispatch::Call { number: 0, task }], false);
+        let sent = self.step(
+            &[About::Contract(ContractMessage::Call { number: 0, task })],
+            false,
+        );
         let number = sent.iter().find_map(|sent| match sent {
-            Dispatch::Bid(bid) => Some(bid.number),
+            About::Contract(ContractMessage::Bid(bid)) => Some(bid.number),
             _ => None,
         });
         let award = Award {
@@ -108,15 +108,15 @@ impl Robot {
             number: number.unwrap(),
             lease_s: 3600.0,
         };
-        self.step(&[Dispatch::Award(award)], false);
+        self.step(&[About::Contract(ContractMessage::Award(award))], false);
         assert_eq!(self.brain.served_goals().len(), 1);
     }
 }
 
-const CALL: Dispatch = Dispatch::Call {
+const CALL: About = About::Contract(ContractMessage::Call {
     number: 0,
     task: TASK,
-};
+});
 
 /// Awards of two controllers that arrive together: otherwise the one that is received first would win each time,
 /// and the goals of the other be served last, whatever their value.
@@ -136,11 +136,11 @@ fn of_two_awards_that_arrive_together_a_robot_with_room_for_one_takes_the_better
             value,
             ..TASK
         });
-        let calls = tasks.map(|task| Dispatch::Call { number: 0, task });
+        let calls = tasks.map(|task| About::Contract(ContractMessage::Call { number: 0, task }));
         let calls = [(owners[0], calls[0]), (owners[1], calls[1])];
         let sent = robot.command_from(calls, false).outbox.into_iter();
         let bids = sent.filter_map(|message| match message.about {
-            About::Dispatch(Dispatch::Bid(bid)) => Some(bid),
+            About::Contract(ContractMessage::Bid(bid)) => Some(bid),
             _ => None,
         });
         let bids: Vec<_> = bids.collect();
@@ -152,7 +152,10 @@ fn of_two_awards_that_arrive_together_a_robot_with_room_for_one_takes_the_better
                 number: bid.number,
                 lease_s: 3600.0,
             };
-            (owners[index], Dispatch::Award(award))
+            (
+                owners[index],
+                About::Contract(ContractMessage::Award(award)),
+            )
         });
         robot.command_from(awards, false);
         let served = robot.brain.served_goals();
@@ -195,7 +198,7 @@ fn a_robot_drives_to_its_goal_stays_for_the_service_and_reports_that() {
         }
         if sent
             .iter()
-            .any(|sent| matches!(sent, Dispatch::Done(claim) if claim.goal == TASK.id))
+            .any(|sent| matches!(sent, About::Contract(ContractMessage::Done(claim)) if claim.goal == TASK.id))
         {
             let served_s = robot.time_s - arrived_s.unwrap();
             assert!((1.0..1.5).contains(&served_s), "{served_s}");
@@ -228,7 +231,7 @@ fn announced(robot: &mut Robot, until: impl Fn(&Command) -> bool) -> Vec<Commitm
 
 fn has_done(command: &Command) -> bool {
     let mut sent = command.outbox.iter();
-    sent.any(|message| matches!(message.about, About::Dispatch(Dispatch::Done(_))))
+    sent.any(|message| matches!(message.about, About::Contract(ContractMessage::Done(_))))
 }
 
 #[test]
@@ -279,7 +282,7 @@ fn a_robot_that_does_not_come_nearer_reports_that_it_is_stuck_and_does_not_bid_a
         let sent = robot.step(&[], false);
         robot.x = 0.0;
         for each in sent {
-            if let Dispatch::Stuck(refusal) = each {
+            if let About::Contract(ContractMessage::Stuck(refusal)) = each {
                 reasons.push(refusal.reason);
                 number = refusal.number;
             }
@@ -294,7 +297,7 @@ fn a_robot_that_does_not_come_nearer_reports_that_it_is_stuck_and_does_not_bid_a
         age_s: 0.0,
         message: Message::to(
             to,
-            About::Dispatch(Dispatch::Withdraw(Claim { goal, number })),
+            About::Contract(ContractMessage::Withdraw(Claim { goal, number })),
         ),
     };
     let percept = Percept {
@@ -304,8 +307,12 @@ fn a_robot_that_does_not_come_nearer_reports_that_it_is_stuck_and_does_not_bid_a
     };
     robot.brain.step(&percept);
     assert!(robot.brain.served_goals().is_empty());
-    let sent: Vec<Dispatch> = (0..50).flat_map(|_| robot.step(&[CALL], false)).collect();
-    assert!(!sent.iter().any(|sent| matches!(sent, Dispatch::Bid(_))));
+    let sent: Vec<About> = (0..50).flat_map(|_| robot.step(&[CALL], false)).collect();
+    assert!(
+        !sent
+            .iter()
+            .any(|sent| matches!(sent, About::Contract(ContractMessage::Bid(_))))
+    );
 }
 
 #[test]
@@ -317,10 +324,12 @@ fn a_robot_does_not_bid_for_a_goal_for_which_its_battery_does_not_last() {
         for step in 0..80 {
             charge -= if step < 60 { per_step / 2.0 } else { 0.0 };
             robot.battery = Some(charge);
-            let call: &[Dispatch] = if step == 70 { &[CALL] } else { &[] };
+            let call: &[About] = if step == 70 { &[CALL] } else { &[] };
             sent.extend(robot.step(call, false));
         }
-        let has_bid = sent.iter().any(|sent| matches!(sent, Dispatch::Bid(_)));
+        let has_bid = sent
+            .iter()
+            .any(|sent| matches!(sent, About::Contract(ContractMessage::Bid(_))));
         assert_eq!(has_bid, bids, "{per_step}");
     }
 }
@@ -335,9 +344,12 @@ fn a_robot_whose_battery_does_not_last_returns_its_goals_with_the_reason() {
         sent.extend(robot.step(&[], false));
         robot.x = 0.0;
     }
-    let is_reason = |sent: &Dispatch| matches!(sent, Dispatch::Stuck(refusal) if refusal.reason == Reason::Battery);
+    let is_reason = |sent: &About| matches!(sent, About::Contract(ContractMessage::Stuck(refusal)) if refusal.reason == Reason::Battery);
     assert!(sent.iter().any(is_reason));
-    assert!(sent.iter().any(|sent| matches!(sent, Dispatch::Release(_))));
+    assert!(
+        sent.iter()
+            .any(|sent| matches!(sent, About::Contract(ContractMessage::Release(_))))
+    );
     assert!(robot.brain.served_goals().is_empty());
 }
 

@@ -4,45 +4,50 @@ use crate::hand::{
     OTHER, OWNER, ROBOT, TASK, awarder, bid_of, claim, controller, refusal, sent_any,
 };
 use crate::team::{goal_id, robot_id};
-use brain::{AgentId, Dispatch, Reason, Receiver, Report, Task};
+use brain::{About, AgentId, ContractMessage, LeaseMessage, Reason, Receiver, Report, Task};
 
 /// A goal that is reported to the operator.
-fn reports(sent: &[(Receiver, Dispatch)]) -> Vec<Reason> {
+fn reports(sent: &[(Receiver, About)]) -> Vec<Reason> {
     let reports = sent.iter().filter_map(|(to, sent)| match sent {
-        Dispatch::Stuck(refusal) if *to == AgentId::OPERATOR.into() => Some(refusal.reason),
+        About::Contract(ContractMessage::Stuck(refusal)) if *to == AgentId::OPERATOR.into() => {
+            Some(refusal.reason)
+        }
         _ => None,
     });
     reports.collect()
 }
 
-fn report(payload: u16) -> Dispatch {
-    Dispatch::Report(Report {
+fn report(payload: u16) -> About {
+    About::Contract(ContractMessage::Report(Report {
         at_m: [0.0; 2],
         speed_m_s: 1.0,
         battery: 1.0,
         goals: 1 - payload,
         payload,
-    })
+    }))
 }
 
 #[test]
 fn a_goal_of_a_robot_that_stays_stuck_is_withdrawn_and_reported_once() {
     let mut owner = awarder();
-    owner.take(ROBOT, Dispatch::Commit(claim(7)));
-    let stuck = Dispatch::Stuck(refusal(7, Reason::Unreachable));
+    owner.take(ROBOT, About::Contract(ContractMessage::Commit(claim(7))));
+    let stuck = About::Contract(ContractMessage::Stuck(refusal(7, Reason::Unreachable)));
     let mut sent = owner.take(ROBOT, stuck);
-    let withdrawn = (ROBOT.into(), Dispatch::Withdraw(claim(7)));
+    let withdrawn = (
+        ROBOT.into(),
+        About::Contract(ContractMessage::Withdraw(claim(7))),
+    );
     for _ in 0..80 {
         // It renews its lease and reports, and cannot reach the goal.
         sent.extend(owner.take(ROBOT, report(0)));
-        sent.extend(owner.take(ROBOT, Dispatch::RenewOne(claim(7))));
+        sent.extend(owner.take(ROBOT, About::Lease(LeaseMessage::RenewOne(claim(7)))));
         sent.extend(owner.wait(0.4));
         if sent.contains(&withdrawn) {
             break;
         }
     }
     assert!(sent.contains(&withdrawn));
-    sent.extend(owner.take(ROBOT, Dispatch::Release(claim(7))));
+    sent.extend(owner.take(ROBOT, About::Contract(ContractMessage::Release(claim(7)))));
     for _ in 0..40 {
         sent.extend(owner.take(ROBOT, report(1)));
         sent.extend(owner.wait(0.9));
@@ -53,13 +58,16 @@ fn a_goal_of_a_robot_that_stays_stuck_is_withdrawn_and_reported_once() {
 #[test]
 fn a_robot_that_approaches_again_keeps_its_goal() {
     let mut owner = awarder();
-    owner.take(ROBOT, Dispatch::Commit(claim(7)));
-    owner.take(ROBOT, Dispatch::Stuck(refusal(7, Reason::Unreachable)));
-    let fitness = Dispatch::Fitness(brain::Fitness {
+    owner.take(ROBOT, About::Contract(ContractMessage::Commit(claim(7))));
+    owner.take(
+        ROBOT,
+        About::Contract(ContractMessage::Stuck(refusal(7, Reason::Unreachable))),
+    );
+    let fitness = About::Contract(ContractMessage::Fitness(brain::Fitness {
         goal: goal_id(0),
         verdict: brain::Verdict::Approaching,
         remaining_s: 5.0,
-    });
+    }));
     owner.wait(5.0);
     owner.take(ROBOT, fitness);
     let mut sent = Vec::new();
@@ -69,42 +77,48 @@ fn a_robot_that_approaches_again_keeps_its_goal() {
     }
     assert!(!sent_any(
         &sent,
-        |it| matches!(it, Dispatch::Withdraw(claim) if claim.number == 7)
+        |it| matches!(it, About::Contract(ContractMessage::Withdraw(claim)) if claim.number == 7)
     ));
 }
 
 /// The number of awards to a robot that returns each of them, while another robot bids, too.
-fn awards_of_a_liar(answer: impl Fn(u32) -> Dispatch) -> [usize; 2] {
+fn awards_of_a_liar(answer: impl Fn(u32) -> About) -> [usize; 2] {
     let mut owner = controller(OWNER);
-    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Issue(TASK)),
+    );
     let (mut number, mut awards, mut call) = (0, [0, 0], 0);
     for _ in 0..600 {
         number += 1;
         let mut sent = Vec::new();
         for (robot, time_s) in [(ROBOT, 0.0), (OTHER, 60.0)] {
-            let Dispatch::Bid(bid) = bid_of(number) else {
+            let About::Contract(ContractMessage::Bid(bid)) = bid_of(number) else {
                 return awards;
             };
             sent.extend(owner.take(
                 robot,
-                Dispatch::Bid(brain::Bid {
+                About::Contract(ContractMessage::Bid(brain::Bid {
                     time_s,
                     call,
                     ..bid
-                }),
+                })),
             ));
         }
         sent.extend(owner.wait(0.3));
         for (to, sent) in sent {
             match sent {
-                Dispatch::Call { number, .. } => call = number,
-                Dispatch::Award(award) if to == ROBOT.into() => {
+                About::Contract(ContractMessage::Call { number, .. }) => call = number,
+                About::Contract(ContractMessage::Award(award)) if to == ROBOT.into() => {
                     awards[0] += 1;
                     owner.take(ROBOT, answer(award.number));
                 }
-                Dispatch::Award(award) if to == OTHER.into() => {
+                About::Contract(ContractMessage::Award(award)) if to == OTHER.into() => {
                     awards[1] += 1;
-                    owner.take(OTHER, Dispatch::Commit(claim(award.number)));
+                    owner.take(
+                        OTHER,
+                        About::Contract(ContractMessage::Commit(claim(award.number))),
+                    );
                     return awards;
                 }
                 _ => {}
@@ -116,9 +130,9 @@ fn awards_of_a_liar(answer: impl Fn(u32) -> Dispatch) -> [usize; 2] {
 
 #[test]
 fn a_robot_that_bids_best_and_returns_each_award_does_not_keep_others_from_the_goal() {
-    let refused = |number| Dispatch::Refuse(refusal(number, Reason::Lease));
-    let released = |number| Dispatch::Release(claim(number));
-    for answer in [&refused as &dyn Fn(u32) -> Dispatch, &released] {
+    let refused = |number| About::Contract(ContractMessage::Refuse(refusal(number, Reason::Lease)));
+    let released = |number| About::Contract(ContractMessage::Release(claim(number)));
+    for answer in [&refused as &dyn Fn(u32) -> About, &released] {
         let [liar, other] = awards_of_a_liar(answer);
         assert!(liar <= 2 && other == 1, "{liar} {other}");
     }
@@ -135,7 +149,7 @@ fn expired_goals_are_reported_once_and_make_room_for_others() {
     owner.agent = economy::Controller::new(std::sync::Arc::new(settings));
     owner.take(
         AgentId::OPERATOR,
-        Dispatch::Issue(Task { due_s: 5.0, ..TASK }),
+        About::Contract(ContractMessage::Issue(Task { due_s: 5.0, ..TASK })),
     );
     owner.take(ROBOT, report(1));
     let sent = owner.wait(6.0);
@@ -144,18 +158,23 @@ fn expired_goals_are_reported_once_and_make_room_for_others() {
         id: goal_id(1),
         ..TASK
     };
-    owner.take(AgentId::OPERATOR, Dispatch::Issue(later));
+    owner.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Issue(later)),
+    );
     assert_eq!(owner.agent.refused(), 0);
     let sent = owner.wait(400.0);
-    let is_call =
-        |it: &Dispatch| matches!(it, Dispatch::Call { task, .. } if task.id == goal_id(0));
+    let is_call = |it: &About| matches!(it, About::Contract(ContractMessage::Call { task, .. }) if task.id == goal_id(0));
     assert!(!sent_any(&sent, is_call));
 }
 
 #[test]
 fn a_goal_that_seventy_robots_cannot_serve_is_reported() {
     let mut owner = controller(OWNER);
-    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Issue(TASK)),
+    );
     let mut sent = Vec::new();
     let present: Vec<_> = (0..70)
         .map(|index| (robot_id(index), OWNER.into(), report(1)))
@@ -165,9 +184,15 @@ fn a_goal_that_seventy_robots_cannot_serve_is_reported() {
         let new = owner.step(&inbox);
         inbox = present.clone();
         for (to, call) in &new {
-            if let (Dispatch::Call { number, .. }, Some(robot)) = (call, to.agent()) {
+            if let (About::Contract(ContractMessage::Call { number, .. }), Some(robot)) =
+                (call, to.agent())
+            {
                 let refused = refusal((*number).into(), Reason::Unreachable);
-                inbox.push((robot, OWNER.into(), Dispatch::Refuse(refused)));
+                inbox.push((
+                    robot,
+                    OWNER.into(),
+                    About::Contract(ContractMessage::Refuse(refused)),
+                ));
             }
         }
         sent.extend(new);
@@ -178,21 +203,29 @@ fn a_goal_that_seventy_robots_cannot_serve_is_reported() {
 #[test]
 fn a_robot_that_is_back_in_service_is_a_reason_to_try_again() {
     let mut owner = controller(OWNER);
-    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Issue(TASK)),
+    );
     owner.take(ROBOT, report(1));
     let mut sent = Vec::new();
     while reports(&sent).is_empty() {
         for (to, call) in owner.wait(0.5) {
             sent.push((to, call));
-            if let (Dispatch::Call { number, .. }, true) = (call, to == ROBOT.into()) {
+            if let (About::Contract(ContractMessage::Call { number, .. }), true) =
+                (call, to == ROBOT.into())
+            {
                 let refused = refusal(number.into(), Reason::OutOfService);
-                sent.extend(owner.take(ROBOT, Dispatch::Refuse(refused)));
+                sent.extend(owner.take(ROBOT, About::Contract(ContractMessage::Refuse(refused))));
             }
         }
     }
     assert!(owner.agent.goals().next().unwrap().unserved.is_some());
     let sent = owner.take(ROBOT, report(1));
-    assert!(sent_any(&sent, |it| matches!(it, Dispatch::Call { .. })));
+    assert!(sent_any(&sent, |it| matches!(
+        it,
+        About::Contract(ContractMessage::Call { .. })
+    )));
 }
 
 #[test]
@@ -207,7 +240,7 @@ fn a_repeated_award_has_the_lease_for_which_its_controller_waits() {
     owner.agent = owner.agent.with_settings_of(&other);
     let sent = owner.wait(1.0);
     let leases = sent.iter().filter_map(|(_, sent)| match sent {
-        Dispatch::Award(award) => Some(award.lease_s),
+        About::Contract(ContractMessage::Award(award)) => Some(award.lease_s),
         _ => None,
     });
     let leases: Vec<f32> = leases.collect();

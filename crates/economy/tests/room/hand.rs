@@ -3,8 +3,8 @@
 use crate::team::{STEP_S, brain, goal_id, robot_id, station_id};
 use base::geometry::Point;
 use brain::{
-    About, AgentId, Award, Bid, Brain, Claim, Command, Dispatch, GoalId, Message, Percept, Reading,
-    Reason, ReceivedMessage, Receiver, Refusal, Task,
+    About, AgentId, Award, Bid, Brain, Claim, Command, ContractMessage, GoalId, Message, Percept,
+    Reading, Reason, ReceivedMessage, Receiver, Refusal, Task,
 };
 use economy::{Controller, Settings};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub(crate) const ROBOT: AgentId = robot_id(0);
 pub(crate) const OTHER: AgentId = robot_id(1);
 pub(crate) const OWNER: AgentId = station_id(0);
-pub(crate) const HEIR: AgentId = station_id(1);
+pub(crate) const BACKUP: AgentId = station_id(1);
 
 /// An agent that is stepped by hand.
 pub(crate) struct Hand<A> {
@@ -24,9 +24,11 @@ pub(crate) struct Hand<A> {
 }
 
 /// The goal of a report to the operator.
-pub(crate) fn reported((to, dispatch): &(Receiver, Dispatch)) -> Option<GoalId> {
-    match dispatch {
-        Dispatch::Stuck(report) | Dispatch::Refuse(report) if to.includes(AgentId::OPERATOR) => {
+pub(crate) fn reported((to, about): &(Receiver, About)) -> Option<GoalId> {
+    match about {
+        About::Contract(ContractMessage::Stuck(report) | ContractMessage::Refuse(report))
+            if to.includes(AgentId::OPERATOR) =>
+        {
             Some(report.goal)
         }
         _ => None,
@@ -53,20 +55,20 @@ impl Agent for Brain {
 
 impl<A: Agent> Hand<A> {
     /// A step with messages; returns those that it sends about goals, and their receivers.
-    pub(crate) fn step(
-        &mut self,
-        inbox: &[(AgentId, Receiver, Dispatch)],
-    ) -> Vec<(Receiver, Dispatch)> {
+    pub(crate) fn step(&mut self, inbox: &[(AgentId, Receiver, About)]) -> Vec<(Receiver, About)> {
         self.now_s += STEP_S;
-        let acknowledged = self.reported.drain(..).map(Dispatch::Acknowledge);
+        let acknowledged = self
+            .reported
+            .drain(..)
+            .map(|goal| About::Contract(ContractMessage::Acknowledge(goal)));
         let acknowledged: Vec<_> = acknowledged
-            .map(|dispatch| (AgentId::OPERATOR, Receiver::Agent(self.id), dispatch))
+            .map(|about| (AgentId::OPERATOR, Receiver::Agent(self.id), about))
             .collect();
         let inbox = inbox.iter().chain(&acknowledged);
-        let inbox = inbox.map(|(from, to, dispatch)| ReceivedMessage {
+        let inbox = inbox.map(|(from, to, about)| ReceivedMessage {
             from: *from,
             age_s: 0.0,
-            message: Message::to(*to, About::Dispatch(*dispatch)),
+            message: Message::to(*to, *about),
         });
         let percept = Percept {
             time_s: Some(self.now_s),
@@ -77,22 +79,20 @@ impl<A: Agent> Hand<A> {
             ..Percept::default()
         };
         let sent = self.agent.step(&percept).outbox.into_iter();
-        let sent = sent.filter_map(|message| match message.about {
-            About::Dispatch(dispatch) => Some((message.to, dispatch)),
-            _ => None,
-        });
-        let sent: Vec<(Receiver, Dispatch)> = sent.collect();
+        let sent = sent.filter(|message| message.about.is_of_economy());
+        let sent = sent.map(|message| (message.to, message.about));
+        let sent: Vec<(Receiver, About)> = sent.collect();
         self.reported.extend(sent.iter().filter_map(reported));
         sent
     }
 
     /// The same with one message to the agent.
-    pub(crate) fn take(&mut self, from: AgentId, dispatch: Dispatch) -> Vec<(Receiver, Dispatch)> {
-        self.step(&[(from, self.id.into(), dispatch)])
+    pub(crate) fn take(&mut self, from: AgentId, about: About) -> Vec<(Receiver, About)> {
+        self.step(&[(from, self.id.into(), about)])
     }
 
     /// Steps without messages for a time; returns what it sends.
-    pub(crate) fn wait(&mut self, time_s: f64) -> Vec<(Receiver, Dispatch)> {
+    pub(crate) fn wait(&mut self, time_s: f64) -> Vec<(Receiver, About)> {
         let end_s = self.now_s + time_s;
         let mut sent = Vec::new();
         while self.now_s < end_s {
@@ -130,13 +130,13 @@ pub(crate) fn robot() -> Hand<Brain> {
     }
 }
 
-pub(crate) const CALL: Dispatch = Dispatch::Call {
+pub(crate) const CALL: About = About::Contract(ContractMessage::Call {
     number: 4,
     task: Task {
         at_m: [10.0, 0.0],
         ..TASK
     },
-};
+});
 
 pub(crate) const TASK: Task = Task {
     id: brain::GoalId {
@@ -159,12 +159,12 @@ pub(crate) fn claim(number: u32) -> Claim {
     }
 }
 
-pub(crate) fn award(number: u32) -> Dispatch {
-    Dispatch::Award(Award {
+pub(crate) fn award(number: u32) -> About {
+    About::Contract(ContractMessage::Award(Award {
         goal: goal_id(0),
         number,
         lease_s: 20.0,
-    })
+    }))
 }
 
 pub(crate) fn refusal(number: u32, reason: Reason) -> Refusal {
@@ -176,9 +176,9 @@ pub(crate) fn refusal(number: u32, reason: Reason) -> Refusal {
 }
 
 /// The first bid of what is sent.
-pub(crate) fn bid(sent: &[(Receiver, Dispatch)]) -> Option<Bid> {
-    sent.iter().find_map(|(_, dispatch)| match dispatch {
-        Dispatch::Bid(bid) => Some(*bid),
+pub(crate) fn bid(sent: &[(Receiver, About)]) -> Option<Bid> {
+    sent.iter().find_map(|(_, about)| match about {
+        About::Contract(ContractMessage::Bid(bid)) => Some(*bid),
         _ => None,
     })
 }
@@ -188,38 +188,37 @@ pub(crate) fn assignee() -> (Hand<Brain>, u32) {
     let mut robot = robot();
     let sent = robot.step(&[(OWNER, Receiver::All, CALL)]);
     let number = bid(&sent).unwrap().number;
-    assert!(
-        robot
-            .take(OWNER, award(number))
-            .contains(&(OWNER.into(), Dispatch::Commit(claim(number))))
-    );
+    assert!(robot.take(OWNER, award(number)).contains(&(
+        OWNER.into(),
+        About::Contract(ContractMessage::Commit(claim(number)))
+    )));
     (robot, number)
 }
 
-pub(crate) fn sent_any(
-    sent: &[(Receiver, Dispatch)],
-    is_meant: impl Fn(&Dispatch) -> bool,
-) -> bool {
-    sent.iter().any(|(_, dispatch)| is_meant(dispatch))
+pub(crate) fn sent_any(sent: &[(Receiver, About)], is_meant: impl Fn(&About) -> bool) -> bool {
+    sent.iter().any(|(_, about)| is_meant(about))
 }
 
 /// A controller that owns the goal, and has received a bid of a robot.
 pub(crate) fn owner() -> Hand<Controller> {
     let mut owner = controller(OWNER);
-    owner.take(AgentId::OPERATOR, Dispatch::Issue(TASK));
+    owner.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Issue(TASK)),
+    );
     owner.step(&[(ROBOT, OWNER.into(), bid_of(7))]);
     owner
 }
 
-pub(crate) fn bid_of(number: u32) -> Dispatch {
-    Dispatch::Bid(Bid {
+pub(crate) fn bid_of(number: u32) -> About {
+    About::Contract(ContractMessage::Bid(Bid {
         goal: goal_id(0),
         number,
         time_s: 6.0,
         total_s: 6.0,
         energy: 0.0,
         call: 0,
-    })
+    }))
 }
 
 /// A controller that has awarded the goal to a robot.

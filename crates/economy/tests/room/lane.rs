@@ -1,8 +1,8 @@
 //! A controller with a mined lane, and robots that only send messages.
 
 use brain::{
-    About, AgentId, Command, Coverage, Dispatch, Lane, Message, Percept, ReceivedMessage, Report,
-    Task, Work,
+    About, AgentId, Command, ContractMessage, Coverage, Lane, LaneMessage, Message,
+    OwnershipMessage, Percept, ReceivedMessage, Report, Task, Work,
 };
 use economy::{Clearance, Controller, RobotModel, Settings, Skill};
 use std::sync::Arc;
@@ -53,12 +53,12 @@ impl Station {
         }
     }
 
-    fn step(&mut self, inbox: &[(AgentId, Dispatch)]) -> Vec<Dispatch> {
+    fn step(&mut self, inbox: &[(AgentId, About)]) -> Vec<About> {
         self.step += 1;
-        let inbox = inbox.iter().map(|(from, dispatch)| ReceivedMessage {
+        let inbox = inbox.iter().map(|(from, about)| ReceivedMessage {
             from: *from,
             age_s: 0.0,
-            message: Message::to_all(About::Dispatch(*dispatch)),
+            message: Message::to_all(*about),
         });
         let percept = Percept {
             time_s: Some(f64::from(self.step) * 0.1),
@@ -72,10 +72,8 @@ impl Station {
         let sent = command
             .outbox
             .into_iter()
-            .filter_map(|message| match message.about {
-                About::Dispatch(dispatch) => Some(dispatch),
-                _ => None,
-            });
+            .map(|message| message.about)
+            .filter(About::is_of_economy);
         sent.collect()
     }
 
@@ -88,7 +86,7 @@ impl Station {
     }
 }
 
-fn report() -> (AgentId, Dispatch) {
+fn report() -> (AgentId, About) {
     let report = Report {
         at_m: [0.0; 2],
         speed_m_s: 1.0,
@@ -96,17 +94,17 @@ fn report() -> (AgentId, Dispatch) {
         goals: 0,
         payload: 4,
     };
-    (OAV, Dispatch::Report(report))
+    (OAV, About::Contract(ContractMessage::Report(report)))
 }
 
-fn searched(first: u32) -> (AgentId, Dispatch) {
+fn searched(first: u32) -> (AgentId, About) {
     let coverage = Coverage {
         first,
         marks: 0,
         missed: [200; 16],
         driven: [0; 16],
     };
-    (OAV, Dispatch::Coverage(coverage))
+    (OAV, About::Lane(LaneMessage::Coverage(coverage)))
 }
 
 #[test]
@@ -116,12 +114,14 @@ fn a_controller_names_its_lane_and_calls_for_searches_of_its_tiles() {
     for _ in 0..30 {
         sent.extend(station.step(&[report()]));
     }
-    let lanes = sent.iter().filter(|sent| matches!(sent, Dispatch::Lane(_)));
+    let lanes = sent
+        .iter()
+        .filter(|sent| matches!(sent, About::Lane(LaneMessage::Lane(_))));
     assert_eq!(lanes.count(), 1, "every five seconds");
     assert_eq!(station.goals(), [5.0, 15.0, 25.0]);
     let calls = sent
         .iter()
-        .filter(|sent| matches!(sent, Dispatch::Call { .. }));
+        .filter(|sent| matches!(sent, About::Contract(ContractMessage::Call { .. })));
     assert!(calls.count() >= 3);
 }
 
@@ -148,7 +148,10 @@ fn two_controllers_in_range_plan_different_tiles_and_one_that_is_lost_is_replace
     for _ in 0..40 {
         for (index, station) in (0..).zip(&mut stations) {
             let other = AgentId::controller(1, 1 - index);
-            station.step(&[report(), (other, Dispatch::Serial(index))]);
+            station.step(&[
+                report(),
+                (other, About::Ownership(OwnershipMessage::Serial(index))),
+            ]);
         }
     }
     assert_eq!(stations[0].goals(), [5.0, 25.0]);
@@ -164,13 +167,16 @@ fn a_controller_of_another_kind_shares_no_lane() {
     let mut station = Station::new(0);
     let other = AgentId::controller(2, 0);
     for _ in 0..700 {
-        station.step(&[(other, Dispatch::Serial(7))]);
+        station.step(&[(other, About::Ownership(OwnershipMessage::Serial(7)))]);
     }
     // Without robots in range, it gives the lane up although the other one reports nothing about it.
     assert!(station.controller.lane_statement().is_some());
     let mut station = Station::new(0);
     for _ in 0..40 {
-        station.step(&[report(), (other, Dispatch::Serial(7))]);
+        station.step(&[
+            report(),
+            (other, About::Ownership(OwnershipMessage::Serial(7))),
+        ]);
     }
     assert_eq!(station.goals(), [5.0, 15.0, 25.0]);
 }
@@ -180,8 +186,8 @@ fn gives_up(gain: Option<f32>) -> bool {
     let mut station = Station::new(0);
     let other = AgentId::controller(1, 1);
     for _ in 0..1200 {
-        let mut inbox = vec![(other, Dispatch::Serial(1))];
-        inbox.extend(gain.map(|gain| (other, Dispatch::LaneGain(gain))));
+        let mut inbox = vec![(other, About::Ownership(OwnershipMessage::Serial(1)))];
+        inbox.extend(gain.map(|gain| (other, About::Lane(LaneMessage::Gain(gain)))));
         station.step(&inbox);
     }
     let statement = station.controller.lane_statement();
@@ -202,9 +208,12 @@ fn controllers_report_what_their_goals_may_find_to_each_other_only() {
     let other = AgentId::controller(1, 1);
     let mut gains = Vec::new();
     for _ in 0..200 {
-        let sent = station.step(&[report(), (other, Dispatch::Serial(1))]);
+        let sent = station.step(&[
+            report(),
+            (other, About::Ownership(OwnershipMessage::Serial(1))),
+        ]);
         gains.extend(sent.into_iter().filter_map(|sent| match sent {
-            Dispatch::LaneGain(gain) => Some(gain),
+            About::Lane(LaneMessage::Gain(gain)) => Some(gain),
             _ => None,
         }));
     }
@@ -220,7 +229,12 @@ fn a_controller_without_a_lane_states_nothing_about_it() {
         ..settings()
     }));
     let sent = (0..20).flat_map(|_| station.step(&[report(), searched(0)]));
-    let is_lane = |sent: &Dispatch| matches!(sent, Dispatch::Lane(_) | Dispatch::Call { .. });
+    let is_lane = |sent: &About| {
+        matches!(
+            sent,
+            About::Lane(LaneMessage::Lane(_)) | About::Contract(ContractMessage::Call { .. })
+        )
+    };
     assert!(!sent.collect::<Vec<_>>().iter().any(is_lane));
     assert!(station.controller.lane().is_none());
 }

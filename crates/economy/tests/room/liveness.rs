@@ -61,9 +61,9 @@ fn disturbed(team: &mut Team, start_s: f64, loss: Loss) -> f64 {
     team.now_s
 }
 
-fn is_orphan(station: &Station, goal: GoalId) -> bool {
+fn has_lost(station: &Station, goal: GoalId) -> bool {
     let controller = station.controller.as_ref();
-    controller.is_some_and(|controller| controller.orphans().any(|task| task.id == goal))
+    controller.is_some_and(|controller| controller.lost().any(|task| task.id == goal))
 }
 
 /// The goals that a working agent knew when the last disturbance was over.
@@ -104,7 +104,7 @@ fn has_recovered(team: &Team, goal: GoalId, since_s: f64) -> bool {
     let owners = stations.filter(|it| Team::owns(it, goal, team.now_s));
     let owners: Vec<&Station> = owners.collect();
     let [owner] = owners[..] else {
-        return team.stations.iter().any(|station| is_orphan(station, goal));
+        return team.stations.iter().any(|station| has_lost(station, goal));
     };
     let mut goals = owner.controller.iter().flat_map(Controller::goals);
     let open = goals.find(|owned| owned.task.id == goal);

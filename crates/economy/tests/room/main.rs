@@ -5,8 +5,8 @@
 mod controllers;
 mod displacement;
 mod failing;
+mod failover;
 mod hand;
-mod heirs;
 mod lane;
 mod liveness;
 mod missions;

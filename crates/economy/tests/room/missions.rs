@@ -79,27 +79,27 @@ fn a_robot_that_is_lost_loses_its_goals_to_the_others() {
 }
 
 #[test]
-fn the_heir_serves_the_goals_of_a_controller_that_is_lost() {
+fn the_backup_serves_the_goals_of_a_controller_that_is_lost() {
     let mut team = Team::new([3, 2], &settings(), Weather::default(), 3);
     team.issue_random(12, 100.0);
     team.run(12.0);
     team.crash_station(0);
     team.run(1.1 * (30.0 + 20.0) + 2.0);
     let known = |team: &Team| {
-        let heir = team.controller(1);
-        let owned = heir.goals().map(|goal| goal.task.id).chain(heir.done());
+        let backup = team.controller(1);
+        let owned = backup.goals().map(|goal| goal.task.id).chain(backup.done());
         let own = owned.filter(|goal| goal.number % 2 == 0);
         own.count()
     };
     assert_eq!(known(&team), 6);
-    // The lost controller was the heir of the others: they are orphaned, unless they are done.
-    team.reissue_orphans(1);
+    // The lost controller was the backup of the others: they lose their owner, unless they are done.
+    team.reissue_lost(1);
     team.run_until_done(12, 600.0);
     assert_eq!(team.done(), 12);
 }
 
 #[test]
-fn a_goal_whose_heir_is_lost_is_orphaned_and_can_be_issued_again() {
+fn a_goal_whose_backup_is_lost_loses_its_owner_and_can_be_issued_again() {
     let mut team = Team::new([1, 2], &settings(), Weather::default(), 3);
     let far = Task {
         capability: 9,
@@ -107,20 +107,20 @@ fn a_goal_whose_heir_is_lost_is_orphaned_and_can_be_issued_again() {
     };
     team.issue(0, far);
     team.run(20.0);
-    assert!(team.controller(0).goals().next().unwrap().heir.is_some());
+    assert!(team.controller(0).goals().next().unwrap().backup.is_some());
     team.crash_station(1);
     team.run(40.0);
-    let orphans = team.controller(0).orphans().map(|task| task.id);
-    assert!(orphans.eq([goal_id(0)]));
+    let lost = team.controller(0).lost().map(|task| task.id);
+    assert!(lost.eq([goal_id(0)]));
     assert_eq!(team.controller(0).goals().count(), 0);
     team.issue(0, far);
     team.run(1.0);
     assert_eq!(team.controller(0).goals().count(), 1);
-    assert_eq!(team.controller(0).orphans().count(), 0);
+    assert_eq!(team.controller(0).lost().count(), 0);
 }
 
 #[test]
-fn an_heir_returns_the_goals_of_a_controller_that_is_in_range_again() {
+fn a_backup_returns_the_goals_of_a_controller_that_is_in_range_again() {
     let mut team = Team::new([1, 2], &settings(), Weather::default(), 3);
     let impossible = Task {
         capability: 9,

@@ -1,12 +1,12 @@
 //! The effect of each message on a robot.
 
 use crate::hand::{
-    CALL, HEIR, OTHER, OWNER, TASK, assignee, award, bid, claim, refusal, robot, sent_any,
+    BACKUP, CALL, OTHER, OWNER, TASK, assignee, award, bid, claim, refusal, robot, sent_any,
 };
 use crate::network::Weather;
 use crate::team::{Team, goal_id, task};
 use base::geometry::Point;
-use brain::{AgentId, Dispatch, Reason, Receiver, Renewal, Task};
+use brain::{About, AgentId, ContractMessage, LeaseMessage, Reason, Receiver, Renewal, Task};
 use economy::Settings;
 
 #[test]
@@ -24,10 +24,10 @@ fn a_call_of_a_robot_or_with_absurd_numbers_is_no_offer() {
         at_m: [f32::NAN, 0.0],
         ..TASK
     };
-    let absurd = Dispatch::Call {
+    let absurd = About::Contract(ContractMessage::Call {
         number: 4,
         task: absurd,
-    };
+    });
     for (from, call) in [(OTHER, CALL), (OWNER, absurd)] {
         let mut robot = robot();
         assert_eq!(bid(&robot.step(&[(from, Receiver::All, call)])), None);
@@ -42,9 +42,15 @@ fn a_call_to_one_robot_is_answered_by_a_refusal_with_the_reason() {
         ..TASK
     };
     for (task, reason) in [(late, Reason::Deadline), (special, Reason::Capability)] {
-        let sent = robot().take(OWNER, Dispatch::Call { number: 4, task });
+        let sent = robot().take(
+            OWNER,
+            About::Contract(ContractMessage::Call { number: 4, task }),
+        );
         assert!(
-            sent.contains(&(OWNER.into(), Dispatch::Refuse(refusal(4, reason)))),
+            sent.contains(&(
+                OWNER.into(),
+                About::Contract(ContractMessage::Refuse(refusal(4, reason)))
+            )),
             "{sent:?}"
         );
     }
@@ -55,7 +61,10 @@ fn an_award_makes_a_robot_drive_and_one_that_answers_no_bid_is_refused() {
     let (mut driver, _) = assignee();
     assert_eq!(driver.agent.served_goals().len(), 1);
     let sent = robot().take(OWNER, award(5));
-    assert!(sent.contains(&(OWNER.into(), Dispatch::Refuse(refusal(5, Reason::Lease)))));
+    assert!(sent.contains(&(
+        OWNER.into(),
+        About::Contract(ContractMessage::Refuse(refusal(5, Reason::Lease)))
+    )));
     driver.wait(1.0);
     assert!(driver.agent.last_command().motion.speed_m_s > 0.0);
 }
@@ -63,12 +72,27 @@ fn an_award_makes_a_robot_drive_and_one_that_answers_no_bid_is_refused() {
 #[test]
 fn a_withdrawal_ends_the_service_and_is_answered_by_a_release() {
     let (mut robot, number) = assignee();
-    robot.take(OTHER, Dispatch::Withdraw(claim(number)));
-    robot.take(HEIR, Dispatch::Withdraw(claim(number)));
-    robot.take(OWNER, Dispatch::Withdraw(claim(number.wrapping_sub(1))));
+    robot.take(
+        OTHER,
+        About::Contract(ContractMessage::Withdraw(claim(number))),
+    );
+    robot.take(
+        BACKUP,
+        About::Contract(ContractMessage::Withdraw(claim(number))),
+    );
+    robot.take(
+        OWNER,
+        About::Contract(ContractMessage::Withdraw(claim(number.wrapping_sub(1)))),
+    );
     assert_eq!(robot.agent.served_goals().len(), 1);
-    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(number)));
-    assert!(sent_any(&sent, |sent| matches!(sent, Dispatch::Release(_))));
+    let sent = robot.take(
+        OWNER,
+        About::Contract(ContractMessage::Withdraw(claim(number))),
+    );
+    assert!(sent_any(&sent, |sent| matches!(
+        sent,
+        About::Contract(ContractMessage::Release(_))
+    )));
     assert_eq!(robot.agent.served_goals().len(), 0);
     // The award has no effect any more.
     robot.take(OWNER, award(number));
@@ -80,25 +104,42 @@ fn a_release_has_the_number_of_the_award_also_after_renewals() {
     let (mut robot, number) = assignee();
     let sent = robot.wait(8.0);
     let renewal = sent.iter().rev().find_map(|(_, sent)| match sent {
-        Dispatch::Renew(renewal) => Some(renewal.number),
+        About::Lease(LeaseMessage::Renew(renewal)) => Some(renewal.number),
         _ => None,
     });
-    robot.take(OWNER, Dispatch::Renewed(renewal.unwrap()));
-    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(number)));
-    assert!(sent.contains(&(OWNER.into(), Dispatch::Release(claim(number)))));
+    robot.take(OWNER, About::Lease(LeaseMessage::Renewed(renewal.unwrap())));
+    let sent = robot.take(
+        OWNER,
+        About::Contract(ContractMessage::Withdraw(claim(number))),
+    );
+    assert!(sent.contains(&(
+        OWNER.into(),
+        About::Contract(ContractMessage::Release(claim(number)))
+    )));
     // A robot that never held the lease answers with the number of the withdrawal.
-    let sent = robot.take(OWNER, Dispatch::Withdraw(claim(99)));
-    assert!(sent.contains(&(OWNER.into(), Dispatch::Release(claim(99)))));
+    let sent = robot.take(OWNER, About::Contract(ContractMessage::Withdraw(claim(99))));
+    assert!(sent.contains(&(
+        OWNER.into(),
+        About::Contract(ContractMessage::Release(claim(99)))
+    )));
 }
 
 #[test]
 fn a_withdrawal_to_all_ends_the_offer_and_not_the_service() {
     let mut bidder = robot();
     bidder.step(&[(OWNER, Receiver::All, CALL)]);
-    bidder.step(&[(OWNER, Receiver::All, Dispatch::Withdraw(claim(0)))]);
+    bidder.step(&[(
+        OWNER,
+        Receiver::All,
+        About::Contract(ContractMessage::Withdraw(claim(0))),
+    )]);
     assert_eq!(bid(&bidder.wait(6.0)), None);
     let (mut robot, _) = assignee();
-    robot.step(&[(OWNER, Receiver::All, Dispatch::Withdraw(claim(0)))]);
+    robot.step(&[(
+        OWNER,
+        Receiver::All,
+        About::Contract(ContractMessage::Withdraw(claim(0))),
+    )]);
     assert_eq!(robot.agent.served_goals().len(), 1);
 }
 
@@ -112,12 +153,12 @@ fn a_service_ends_with_its_lease_unless_it_is_renewed() {
     let (mut renewed, _) = assignee();
     let sent = renewed.wait(8.0);
     let number = sent.iter().rev().find_map(|(_, sent)| match sent {
-        Dispatch::Renew(Renewal {
+        About::Lease(LeaseMessage::Renew(Renewal {
             number, count: 1, ..
-        }) => Some(*number),
+        })) => Some(*number),
         _ => None,
     });
-    renewed.take(OWNER, Dispatch::Renewed(number.unwrap()));
+    renewed.take(OWNER, About::Lease(LeaseMessage::Renewed(number.unwrap())));
     renewed.wait(14.0);
     assert_eq!(renewed.agent.served_goals().len(), 1);
 }
@@ -127,15 +168,15 @@ fn leases_that_differ_are_renewed_one_by_one() {
     let (mut robot, _) = assignee();
     let sent = robot.wait(8.0);
     let number = sent.iter().rev().find_map(|(_, sent)| match sent {
-        Dispatch::Renew(renewal) => Some(renewal.number),
+        About::Lease(LeaseMessage::Renew(renewal)) => Some(renewal.number),
         _ => None,
     });
-    let sent = robot.take(OWNER, Dispatch::Differs(number.unwrap()));
+    let sent = robot.take(OWNER, About::Lease(LeaseMessage::Differs(number.unwrap())));
     let one = sent.iter().find_map(|(_, sent)| match sent {
-        Dispatch::RenewOne(claim) => Some(*claim),
+        About::Lease(LeaseMessage::RenewOne(claim)) => Some(*claim),
         _ => None,
     });
-    robot.take(OWNER, Dispatch::RenewedOne(one.unwrap()));
+    robot.take(OWNER, About::Lease(LeaseMessage::RenewedOne(one.unwrap())));
     robot.wait(14.0);
     assert_eq!(robot.agent.served_goals().len(), 1);
 }
@@ -144,21 +185,30 @@ fn leases_that_differ_are_renewed_one_by_one() {
 fn a_robot_out_of_service_returns_its_goals_and_bids_again_when_it_is_back() {
     let (mut robot, number) = assignee();
     // Only the operator decides that.
-    robot.take(OWNER, Dispatch::Service(false));
-    robot.take(OTHER, Dispatch::Service(false));
+    robot.take(OWNER, About::Contract(ContractMessage::Service(false)));
+    robot.take(OTHER, About::Contract(ContractMessage::Service(false)));
     assert_eq!(robot.agent.served_goals().len(), 1);
-    let sent = robot.take(AgentId::OPERATOR, Dispatch::Service(false));
-    let returned = Dispatch::Refuse(refusal(number, Reason::OutOfService));
+    let sent = robot.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Service(false)),
+    );
+    let returned = About::Contract(ContractMessage::Refuse(refusal(
+        number,
+        Reason::OutOfService,
+    )));
     assert!(sent.contains(&(OWNER.into(), returned)), "{sent:?}");
     assert_eq!(robot.agent.served_goals().len(), 0);
     let sent = robot.take(OWNER, CALL);
-    let refused = Dispatch::Refuse(refusal(4, Reason::OutOfService));
+    let refused = About::Contract(ContractMessage::Refuse(refusal(4, Reason::OutOfService)));
     assert!(sent.contains(&(OWNER.into(), refused)), "{sent:?}");
     let sent = robot.wait(6.0);
     assert_eq!(bid(&sent), None);
-    let is_report = |sent: &Dispatch| matches!(sent, Dispatch::Report(_));
+    let is_report = |sent: &About| matches!(sent, About::Contract(ContractMessage::Report(_)));
     assert!(!sent_any(&sent, is_report));
-    let sent = robot.take(AgentId::OPERATOR, Dispatch::Service(true));
+    let sent = robot.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Service(true)),
+    );
     assert!(sent_any(&sent, is_report), "it is present again");
     assert!(bid(&robot.wait(6.0)).is_some());
 }
@@ -168,24 +218,30 @@ fn an_award_that_arrives_out_of_service_is_refused() {
     let mut robot = robot();
     let sent = robot.step(&[(OWNER, Receiver::All, CALL)]);
     let number = bid(&sent).unwrap().number;
-    robot.take(AgentId::OPERATOR, Dispatch::Service(false));
+    robot.take(
+        AgentId::OPERATOR,
+        About::Contract(ContractMessage::Service(false)),
+    );
     let sent = robot.take(OWNER, award(number));
-    let refused = Dispatch::Refuse(refusal(number, Reason::OutOfService));
+    let refused = About::Contract(ContractMessage::Refuse(refusal(
+        number,
+        Reason::OutOfService,
+    )));
     assert!(sent.contains(&(OWNER.into(), refused)), "{sent:?}");
 }
 
 #[test]
 fn a_query_is_answered_by_a_report() {
-    let sent = robot().take(OWNER, Dispatch::Query {});
+    let sent = robot().take(OWNER, About::Contract(ContractMessage::Query {}));
     assert!(sent_any(
         &sent,
-        |sent| matches!(sent, Dispatch::Report(report) if report.payload == 4)
+        |sent| matches!(sent, About::Contract(ContractMessage::Report(report)) if report.payload == 4)
     ));
     let (mut robot, _) = assignee();
     let sent = robot.wait(4.0);
     assert!(sent_any(
         &sent,
-        |sent| matches!(sent, Dispatch::Fitness(fitness) if fitness.remaining_s > 3.0)
+        |sent| matches!(sent, About::Contract(ContractMessage::Fitness(fitness)) if fitness.remaining_s > 3.0)
     ));
 }
 
@@ -225,22 +281,27 @@ fn a_searched_area_is_driven_lane_by_lane() {
 #[test]
 fn a_robot_sends_the_renewal_of_its_lease_before_a_bid() {
     let (mut robot, _) = assignee();
-    let calls = (1..100).map(|number| Dispatch::Call {
-        number: 4,
-        task: Task {
-            id: goal_id(number),
-            at_m: [500.0, 0.0],
-            ..TASK
-        },
+    let calls = (1..100).map(|number| {
+        About::Contract(ContractMessage::Call {
+            number: 4,
+            task: Task {
+                id: goal_id(number),
+                at_m: [500.0, 0.0],
+                ..TASK
+            },
+        })
     });
     let both = calls.filter_map(|call| {
         let sent = robot.take(OWNER, call);
-        let place = |is_meant: fn(&Dispatch) -> bool| {
+        let place = |is_meant: fn(&About) -> bool| {
             let mut sent = sent.iter();
-            sent.position(|(_, dispatch)| is_meant(dispatch))
+            sent.position(|(_, about)| is_meant(about))
         };
-        let renewal = place(|sent| matches!(sent, Dispatch::Renew(_)))?;
-        Some((renewal, place(|sent| matches!(sent, Dispatch::Bid(_)))?))
+        let renewal = place(|sent| matches!(sent, About::Lease(LeaseMessage::Renew(_))))?;
+        Some((
+            renewal,
+            place(|sent| matches!(sent, About::Contract(ContractMessage::Bid(_))))?,
+        ))
     });
     let both: Vec<(usize, usize)> = both.collect();
     assert!(!both.is_empty());

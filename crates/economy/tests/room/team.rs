@@ -5,8 +5,8 @@ use crate::network::{Network, Weather, random, unit};
 use base::geometry::Point;
 use base::random::Stream;
 use brain::{
-    About, AgentId, Body, Brain, BrainSpec, Command, Dispatch, GoalId, Message, Other, Percept,
-    Reading, ReceivedMessage, Task, Work,
+    About, AgentId, Body, Brain, BrainSpec, Command, ContractMessage, GoalId, Message, Other,
+    Percept, Reading, ReceivedMessage, Task, Work,
 };
 use economy::{Controller, Settings};
 use std::collections::BTreeSet;
@@ -205,10 +205,10 @@ impl Team {
         served.collect()
     }
 
-    /// Issues the orphaned goals of a controller again.
-    pub(crate) fn reissue_orphans(&mut self, station: usize) {
-        let orphans: Vec<Task> = self.controller(station).orphans().collect();
-        for task in orphans {
+    /// Issues the lost goals of a controller again.
+    pub(crate) fn reissue_lost(&mut self, station: usize) {
+        let lost: Vec<Task> = self.controller(station).lost().collect();
+        for task in lost {
             self.issue(station, task);
         }
     }
@@ -330,13 +330,13 @@ impl Team {
         inbox.extend(issued.map(|(_, task)| ReceivedMessage {
             from: AgentId::OPERATOR,
             age_s: 0.0,
-            message: Message::to(id, About::Dispatch(Dispatch::Issue(*task))),
+            message: Message::to(id, About::Contract(ContractMessage::Issue(*task))),
         }));
         let reported = self.reported.extract_if(.., |(from, _)| *from == id);
         inbox.extend(reported.map(|(_, goal)| ReceivedMessage {
             from: AgentId::OPERATOR,
             age_s: 0.0,
-            message: Message::to(id, About::Dispatch(Dispatch::Acknowledge(goal))),
+            message: Message::to(id, About::Contract(ContractMessage::Acknowledge(goal))),
         }));
         let random_words = [0; 4].map(|_: u32| self.random_stream.next_u32());
         let station = &mut self.stations[index];
@@ -361,19 +361,17 @@ impl Team {
 
     fn send_all(&mut self, from: AgentId, is_cut_off: bool, command: &Command) {
         for message in &command.outbox {
-            if let About::Dispatch(Dispatch::Done(claim)) = message.about {
+            if let About::Contract(ContractMessage::Done(claim)) = message.about {
                 self.served.insert((claim.goal, from));
             }
-            if let About::Dispatch(Dispatch::Call { task, .. }) = message.about {
+            if let About::Contract(ContractMessage::Call { task, .. }) = message.about {
                 self.calls.push((self.now_s, task.id));
             }
             if message.to == AgentId::OPERATOR.into() {
                 self.to_operator.push(*message);
             }
-            if let About::Dispatch(dispatch) = message.about {
-                let goal = reported(&(message.to, dispatch));
-                self.reported.extend(goal.map(|goal| (from, goal)));
-            }
+            let goal = reported(&(message.to, message.about));
+            self.reported.extend(goal.map(|goal| (from, goal)));
             self.messages += 1;
             if is_cut_off {
                 continue;

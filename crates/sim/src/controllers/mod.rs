@@ -48,7 +48,7 @@ pub struct ControllerSpec {
     #[serde(default = "service_lease_s")]
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub service_lease_s: f64,
-    /// Time for which a controller owns a goal without renewal by its heir, in seconds.
+    /// Time for which a controller owns a goal without renewal by its backup, in seconds.
     #[serde(default = "owner_lease_s")]
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,

@@ -98,15 +98,9 @@ impl GoalKind {
     /// The keys whose values agents know of a goal that is issued to a controller, with the values as text.
     pub(crate) fn described(&self) -> [(&'static str, String); 6] {
         let none = || "omitted".to_owned();
-        let work = match self.work {
-            Work::Visit => "visit",
-            Work::Search => "search",
-            Work::Interrogate => "interrogate",
-            Work::Neutralise => "neutralise",
-        };
         let deadline_s = self.deadline_s.map(|time_s| time_s.to_string());
         [
-            ("work", work.to_owned()),
+            ("work", self.work.name().to_owned()),
             ("value", self.value.to_string()),
             ("within_m", self.within_m.to_string()),
             ("service_s", self.service_s.to_string()),

@@ -3,7 +3,7 @@
 use crate::scenario::Scenario;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::{About, Dispatch, GoalId, Message, Receiver};
+use brain::{About, ContractMessage, GoalId, Message, Receiver};
 use std::collections::BTreeMap;
 
 /// How far a controller has come with the lane.
@@ -91,7 +91,7 @@ impl ClearanceTally {
     /// Notes a message that a participant sends.
     pub(crate) fn sent(&mut self, message: &Message) {
         self.messages_sent += 1;
-        if let About::Dispatch(Dispatch::Award(award)) = message.about {
+        if let About::Contract(ContractMessage::Award(award)) = message.about {
             self.awards += 1;
             let before = self.awarded.insert(award.goal, message.to);
             self.reallocations += u64::from(before.is_some_and(|before| before != message.to));

@@ -119,7 +119,7 @@ pub enum EventKind {
         to: AgentId,
     },
     /// A controller has lost a goal that it owned: its lease has ended.
-    Orphaned {
+    Lost {
         /// The goal.
         goal: GoalName,
         /// The controller.

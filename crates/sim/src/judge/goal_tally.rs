@@ -7,7 +7,7 @@ use super::stays::Stays;
 use crate::bodies::body_state::Status;
 use crate::radio::channel::Outgoing;
 use base::hashed::Hashed;
-use brain::{About, AgentId, CommitmentStatus, Dispatch, GoalId, Reason};
+use brain::{About, AgentId, CommitmentStatus, ContractMessage, GoalId, Reason};
 use std::mem::replace;
 
 /// Counts of the goals of a run, and of its messages.
@@ -113,7 +113,7 @@ impl GoalTally {
     fn note_unserved(&mut self, moment: &GoalMoment, outgoing: &Outgoing) {
         let message = &outgoing.message;
         let is_of_controller = self.journeys.len() <= outgoing.from as usize;
-        if let About::Dispatch(Dispatch::Stuck(refusal)) = message.about
+        if let About::Contract(ContractMessage::Stuck(refusal)) = message.about
             && let Some(goal) = moment.goals.number(refusal.goal)
             && message.to == AgentId::OPERATOR.into()
             && is_of_controller
@@ -125,7 +125,7 @@ impl GoalTally {
     fn note_commitment(&mut self, moment: &GoalMoment, outgoing: &Outgoing) {
         let (id, status) = match outgoing.message.about {
             About::Goal { id, status, .. } => (id, status),
-            About::Dispatch(Dispatch::Award(award)) => {
+            About::Contract(ContractMessage::Award(award)) => {
                 if let Some(goal) = moment.goals.number(award.goal) {
                     let record = &mut self.records[goal];
                     record.awarded_at.get_or_insert(moment.tick);
@@ -225,7 +225,7 @@ fn done(outgoing: &Outgoing) -> Option<GoalId> {
             status: CommitmentStatus::Done,
             ..
         } => Some(id),
-        About::Dispatch(Dispatch::Done(claim)) => Some(claim.goal),
+        About::Contract(ContractMessage::Done(claim)) => Some(claim.goal),
         _ => None,
     }
 }

@@ -101,8 +101,8 @@ pub(super) fn renumber_message(
         .agent()
         .and_then(|to| ids.get(&to).copied());
     let receiver = Receiver::from(receiver);
-    let is_dispatch = matches!(message.message.about, About::Dispatch(_));
-    if is_dispatch && (*sender, receiver) != (message.from, message.message.to) {
+    let is_of_economy = message.message.about.is_of_economy();
+    if is_of_economy && (*sender, receiver) != (message.from, message.message.to) {
         // It belongs to leases between agents that had other ids.
         return false;
     }

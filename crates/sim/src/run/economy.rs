@@ -65,7 +65,7 @@ pub struct Controller {
     /// The goals that it owns, as far as it knows.
     pub goals: Vec<OwnedGoal>,
     /// The goals that it owned until their lease ended, because the heir did not renew it.
-    pub orphans: Vec<Task>,
+    pub lost: Vec<Task>,
 }
 
 impl State {
@@ -120,7 +120,7 @@ impl State {
                 is_working: participant.is_working(&self.body_states),
                 refused: agent.controller.refused(),
                 goals: agent.controller.goals().collect(),
-                orphans: agent.controller.orphans().collect(),
+                lost: agent.controller.lost().collect(),
             }
         })
     }

@@ -7,7 +7,7 @@ use crate::judge::goal_moment::is_late;
 use crate::judge::goal_outcome::GoalBalance;
 use crate::scenario::Scenario;
 use brain::behaviours::BehaviourSpec;
-use brain::{About, AgentId, Dispatch, GoalId, Issuer, issuer_of};
+use brain::{About, AgentId, ContractMessage, GoalId, Issuer, issuer_of};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Where a goal is in its life.
@@ -202,7 +202,7 @@ fn knows(agent: &ControllerAgent, goal: GoalId, issued_to: Option<AgentId>) -> b
     let is_issued = || {
         let mut inbox = agent.participant.inbox.entries.iter();
         inbox.any(|late| match late.what.message.about {
-            About::Dispatch(Dispatch::Issue(task)) => task.id == goal,
+            About::Contract(ContractMessage::Issue(task)) => task.id == goal,
             _ => false,
         })
     };

@@ -4,7 +4,7 @@ use super::state::State;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
 use crate::scenario::Scenario;
-use brain::{AgentId, Dispatch, Reason, ReceivedMessage};
+use brain::{AgentId, ContractMessage, Reason, ReceivedMessage};
 use std::collections::BTreeMap;
 
 impl State {
@@ -26,10 +26,10 @@ impl State {
     }
 
     /// The order to own a goal.
-    fn issue_of(&self, scenario: &Scenario, number: usize) -> Dispatch {
+    fn issue_of(&self, scenario: &Scenario, number: usize) -> ContractMessage {
         let goal = &self.goals.all[number];
         let kind = &scenario.goals[usize::from(goal.kind)];
-        Dispatch::Issue(kind.task(goal.id, goal.at))
+        ContractMessage::Issue(kind.task(goal.id, goal.at))
     }
 
     fn issue(&mut self, scenario: &Scenario, number: usize) {

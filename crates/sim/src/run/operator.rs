@@ -6,7 +6,7 @@ use super::state::State;
 use crate::radio::channel::Outgoing;
 use crate::scenario::Scenario;
 use crate::schedule::steps_of;
-use brain::{About, AgentId, Dispatch, Message, Reason, ReceivedMessage, Refusal};
+use brain::{About, AgentId, ContractMessage, Message, Reason, ReceivedMessage, Refusal};
 
 /// A goal that all controllers refuse is issued again after this time, in seconds: one may have room by then.
 const RETRY_S: f64 = 10.0;
@@ -24,15 +24,20 @@ impl State {
         }
         let robots = self.robots();
         let reports = sent.filter(|sent| sent.message.to == AgentId::OPERATOR.into());
-        for Outgoing { from, message, .. } in reports {
-            let (Some(controller), About::Dispatch(dispatch)) =
-                ((*from as usize).checked_sub(robots), message.about)
+        for Outgoing {
+            from,
+            message: report,
+            ..
+        } in reports
+        {
+            let (Some(controller), About::Contract(message)) =
+                ((*from as usize).checked_sub(robots), report.about)
             else {
                 continue;
             };
-            match dispatch {
-                Dispatch::Stuck(report) => self.acknowledge(controller, &report),
-                Dispatch::Refuse(refusal) => {
+            match message {
+                ContractMessage::Stuck(report) => self.acknowledge(controller, &report),
+                ContractMessage::Refuse(refusal) => {
                     self.acknowledge(controller, &refusal);
                     self.take_refusal(scenario, controller, &refusal);
                 }
@@ -42,23 +47,23 @@ impl State {
     }
 
     fn acknowledge(&mut self, controller: usize, report: &Refusal) {
-        self.order(controller, Dispatch::Acknowledge(report.goal));
+        self.order(controller, ContractMessage::Acknowledge(report.goal));
     }
 
     /// Sends an order to a controller.
-    pub(super) fn order(&mut self, controller: usize, dispatch: Dispatch) {
-        let order = self.order_to(controller, dispatch);
+    pub(super) fn order(&mut self, controller: usize, message: ContractMessage) {
+        let order = self.order_to(controller, message);
         let participant = &mut self.controllers[controller].participant;
         participant.receive_order(order, self.tick);
     }
 
     /// An order as a controller receives it.
-    pub(super) fn order_to(&self, controller: usize, dispatch: Dispatch) -> ReceivedMessage {
+    pub(super) fn order_to(&self, controller: usize, message: ContractMessage) -> ReceivedMessage {
         let id = self.controllers[controller].participant.id;
         ReceivedMessage {
             from: AgentId::OPERATOR,
             age_s: 0.0,
-            message: Message::to(id, About::Dispatch(dispatch)),
+            message: Message::to(id, message),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::state::State;
 use crate::scenario::Scenario;
-use brain::{About, AgentId, Dispatch, Message, ReceivedMessage};
+use brain::{AgentId, ContractMessage, Message, ReceivedMessage};
 
 impl State {
     /// Orders the robots out of service that the scenario names.
@@ -37,7 +37,7 @@ impl State {
             let order = ReceivedMessage {
                 from: AgentId::OPERATOR,
                 age_s: 0.0,
-                message: Message::to(id, About::Dispatch(Dispatch::Service(is_in))),
+                message: Message::to(id, ContractMessage::Service(is_in)),
             };
             participant.receive_order(order, now);
         }

@@ -4,7 +4,9 @@ use crate::judge::events::{EventKind, EventLog, GoalName};
 use crate::radio::channel::Outgoing;
 use crate::run::state::State;
 use crate::scenario::Scenario;
-use brain::{About, AgentId, Dispatch, GoalId, MarkVerdict, Reason};
+use brain::{
+    About, AgentId, ContractMessage, GoalId, LaneMessage, MarkVerdict, OwnershipMessage, Reason,
+};
 use economy::LanePicture;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -65,7 +67,7 @@ struct Held {
     goals: BTreeMap<(u8, u32), GoalState>,
     /// The robots to which controllers have awarded goals.
     awarded: BTreeMap<(AgentId, GoalName), AgentId>,
-    orphaned: BTreeSet<(AgentId, GoalName)>,
+    lost: BTreeSet<(AgentId, GoalName)>,
     /// By the controller and the number of the mark.
     marks: BTreeMap<(AgentId, u32), Option<MarkVerdict>>,
     stated: BTreeMap<AgentId, (bool, Option<f64>)>,
@@ -102,9 +104,9 @@ impl Held {
                     held.awarded.insert((by, name), robot);
                 }
             }
-            let orphans = controller.orphans();
-            held.orphaned
-                .extend(orphans.map(|task| (by, name_of(state, task.id))));
+            let lost = controller.lost();
+            held.lost
+                .extend(lost.map(|task| (by, name_of(state, task.id))));
             let marks = controller.lane().into_iter();
             let marks = marks.flat_map(LanePicture::mark_verdicts);
             held.marks
@@ -128,8 +130,8 @@ impl Held {
         let awarded = self.awarded.iter();
         let new = awarded.filter(|(key, to)| before.awarded.get(key) != Some(to));
         events.extend(new.map(|(&(by, goal), &to)| EventKind::Awarded { goal, by, to }));
-        let orphaned = self.orphaned.difference(&before.orphaned);
-        events.extend(orphaned.map(|&(by, goal)| EventKind::Orphaned { goal, by }));
+        let lost = self.lost.difference(&before.lost);
+        events.extend(lost.map(|&(by, goal)| EventKind::Lost { goal, by }));
         let marks = self.marks.iter();
         let new = marks.filter(|(key, verdict)| before.marks.get(key) != Some(verdict));
         events.extend(new.map(|(&(by, number), &verdict)| EventKind::Marked {
@@ -171,24 +173,11 @@ fn name_of(state: &State, id: GoalId) -> GoalName {
 /// renewals and information, which are repeated.
 fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
     let message = &outgoing.message;
-    let About::Dispatch(dispatch) = &message.about else {
-        return None;
-    };
-    let (about, goal) = match dispatch {
-        Dispatch::Award(award) => ("award", Some(award.goal)),
-        Dispatch::Commit(claim) => ("commitment", Some(claim.goal)),
-        Dispatch::Refuse(refusal) => ("refusal", Some(refusal.goal)),
-        Dispatch::Done(claim) => ("completion", Some(claim.goal)),
-        Dispatch::Stuck(refusal) => ("failure", Some(refusal.goal)),
-        Dispatch::Release(claim) => ("release", Some(claim.goal)),
-        Dispatch::Withdraw(claim) => ("withdrawal", Some(claim.goal)),
-        Dispatch::Entrusted(award) => ("acceptance as heir", Some(award.goal)),
-        Dispatch::Bind(award) => ("owner lease", Some(award.goal)),
-        Dispatch::Relieve(claim) => ("end as heir", Some(claim.goal)),
-        Dispatch::Relieved(claim) => ("confirmed end as heir", Some(claim.goal)),
-        Dispatch::Restore(task) => ("return", Some(task.id)),
-        Dispatch::Mark(_) => ("mark", None),
-        Dispatch::Statement(_) => ("statement on a mark", None),
+    let (about, goal) = match &message.about {
+        About::Contract(message) => of_contract(message)?,
+        About::Ownership(message) => of_ownership(message)?,
+        About::Lane(LaneMessage::Mark(_)) => ("mark", None),
+        About::Lane(LaneMessage::Statement(_)) => ("statement on a mark", None),
         _ => return None,
     };
     let from = outgoing.from as usize;
@@ -200,4 +189,32 @@ fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
         about,
         goal: goal.map(|id| name_of(state, id)),
     })
+}
+
+/// What a message about a contract is, and the goal that it is about.
+fn of_contract(message: &ContractMessage) -> Option<(&'static str, Option<GoalId>)> {
+    let (about, goal) = match message {
+        ContractMessage::Award(award) => ("award", award.goal),
+        ContractMessage::Commit(claim) => ("commitment", claim.goal),
+        ContractMessage::Refuse(refusal) => ("refusal", refusal.goal),
+        ContractMessage::Done(claim) => ("completion", claim.goal),
+        ContractMessage::Stuck(refusal) => ("failure", refusal.goal),
+        ContractMessage::Release(claim) => ("release", claim.goal),
+        ContractMessage::Withdraw(claim) => ("withdrawal", claim.goal),
+        _ => return None,
+    };
+    Some((about, Some(goal)))
+}
+
+/// The same for a message about the ownership of a goal.
+fn of_ownership(message: &OwnershipMessage) -> Option<(&'static str, Option<GoalId>)> {
+    let (about, goal) = match message {
+        OwnershipMessage::Entrusted(award) => ("acceptance as backup", award.goal),
+        OwnershipMessage::Bind(award) => ("ownership lease", award.goal),
+        OwnershipMessage::Relieve(claim) => ("release of the backup", claim.goal),
+        OwnershipMessage::Relieved(claim) => ("confirmed release of the backup", claim.goal),
+        OwnershipMessage::Restore(task) => ("return", task.id),
+        _ => return None,
+    };
+    Some((about, Some(goal)))
 }

@@ -102,7 +102,7 @@ fn a_radio_that_is_too_narrow_to_renew_all_leases_has_a_warning() {
         "count = 2\nradio = { range_m = 20, messages_per_step = 9 }",
     );
     assert_eq!(warnings_with(&[many, wide]), "");
-    // A single controller has no heir.
+    // A single controller has no backup.
     assert_eq!(
         warnings_with(&[
             many,

@@ -10,7 +10,7 @@ use economy::RENEWAL_RETRY_S;
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let spec = &checked.spec;
     let controllers: u32 = spec.controllers.values().map(|kind| kind.count).sum();
-    // A single controller has no heir, and renews no leases.
+    // A single controller has no backup, and renews no leases.
     let kinds = spec.controllers.iter().filter(|_| controllers > 1);
     let found = kinds.filter_map(|(name, kind)| {
         let at = at.key("controllers").key(name);
@@ -32,8 +32,8 @@ fn of_controllers(
     let needed = (f64::from(each) * RENEWAL_RETRY_S / kind.owner_lease_s).ceil();
     (kind.count > 0 && needed > kind.radio.messages_per_step.into()).then(|| {
         let effect = format!(
-            "fewer than the {needed} that {each} goals of a controller need: owner leases may end before they are \
-             renewed, and their goals are orphaned"
+            "fewer than the {needed} that {each} goals of a controller need: ownership leases may end before they are \
+             renewed, and their goals are lost"
         );
         at.key("radio").key("messages_per_step").warning(effect)
     })

@@ -129,15 +129,15 @@ def awarded_to(simulation: Simulation, robots: Iterable[str]) -> AwardedGoals:
 def quiet_time_s(controllers: Sequence[Mapping[str, Any]]) -> float:
     """Return how long no goal may be awarded although one will be.
 
-    That is a pause, two auctions, and, if controllers can be heirs, the leases of an owner and of a
+    That is a pause, two auctions, and, if there are backups, the leases of an owner and of a
     robot that are lost.
     """
     auction_s, owner_s, service_s = (
         max((float(each.get(key, default)) for each in controllers), default=0.0)
         for key, default in DEFAULTS_S.items()
     )
-    has_heirs = sum(each["count"] for each in controllers) > 1
-    return QUIET_S + 2 * auction_s + (owner_s + service_s if has_heirs else 0.0)
+    has_backups = sum(each["count"] for each in controllers) > 1
+    return QUIET_S + 2 * auction_s + (owner_s + service_s if has_backups else 0.0)
 
 
 def serves(scenario: Mapping[str, Any], robot: str) -> bool:

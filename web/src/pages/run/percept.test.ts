@@ -15,7 +15,7 @@ test("messages are counted by subject", () => {
   expect(messageCounts([about("item"), about("sender"), about("item")])).toBe(
     "2 about items, 1 about the sender",
   );
-  expect(messageCounts([about("dispatch")])).toBe("1 about goals of controllers");
+  expect(messageCounts([about("contract")])).toBe("1 about goals of controllers");
   expect(messageCounts([])).toBe("none");
 });
 

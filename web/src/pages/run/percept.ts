@@ -26,7 +26,10 @@ const names: Record<string, string> = {
   sender: "the sender",
   goal: "goals",
   order: "orders",
-  dispatch: "goals of controllers",
+  contract: "goals of controllers",
+  lease: "leases",
+  ownership: "the ownership of goals",
+  lane: "mined lanes",
 };
 
 /** Such as "12° left"; positive bearings are anticlockwise, to the left. */

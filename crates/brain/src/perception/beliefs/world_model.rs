@@ -14,10 +14,10 @@ use super::spec::BeliefsSpec;
 use crate::io::act::{ActKind, Acted};
 use crate::io::agent_id::AgentId;
 use crate::io::body::{Body, Detector};
-use crate::io::dispatch::Dispatch;
-use crate::io::lane::MarkVerdict;
 use crate::io::message::About;
 use crate::io::percept::{Contact, Observation, Percept};
+use crate::io::work::lane::LaneMessage;
+use crate::io::work::lane::MarkVerdict;
 use crate::perception::dead_reckoning::Odometry;
 use crate::perception::rays::Ring;
 use alloc::sync::Arc;
@@ -149,8 +149,8 @@ impl Beliefs {
     fn note_lane(&mut self, percept: &Percept, body: &Body) {
         for received in &percept.inbox {
             match received.message.about {
-                About::Dispatch(Dispatch::Lane(lane)) => self.items.hazards = Some(lane.hazards),
-                About::Dispatch(Dispatch::Statement(statement))
+                About::Lane(LaneMessage::Lane(lane)) => self.items.hazards = Some(lane.hazards),
+                About::Lane(LaneMessage::Statement(statement))
                     if statement.verdict == MarkVerdict::Neutralised =>
                 {
                     let at = Point::from(statement.at_m.map(f64::from));

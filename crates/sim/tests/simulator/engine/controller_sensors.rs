@@ -1,7 +1,7 @@
 //! Controllers detect robots and other controllers with sensors of their own.
 
 use crate::common::{id, replaced, start, with};
-use brain::{About, AgentId, Dispatch, Neighbour};
+use brain::{About, AgentId, Neighbour, OwnershipMessage};
 use sim::simulation::Simulation;
 
 /// A controller with a detector, one without, and two robots, of which the second cannot send.
@@ -92,7 +92,7 @@ fn reports(text: &str) -> Vec<[f32; 2]> {
             inbox
                 .iter()
                 .filter_map(|received| match received.message.about {
-                    About::Dispatch(Dispatch::Seen(seen))
+                    About::Ownership(OwnershipMessage::Seen(seen))
                         if seen.robot == MUTE && received.from == BASE =>
                     {
                         Some(seen.at_m)

@@ -126,7 +126,7 @@ fn knowing(simulation: &Simulation) -> BTreeSet<(GoalId, AgentId)> {
     let controllers = state.each_controller().filter(|each| each.is_working);
     let owned = controllers.flat_map(|each| {
         let goals = each.goals.into_iter().map(|owned| owned.task.id);
-        let all = goals.chain(each.orphans.into_iter().map(|task| task.id));
+        let all = goals.chain(each.lost.into_iter().map(|task| task.id));
         all.map(|goal| (goal, each.id)).collect::<Vec<_>>()
     });
     let robots = state.each_robot(simulation.scenario());

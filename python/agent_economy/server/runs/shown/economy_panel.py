@@ -27,7 +27,7 @@ def controllers(picture: Picture, choice: tuple[str, str]) -> Section:
         found["paragraphs"] = [muted("No controllers: the goals have no owner.")]
         return found
     rows = [controller(picture, each, choice) for each in picture.controllers]
-    heads = ("Controller", "#Owned", "#Awarded", "#Orphans", "#Refused")
+    heads = ("Controller", "#Owned", "#Awarded", "#Lost", "#Refused")
     found["table"] = table(heads, rows)
     return found
 
@@ -36,7 +36,7 @@ def controller(picture: Picture, of: Row, choice: tuple[str, str]) -> TableRow:
     """Return the row of a controller."""
     name = of["name"]
     own = [goal for goal in picture.goals if goal.owner == name]
-    orphans = [orphan for orphan in of["orphans"] if orphan is not None]
+    lost = [goal for goal in of["lost"] if goal is not None]
     awarded = sum(goal.status in ("awarded", "in_service") for goal in own)
     button = cell(
         name,
@@ -44,16 +44,16 @@ def controller(picture: Picture, of: Row, choice: tuple[str, str]) -> TableRow:
         choice=chooses(choice[0], name, choice[1]),
         is_chosen=name == picture.chosen,
     )
-    numbers = (len(own), awarded, len(orphans), of["refused"])
-    signals = [f"controller/{name}/{key}" for key in ("goals", "awarded", "orphans")]
-    return row((button, *map(str, numbers)), details_of_controller(of, orphans), signals)
+    numbers = (len(own), awarded, len(lost), of["refused"])
+    signals = [f"controller/{name}/{key}" for key in ("goals", "awarded", "lost")]
+    return row((button, *map(str, numbers)), details_of_controller(of, lost), signals)
 
 
-def details_of_controller(of: Row, orphans: list[str]) -> str:
+def details_of_controller(of: Row, lost: list[str]) -> str:
     """Return what else is known of a controller."""
     failed = "" if of["working"] else "Failed. "
     aboard = f", aboard {of['aboard']}" if of["aboard"] else ""
-    names = f". Orphans: {', '.join(orphans)}" if orphans else ""
+    names = f". Lost: {', '.join(lost)}" if lost else ""
     return f"{failed}Radio range {of['range_m']:g} m{aboard}{names}"
 
 
@@ -97,8 +97,8 @@ def details(goal: Goal) -> Iterator[str]:
         yield f"{'by' if goal.status == 'served' else 'to'} {goal.robot}"
     if goal.lease_s is not None:
         yield f"lease {goal.lease_s:.0f} s"
-    if goal.heir is not None:
-        yield f"heir {goal.heir}"
+    if goal.backup is not None:
+        yield f"backup {goal.backup}"
     if goal.unserved:
         yield reason_label(goal.unserved)
 

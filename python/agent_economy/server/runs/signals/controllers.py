@@ -11,7 +11,7 @@ from agent_economy.types.page import SignalOffer
 OWNED = {
     "goals": "goals owned",
     "awarded": "goals awarded",
-    "orphans": "orphans",
+    "lost": "lost goals",
     "refused": "goals refused",
 }
 BELIEVED = {

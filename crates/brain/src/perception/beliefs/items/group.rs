@@ -14,7 +14,7 @@
 //! counts as of that kind.
 
 use crate::io::body::Detector;
-use crate::io::lane::{HAS_ANOTHER, MARK_KINDS};
+use crate::io::work::lane::{HAS_ANOTHER, MARK_KINDS};
 use alloc::vec;
 use alloc::vec::Vec;
 use base::hashed::Hashed;

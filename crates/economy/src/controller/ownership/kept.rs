@@ -1,13 +1,11 @@
-//! Goals of lost owners: those of which a controller is the heir, and those that it has lost itself.
+//! A goal of another controller, of which this one is the backup.
 
-use super::owned::Owned;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 use brain::{AgentId, Task};
 
-/// A goal of another controller, of which this one is the heir.
 #[derive(Debug, Clone, Hashed)]
-pub(super) struct Ward {
+pub(super) struct Kept {
     pub(super) task: Task,
     pub(super) due_at_s: f64,
     pub(super) owner: AgentId,
@@ -20,7 +18,7 @@ pub(super) struct Ward {
     pub(super) assignees: Vec<AgentId>,
 }
 
-impl Ward {
+impl Kept {
     /// A goal whose owner is not bound yet.
     pub(super) fn new(task: Task, due_at_s: f64, owner: AgentId, number: u32) -> Self {
         Self {
@@ -33,21 +31,4 @@ impl Ward {
             assignees: Vec::new(),
         }
     }
-}
-
-/// A goal that a controller owned until its lease ended.
-#[derive(Debug, Clone, Hashed)]
-pub(super) struct Orphan {
-    pub(super) owned: Owned,
-    /// The request by which it would be owned again.
-    pub(super) request: Option<Request>,
-}
-
-/// A request of an owner lease by which an heir can return a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Hashed)]
-pub(super) struct Request {
-    pub(super) number: u32,
-    pub(super) heir: AgentId,
-    /// The lease counts from then.
-    pub(super) sent_s: f64,
 }

@@ -1,7 +1,7 @@
 //! What a controller states of a lane beside the risk that a mine is left.
 
-use crate::clearance::ClearedShare;
-use crate::passage::PlannedPassage;
+use crate::clearance::{ClearedShare, LanePicture};
+use crate::passage::{Passage, PlannedPassage};
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 
@@ -12,4 +12,14 @@ pub struct LaneConclusion {
     pub cleared: Vec<ClearedShare>,
     /// The path on which vehicles are to pass, if any are to, and if there is one.
     pub passage: Option<PlannedPassage>,
+}
+
+impl LaneConclusion {
+    /// What follows from a picture of the lane.
+    pub(super) fn new(picture: &LanePicture, passage: Option<&Passage>) -> Self {
+        Self {
+            cleared: picture.cleared(),
+            passage: passage.and_then(|passage| PlannedPassage::new(passage, picture)),
+        }
+    }
 }

@@ -14,10 +14,11 @@
 //! for twice as long, with half the confidence, and no goal is contested only because another robot
 //! would be nearer. New goals that lie better change the order in which robots serve theirs.
 
-use super::owned::Assigned;
-use super::{Controller, NO_BID};
+use super::{Contracts, NO_BID};
+use crate::controller::context::Context;
+use crate::controller::ledger::owned::Assigned;
 use alloc::vec::Vec;
-use brain::{AgentId, Claim, Dispatch, GoalId, Reason, Refusal};
+use brain::{AgentId, Claim, ContractMessage, GoalId, Reason, Refusal};
 
 /// A withdrawal without an answer is repeated after this time, in seconds.
 const RETRY_S: f64 = 1.0;
@@ -30,28 +31,34 @@ const OVERDUE_S: f64 = 60.0;
 /// A robot that is stuck keeps its goal for this time without a bid of another, in seconds.
 const HOPELESS_S: f64 = 30.0;
 
-impl Controller {
+impl Contracts {
     /// A robot does not reach its goal: others can have it.
-    pub(super) fn take_stuck(&mut self, from: AgentId, refusal: Refusal) {
-        let now_s = self.now_s;
+    pub(super) fn take_stuck(&mut self, context: &mut Context, from: AgentId, refusal: Refusal) {
+        let now_s = context.now_s;
         let is_holder = |holder: AgentId| holder == from;
         let grant = self.services.grant_of(refusal.goal);
         if grant.is_some_and(|grant| is_holder(grant.holder)) {
-            self.contest(refusal.goal);
-            let owned = self.goal_mut(refusal.goal);
+            self.contest(context, refusal.goal);
+            let owned = context.ledger.get_mut(refusal.goal);
             if let Some(assigned) = owned.and_then(|owned| owned.assigned.as_mut()) {
                 assigned.stuck_s = assigned.stuck_s.min(now_s);
             }
         }
-        if let Some(owned) = self.goal_mut(refusal.goal) {
+        if let Some(owned) = context.ledger.get_mut(refusal.goal) {
             owned.reason = refusal.reason;
         }
     }
 
     /// A robot approaches its goal again, or reports how long it will take.
-    pub(super) fn is_approaching(&mut self, from: AgentId, goal: GoalId, remaining_s: f64) {
-        let now_s = self.now_s;
-        let Some(owned) = self.goal_mut(goal) else {
+    pub(super) fn is_approaching(
+        &mut self,
+        context: &mut Context,
+        from: AgentId,
+        goal: GoalId,
+        remaining_s: f64,
+    ) {
+        let now_s = context.now_s;
+        let Some(owned) = context.ledger.get_mut(goal) else {
             return;
         };
         let assigned = owned
@@ -67,37 +74,37 @@ impl Controller {
             assigned.is_contested = false;
             assigned.overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * remaining_s.clamp(0.0, 1e4);
             self.bids.remove_for(goal);
-            self.close_offer(goal, NO_BID);
+            context.close_offer(goal, NO_BID);
         }
     }
 
     /// Contests overdue goals, and moves contested ones for which another robot has bid.
-    pub(super) fn arbitrate(&mut self) {
-        let now_s = self.now_s;
-        let assigned = self.goals.iter().filter_map(|owned| {
+    pub(super) fn arbitrate(&mut self, context: &mut Context) {
+        let now_s = context.now_s;
+        let assigned = context.ledger.goals.iter().filter_map(|owned| {
             let assigned = owned.assigned?;
             Some((owned.task.id, assigned))
         });
         let assigned: Vec<_> = assigned.collect();
         for (goal, assigned) in assigned {
             if assigned.is_withdrawn {
-                self.withdraw(goal);
+                self.withdraw(context, goal);
             } else if assigned.is_contested {
                 if self.has_other_bid(goal, assigned.robot) {
-                    self.picture.learn(assigned.robot, false, now_s);
-                    self.withdraw(goal);
+                    context.robots.learn(assigned.robot, false, now_s);
+                    self.withdraw(context, goal);
                 } else {
-                    self.withdraw_if_hopeless(goal, assigned);
+                    self.withdraw_if_hopeless(context, goal, assigned);
                 }
             } else if now_s >= assigned.overdue_s {
-                self.contest(goal);
+                self.contest(context, goal);
             }
         }
     }
 
-    fn contest(&mut self, goal: GoalId) {
-        let now_s = self.now_s;
-        let Some(owned) = self.goal_mut(goal) else {
+    fn contest(&mut self, context: &mut Context, goal: GoalId) {
+        let now_s = context.now_s;
+        let Some(owned) = context.ledger.get_mut(goal) else {
             return;
         };
         if let Some(assigned) = owned
@@ -112,9 +119,9 @@ impl Controller {
     }
 
     /// A robot is stuck, and no other has bid for its goal for a time.
-    fn withdraw_if_hopeless(&mut self, goal: GoalId, assigned: Assigned) {
-        let now_s = self.now_s;
-        let Some(owned) = self.goal_mut(goal) else {
+    fn withdraw_if_hopeless(&mut self, context: &mut Context, goal: GoalId, assigned: Assigned) {
+        let now_s = context.now_s;
+        let Some(owned) = context.ledger.get_mut(goal) else {
             return;
         };
         let since_s = owned.without_bid_s.max(assigned.stuck_s);
@@ -126,7 +133,7 @@ impl Controller {
                 Reason::Unreachable
             };
             owned.decline(assigned.robot, now_s + HOPELESS_S, reason);
-            self.withdraw(goal);
+            self.withdraw(context, goal);
         }
     }
 
@@ -136,9 +143,9 @@ impl Controller {
     }
 
     /// The robot is to release the goal; until it does, its lease is not renewed.
-    pub(super) fn withdraw(&mut self, goal: GoalId) {
-        let now_s = self.now_s;
-        let Some(owned) = self.goal_mut(goal) else {
+    pub(super) fn withdraw(&mut self, context: &mut Context, goal: GoalId) {
+        let now_s = context.now_s;
+        let Some(owned) = context.ledger.get_mut(goal) else {
             return;
         };
         let Some(assigned) = owned.assigned.as_mut() else {
@@ -152,34 +159,38 @@ impl Controller {
         self.services.withdraw(goal);
         if let Some(grant) = self.services.grant_of(goal).copied() {
             let number = grant.number;
-            self.send(robot, Dispatch::Withdraw(Claim { goal, number }));
+            context.send(robot, ContractMessage::Withdraw(Claim { goal, number }));
         }
     }
 
     /// A lease has ended by message: the goal is offered again, unless it already is.
-    pub(super) fn reopen(&mut self, claim: Claim) {
-        let now_s = self.now_s;
-        self.clearing.note_failure(claim.goal);
-        if let Some(owned) = self.goal_mut(claim.goal).filter(|owned| !owned.is_done) {
-            let was_contested = owned
-                .assigned
-                .take()
-                .is_some_and(|assigned| assigned.is_contested);
-            if !was_contested {
-                owned.offer_again(now_s);
-                self.bids.remove_for(claim.goal);
-            }
+    pub(super) fn reopen(&mut self, context: &mut Context, goal: GoalId) {
+        let now_s = context.now_s;
+        let Some(owned) = context.ledger.get_mut(goal) else {
+            return;
+        };
+        owned.failures = owned.failures.saturating_add(1);
+        if owned.is_done {
+            return;
+        }
+        let was_contested = owned
+            .assigned
+            .take()
+            .is_some_and(|assigned| assigned.is_contested);
+        if !was_contested {
+            owned.offer_again(now_s);
+            self.bids.remove_for(goal);
         }
     }
 
     /// A lease has ended in silence.
-    pub(super) fn lost_assignee(&mut self, goal: GoalId, robot: AgentId) {
-        let now_s = self.now_s;
-        if let Some(owned) = self.goal_mut(goal).filter(|owned| !owned.is_done) {
+    pub(super) fn lost_assignee(&mut self, context: &mut Context, goal: GoalId, robot: AgentId) {
+        let now_s = context.now_s;
+        if let Some(owned) = context.ledger.get_mut(goal).filter(|owned| !owned.is_done) {
             owned.lapses.add(robot, now_s);
             self.lapses += 1;
-            self.picture.learn(robot, false, self.now_s);
-            self.reopen(Claim { goal, number: 0 });
+            context.robots.learn(robot, false, context.now_s);
+            self.reopen(context, goal);
         }
     }
 }

@@ -2,34 +2,34 @@
 
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{Dispatch, GoalId, Refusal};
+use brain::{ContractMessage, GoalId, Refusal};
 
 /// A report that has not been acknowledged is repeated after this time, in seconds.
 const RETRY_S: f64 = 2.0;
 
 /// The reports that the operator has not acknowledged, at most one of each goal.
 #[derive(Debug, Clone, Default, Hashed)]
-pub(super) struct Reports(Vec<Report>);
+pub(in super::super) struct Reports(Vec<Report>);
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Report {
     goal: GoalId,
-    content: Dispatch,
+    content: ContractMessage,
     next_s: f64,
 }
 
 impl Reports {
     /// Reports that no robot can serve a goal, or that it has been lost.
-    pub(super) fn put_unserved(&mut self, report: Refusal, now_s: f64) {
-        self.put(report.goal, Dispatch::Stuck(report), now_s);
+    pub(in super::super) fn put_unserved(&mut self, report: Refusal, now_s: f64) {
+        self.put(report.goal, ContractMessage::Stuck(report), now_s);
     }
 
     /// Reports that the controller does not own a goal.
-    pub(super) fn put_refused(&mut self, report: Refusal, now_s: f64) {
-        self.put(report.goal, Dispatch::Refuse(report), now_s);
+    pub(in super::super) fn put_refused(&mut self, report: Refusal, now_s: f64) {
+        self.put(report.goal, ContractMessage::Refuse(report), now_s);
     }
 
-    fn put(&mut self, goal: GoalId, content: Dispatch, next_s: f64) {
+    fn put(&mut self, goal: GoalId, content: ContractMessage, next_s: f64) {
         self.remove(goal);
         self.0.push(Report {
             goal,
@@ -38,17 +38,17 @@ impl Reports {
         });
     }
 
-    pub(super) fn contains(&self, goal: GoalId) -> bool {
+    pub(in super::super) fn contains(&self, goal: GoalId) -> bool {
         self.0.iter().any(|report| report.goal == goal)
     }
 
     /// The operator knows, or what was reported is no longer so.
-    pub(super) fn remove(&mut self, goal: GoalId) {
+    pub(in super::super) fn remove(&mut self, goal: GoalId) {
         self.0.retain(|report| report.goal != goal);
     }
 
     /// The reports that are to be sent now.
-    pub(super) fn due(&mut self, now_s: f64) -> Vec<Dispatch> {
+    pub(in super::super) fn due(&mut self, now_s: f64) -> Vec<ContractMessage> {
         let due = self.0.iter_mut().filter(|report| now_s >= report.next_s);
         let due = due.map(|report| {
             report.next_s = now_s + RETRY_S;

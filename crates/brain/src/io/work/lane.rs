@@ -1,7 +1,7 @@
 //! Messages about a mined lane: its cells, what robots have searched and marked, and what they state.
 
-use super::agent_id::AgentId;
-use super::goal_id::GoalId;
+use crate::io::agent_id::AgentId;
+use crate::io::goal_id::GoalId;
 use base::geometry::{Point, Rectangle};
 use base::hashed::Hashed;
 use schemars::JsonSchema;
@@ -29,6 +29,31 @@ const PER_COARSE_STEP: u32 = 8;
 
 /// Largest plausible log likelihood ratio of a mark, in nats.
 const MAX_LOG_RATIO: f32 = 1e4;
+
+/// A message about a mined lane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum LaneMessage {
+    /// From a controller to robots: a lane of which it needs coverage and marks.
+    Lane(Lane),
+    /// From a robot to controllers: what it has searched of the lane.
+    Coverage(Coverage),
+    /// From a robot to controllers: a place where it has detected something.
+    Mark(Mark),
+    /// From a robot to controllers: what it states about a mark.
+    Statement(Statement),
+    /// From a controller to others: the expected number of mines of a lane that its goals may still find or destroy.
+    Gain(f32),
+}
+
+impl LaneMessage {
+    pub(in crate::io) fn urgency(&self) -> u8 {
+        match self {
+            Self::Gain(_) => 3,
+            _ => 1,
+        }
+    }
+}
 
 /// A lane to be cleared, as a grid of square cells, row by row from the lower left corner.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]

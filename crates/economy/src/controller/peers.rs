@@ -1,4 +1,4 @@
-//! The other controllers.
+//! The other controllers, as far as they are in range.
 
 use alloc::vec::Vec;
 use base::hash::Hash;
@@ -10,14 +10,12 @@ const LIFE_S: f64 = 8.0;
 
 /// The other controllers in range.
 #[derive(Debug, Clone, Default, Hashed)]
-pub(super) struct Colleagues {
-    pub(super) list: Vec<Colleague>,
-    /// When the next message of presence is due; at once without it.
-    pub(super) next_s: Option<f64>,
+pub(super) struct Peers {
+    pub(super) list: Vec<Peer>,
 }
 
 #[derive(Debug, Clone, Copy, Hashed)]
-pub(super) struct Colleague {
+pub(super) struct Peer {
     pub(super) id: AgentId,
     serial: u32,
     received_s: f64,
@@ -38,25 +36,23 @@ impl Hashed for LaneGain {
     }
 }
 
-impl Colleagues {
+impl Peers {
     pub(super) fn note(&mut self, id: AgentId, serial: u32, now_s: f64) {
-        let known = self.list.iter().position(|colleague| colleague.id == id);
+        let known = self.list.iter().position(|peer| peer.id == id);
         let known = known.map(|index| self.list.remove(index));
-        self.list.push(Colleague {
+        self.list.push(Peer {
             id,
             serial,
             received_s: now_s,
-            lane_gain: known
-                .map(|colleague| colleague.lane_gain)
-                .unwrap_or_default(),
+            lane_gain: known.map(|peer| peer.lane_gain).unwrap_or_default(),
         });
     }
 
     /// Takes what the goals of another controller in range may still find or destroy of a lane.
     pub(super) fn note_lane_gain(&mut self, id: AgentId, gain: f64) {
         let mut list = self.list.iter_mut();
-        if let Some(colleague) = list.find(|colleague| colleague.id == id) {
-            colleague.lane_gain = LaneGain(Some(gain).filter(|gain| *gain >= 0.0));
+        if let Some(peer) = list.find(|peer| peer.id == id) {
+            peer.lane_gain = LaneGain(Some(gain).filter(|gain| *gain >= 0.0));
         }
     }
 
@@ -66,29 +62,38 @@ impl Colleagues {
             .list
             .iter()
             .filter(move |other| other.id.kind == own.kind);
-        same.map(|colleague| colleague.id)
+        same.map(|peer| peer.id)
     }
 
     /// What the goals of those that share a lane may still find or destroy; infinite until all have reported it.
     pub(super) fn lane_gain(&self, own: AgentId) -> f64 {
         let same = self.list.iter().filter(|other| other.id.kind == own.kind);
-        let gains = same.map(|colleague| colleague.lane_gain.0.unwrap_or(f64::INFINITY));
+        let gains = same.map(|peer| peer.lane_gain.0.unwrap_or(f64::INFINITY));
         gains.sum()
     }
 
     pub(super) fn expire(&mut self, now_s: f64) {
-        let is_near = |colleague: &Colleague| now_s < colleague.received_s + LIFE_S;
+        let is_near = |peer: &Peer| now_s < peer.received_s + LIFE_S;
         self.list.retain(is_near);
     }
 
     pub(super) fn is_near(&self, id: AgentId) -> bool {
-        self.list.iter().any(|colleague| colleague.id == id)
+        self.list.iter().any(|peer| peer.id == id)
     }
 
     /// The one with the highest serial number.
     pub(super) fn highest(&self) -> Option<AgentId> {
         let all = self.list.iter();
-        let highest = all.max_by_key(|colleague| (colleague.serial, colleague.id));
-        highest.map(|colleague| colleague.id)
+        let highest = all.max_by_key(|peer| (peer.serial, peer.id));
+        highest.map(|peer| peer.id)
+    }
+
+    /// The turn of a controller among those in range that share a lane, and the number of turns.
+    pub(super) fn turn(&self, own: AgentId) -> (u32, u32) {
+        let (before, after): (Vec<AgentId>, Vec<AgentId>) =
+            self.on_lane_of(own).partition(|id| *id < own);
+        let count = |ids: &[AgentId]| u32::try_from(ids.len()).unwrap_or(u32::MAX);
+        let turn = count(&before);
+        (turn, turn.saturating_add(count(&after)).saturating_add(1))
     }
 }

@@ -1,41 +1,28 @@
-//! What a controller knows of a mined lane, and the goals that it has planned.
+//! What a controller knows of a mined lane, the goals that it has planned, and what it does in a step.
 
 use super::conclusion::LaneConclusion;
-use super::owned::Owned;
 use super::tried::Tried;
 use crate::clearance::plan::{Proposal, Subject};
-use crate::clearance::{Clearance, Decision, LanePicture, LaneStatement};
-use alloc::boxed::Box;
+use crate::clearance::{Clearance, Decision, LanePicture};
+use crate::controller::context::Context;
+use crate::controller::contracts::Contracts;
+use crate::controller::ledger::owned::Owned;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::hash::Hash;
 use base::hashed::Hashed;
-use brain::{AgentId, Dispatch, GoalId, Task};
+use brain::{Act, AgentId, GoalId, LaneMessage, Receiver, Task};
+
+/// Time between two plans, and between two messages about the lane, in seconds.
+const PLAN_PERIOD_S: f64 = 1.0;
+const LANE_PERIOD_S: f64 = 5.0;
 
 /// Messages of a robot that has served a goal arrive within this time, in seconds: what it has searched
 /// is not searched again before.
 const REST_S: f64 = 10.0;
 
-/// A goal that robots have lost this many times counts as impossible. It is still offered.
-const MAX_FAILURES: u8 = 6;
-
 /// Lowest value of a goal: values are relative, and not 0.
 const MIN_VALUE: f64 = 1e-3;
-
-/// The lane of a controller, if it has one.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Clearing {
-    pub(super) work: Option<Box<LaneWork>>,
-}
-
-/// Controllers without a lane have the hash that they had before there were lanes.
-impl Hashed for Clearing {
-    fn add_to(&self, hash: &mut Hash) {
-        if let Some(work) = &self.work {
-            work.add_to(hash);
-        }
-    }
-}
 
 /// The work on a lane.
 #[derive(Debug, Clone, Hashed)]
@@ -65,8 +52,6 @@ pub(super) struct Planned {
     pub(super) subject: Subject,
     /// What it was to find or destroy when it was planned.
     pub(super) value: f64,
-    /// How often a robot has lost it without serving it.
-    pub(super) failures: u8,
     /// When it had been served; until then none.
     pub(super) done_s: Option<f64>,
 }
@@ -79,61 +64,71 @@ impl Hashed for Planned {
             Subject::Mine { place } => (place, u8::MAX),
         };
         ((self.goal, self.done_s), subject).add_to(hash);
-        (self.value, self.failures).add_to(hash);
-    }
-}
-
-impl Clearing {
-    pub(super) fn new(clearance: Option<&Arc<Clearance>>) -> Self {
-        let work = clearance.map(|clearance| {
-            Box::new(LaneWork {
-                picture: LanePicture::new(clearance.clone()),
-                decision: Decision::default(),
-                conclusion: None,
-                planned: Vec::new(),
-                interrogated: Vec::new(),
-                tried: Tried::default(),
-                gain: None,
-                next_plan_s: f64::NEG_INFINITY,
-                next_lane_s: f64::NEG_INFINITY,
-                has_open_marks: false,
-            })
-        });
-        Self { work }
-    }
-
-    pub(super) fn picture(&self) -> Option<&LanePicture> {
-        self.work.as_ref().map(|work| &work.picture)
-    }
-
-    pub(super) fn statement(&self) -> Option<LaneStatement> {
-        self.work.as_ref()?.decision.statement
-    }
-
-    /// Notes that a robot has lost a goal without serving it.
-    pub(super) fn note_failure(&mut self, goal: GoalId) {
-        let work = self.work.iter_mut();
-        let mut planned = work.flat_map(|work| &mut work.planned);
-        if let Some(planned) = planned.find(|planned| planned.goal == goal) {
-            planned.failures = planned.failures.saturating_add(1);
-        }
-    }
-
-    /// Takes a message of a robot about the lane.
-    pub(super) fn receive(&mut self, from: AgentId, dispatch: &Dispatch) {
-        let Some(work) = &mut self.work else {
-            return;
-        };
-        match dispatch {
-            Dispatch::Coverage(coverage) => work.picture.take_coverage(from, coverage),
-            Dispatch::Mark(mark) => work.picture.take_mark(from, mark),
-            Dispatch::Statement(statement) => work.picture.take_statement(statement),
-            _ => {}
-        }
+        self.value.add_to(hash);
     }
 }
 
 impl LaneWork {
+    pub(super) fn new(clearance: &Arc<Clearance>) -> Self {
+        Self {
+            picture: LanePicture::new(clearance.clone()),
+            decision: Decision::default(),
+            conclusion: None,
+            planned: Vec::new(),
+            interrogated: Vec::new(),
+            tried: Tried::default(),
+            gain: None,
+            next_plan_s: f64::NEG_INFINITY,
+            next_lane_s: f64::NEG_INFINITY,
+            has_open_marks: false,
+        }
+    }
+
+    /// Reports, and plans when it is time; returns the act by which it states that the lane is clear, or gives it up.
+    pub(super) fn step(&mut self, context: &mut Context, contracts: &mut Contracts) -> Option<Act> {
+        let now_s = context.now_s;
+        if now_s >= self.next_lane_s {
+            self.next_lane_s = now_s + LANE_PERIOD_S;
+            self.report(context);
+        }
+        if now_s < self.next_plan_s || self.decision.statement.is_some() {
+            return None;
+        }
+        self.next_plan_s = now_s + PLAN_PERIOD_S;
+        let plan = self.plan(context);
+        self.has_open_marks = plan.has_open_marks;
+        self.gain = Some(plan.gain);
+        self.decision.decide(&self.picture, &plan, now_s);
+        if context.settings.is_called_off {
+            self.decision.give_up(&plan, now_s);
+        }
+        let Some(statement) = self.decision.statement else {
+            self.issue(context, contracts, plan);
+            return None;
+        };
+        self.gain = Some(0.0);
+        let passage = context.settings.passage.as_deref();
+        self.conclusion = Some(LaneConclusion::new(&self.picture, passage));
+        self.cancel(context, contracts, |_| false);
+        Some(statement.act())
+    }
+
+    /// Reports the lane to robots, and to peers what its goals may still find or destroy: a lane is hopeless only if none
+    /// of them lowers the risk.
+    fn report(&self, context: &mut Context) {
+        let lane = self.picture.clearance().lane;
+        context.send(Receiver::All, LaneMessage::Lane(lane));
+        let Some(gain) = self.gain else {
+            return;
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+        let gain = gain as f32;
+        let peers: Vec<AgentId> = context.peers.on_lane_of(context.own).collect();
+        for peer in peers {
+            context.send(peer, LaneMessage::Gain(gain));
+        }
+    }
+
     /// Notes the goals that have been served; after a rest, their subjects can be proposed again.
     pub(super) fn note_done(&mut self, goals: &[Owned], now_s: f64) {
         for planned in &mut self.planned {
@@ -167,11 +162,6 @@ impl LaneWork {
 }
 
 impl Planned {
-    /// Whether robots have lost it so often that another award hardly serves it.
-    pub(super) fn has_failed_often(&self) -> bool {
-        self.failures >= MAX_FAILURES
-    }
-
     /// Whether it is a search in a way that has not been served.
     pub(super) fn is_open_search(&self, way: u8) -> bool {
         let is_search = matches!(self.subject, Subject::Tile { search, .. } if search == way);

@@ -5,11 +5,13 @@
 //! awards have earned. Of two positions of a robot, the one with the higher weight counts: what others
 //! see outweighs the report of a robot that is not trusted, until it is old.
 
-use super::trust::Trust;
+mod trust;
+
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
 use brain::{AgentId, Report, Task};
+use trust::Trust;
 
 /// A robot is forgotten when nothing has been received of it for this time, in seconds, except for
 /// the trust in it.
@@ -23,7 +25,7 @@ const MAX_ROBOTS: usize = 4096;
 
 /// All robots that a controller knows.
 #[derive(Debug, Clone, Default, Hashed)]
-pub(super) struct Picture {
+pub(super) struct Robots {
     robots: Vec<Robot>,
 }
 
@@ -61,7 +63,7 @@ impl Robot {
     }
 }
 
-impl Picture {
+impl Robots {
     /// The robots from which messages are received.
     pub(super) fn present(&self) -> impl Iterator<Item = &Robot> {
         self.robots.iter().filter(|robot| robot.is_present)
@@ -158,7 +160,7 @@ mod tests {
 
     /// Where a robot is in the picture that is seen at 0 m, and then reports 50 m.
     fn x_m(failures: u32, confidence: f64, after_s: f64) -> f64 {
-        let mut picture = Picture::default();
+        let mut picture = Robots::default();
         (0..failures).for_each(|_| picture.learn(ROBOT, false, 0.0));
         picture.see(ROBOT, Point::default(), 1.0, 0.0);
         picture.report(ROBOT, &reported(50.0), confidence, after_s);

@@ -1,0 +1,157 @@
+//! What the parts of a controller share: its clock, its outbox, and what it knows of goals, robots and peers.
+
+use super::ledger::Ledger;
+use super::ledger::owned::Owned;
+use super::peers::Peers;
+use super::robots::Robots;
+use crate::settings::Settings;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use base::hashed::Hashed;
+use brain::{
+    About, AgentId, Assignment, Claim, ContractMessage, GoalId, Message, Numbers, OwnershipMessage,
+    Percept, Reason, Receiver, Refusal, Task, wait_s,
+};
+
+#[derive(Debug, Clone, Hashed)]
+pub(super) struct Context {
+    #[hashed(skip)]
+    pub(super) settings: Arc<Settings>,
+    pub(super) own: AgentId,
+    /// Its clock, and the time since the last step.
+    pub(super) now_s: f64,
+    pub(super) step_s: f64,
+    /// Until when it grants nothing, once it knows the time: an agent that restarts does not know
+    /// what it granted before.
+    silent_until_s: Option<f64>,
+    pub(super) numbers: Numbers,
+    pub(super) ledger: Ledger,
+    pub(super) robots: Robots,
+    pub(super) peers: Peers,
+    #[hashed(skip)]
+    pub(super) outbox: Vec<Message>,
+}
+
+impl Context {
+    /// At the start of a mission: no agent holds a lease of it.
+    pub(super) fn new(settings: Arc<Settings>) -> Self {
+        Self {
+            settings,
+            own: AgentId::default(),
+            now_s: f64::NEG_INFINITY,
+            step_s: 0.0,
+            silent_until_s: Some(f64::NEG_INFINITY),
+            numbers: Numbers::default(),
+            ledger: Ledger::default(),
+            robots: Robots::default(),
+            peers: Peers::default(),
+            outbox: Vec::new(),
+        }
+    }
+
+    /// It remembers nothing of an earlier life, and grants nothing for the longest lease.
+    pub(super) fn restarted(settings: Arc<Settings>) -> Self {
+        Self {
+            silent_until_s: None,
+            ..Self::new(settings)
+        }
+    }
+
+    /// Begins a step; returns whether its percept is not older than the last one.
+    pub(super) fn begin(&mut self, percept: &Percept) -> bool {
+        let time_s = percept.time_s.filter(|time_s| time_s.is_finite());
+        let now_s = time_s.unwrap_or(self.now_s.max(0.0));
+        if now_s < self.now_s {
+            return false;
+        }
+        self.step_s = (now_s - self.now_s).min(1.0);
+        (self.now_s, self.own) = (now_s, percept.id);
+        self.numbers.step(percept);
+        let longest_s = self.service_wait_s().max(self.owner_wait_s());
+        self.silent_until_s.get_or_insert(now_s + longest_s);
+        self.robots.expire(now_s);
+        self.peers.expire(now_s);
+        true
+    }
+
+    /// Whether it grants leases: not before the longest lease of an earlier life has ended.
+    pub(super) fn may_grant(&self) -> bool {
+        self.silent_until_s
+            .is_some_and(|until_s| self.now_s >= until_s)
+    }
+
+    pub(super) fn send(&mut self, to: impl Into<Receiver>, about: impl Into<About>) {
+        self.outbox.push(Message::to(to, about));
+    }
+
+    /// Owns a goal, which can be awarded after a time: one that a person has issued, or that it has planned.
+    pub(super) fn own(&mut self, task: Task, wait_s: f64) -> Result<(), Reason> {
+        if self.ledger.get(task.id).is_some() {
+            return Ok(());
+        }
+        if !task.is_valid() {
+            return Err(Reason::Invalid);
+        }
+        if self.ledger.open(self.now_s) >= self.settings.max_goals as usize {
+            return Err(Reason::Full);
+        }
+        self.ledger.goals.push(Owned::new(task, self.now_s, wait_s));
+        Ok(())
+    }
+
+    /// A goal is no longer on offer, except to the robot whose bid has a number.
+    pub(super) fn close_offer(&mut self, goal: GoalId, number: u32) {
+        let claim = Claim { goal, number };
+        self.send(Receiver::All, ContractMessage::Withdraw(claim));
+    }
+
+    /// Reports to the operator that no robot can serve a goal, or that it has been lost.
+    pub(super) fn report(&mut self, goal: GoalId, number: u32, reason: Reason) {
+        let report = Refusal {
+            goal,
+            number,
+            reason,
+        };
+        self.ledger.reports.put_unserved(report, self.now_s);
+    }
+
+    /// Sends the reports that are due.
+    pub(super) fn send_reports(&mut self) {
+        for report in self.ledger.reports.due(self.now_s) {
+            self.send(AgentId::OPERATOR, report);
+        }
+    }
+
+    /// Tells the backup of a goal which robots can report that it is done: when it becomes the backup, at each
+    /// award, and again at its commitment, as messages may be lost.
+    pub(super) fn report_assignees(&mut self, goal: GoalId) {
+        let owned = self.ledger.get(goal);
+        let Some((backup, owned)) = owned.and_then(|owned| Some((owned.handover.bound()?, owned)))
+        else {
+            return;
+        };
+        for robot in owned.assignees.clone() {
+            self.send(
+                backup,
+                OwnershipMessage::Assigned(Assignment { goal, robot }),
+            );
+        }
+    }
+
+    /// The time for which the next award of a goal waits, by the durations that messages have.
+    pub(super) fn service_wait_s(&self) -> f64 {
+        let lease_s = short(self.settings.service_lease_s);
+        wait_s(lease_s.into(), self.settings.max_drift)
+    }
+
+    pub(super) fn owner_wait_s(&self) -> f64 {
+        let lease_s = short(self.settings.owner_lease_s);
+        wait_s(lease_s.into(), self.settings.max_drift)
+    }
+}
+
+/// A duration as it is in messages.
+#[expect(clippy::cast_possible_truncation, reason = "messages are short")]
+pub(super) fn short(duration_s: f64) -> f32 {
+    duration_s as f32
+}

@@ -1,0 +1,3 @@
+//! Missions for which a controller plans goals itself.
+
+pub(super) mod lane;
