@@ -121,8 +121,8 @@ def main() -> None:
     serve = [{"kind": "serve"}, {"kind": "avoid"}]  # nothing without an award
     scenario = ae.Scenario.load("waypoints").replace("robots.rover.count", 4)
     scenario = scenario.replace("robots.rover.brain.behaviours", serve)
-    for name, brains in {"auction": None, "fair": {"base": Fair}}.items():
-        simulation = ae.Simulation(scenario, seed=1, brains=brains)
+    for name, controllers in {"auction": None, "fair": {"base": Fair}}.items():
+        simulation = ae.Simulation(scenario, seed=1, controllers=controllers)
         simulation.finish()
         served = Counter(simulation.goals["served_by"].to_pylist())
         shares = ", ".join(f"{robot} {served[robot]}" for robot in simulation.robots)

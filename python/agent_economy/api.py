@@ -10,18 +10,20 @@ import pyarrow as pa
 from agent_economy import _core
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome, table
-from agent_economy.runs.python_brains import Brains
+from agent_economy.runs.python_brains import Brains, Controllers
 from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Scenario, as_scenario, validation
 
 
-def run(
+def run(  # noqa: PLR0913  (keywords with defaults)
     scenario: Scenario | str | Path,
     seed: int = 0,
     run: int = 0,
     record: str | Path | None = None,
     brains: Brains | None = None,
+    *,
+    controllers: Controllers | None = None,
 ) -> Outcome:
     """Run a scenario once. Ctrl-C stops it within a second.
 
@@ -30,7 +32,8 @@ def run(
         seed: Seed of all random numbers, 0 to 2^64 - 1.
         run: Run number, 0 to 2^63 - 10,000,001. Each number is a different world.
         record: File for a recording of the whole run, NAME.mcap (see `agent_economy.recording`).
-        brains: Python brains by robot kind: see `Simulation`.
+        brains: Python brains by kind of robots: see `Simulation`.
+        controllers: Python controllers by kind of controllers: see `Simulation`.
 
     Returns:
         The outcome. It equals row `run` of `replicate`, on any machine.
@@ -41,13 +44,15 @@ def run(
             items.
     """
     scenario = as_scenario(scenario)
+    is_in_python = brains is not None or controllers is not None
     if record is not None:
         path = validation.path("record", record)
-        if brains is None:
+        if not is_in_python:
             return recorded(factory.create(scenario, seed, run), path)
-        return recorded(Simulation(scenario, seed, run, brains=brains), path)
-    if brains is not None:
-        row = replicate(scenario, 1, seed, first_run=run, brains=brains)
+        simulation = Simulation(scenario, seed, run, brains=brains, controllers=controllers)
+        return recorded(simulation, path)
+    if is_in_python:
+        row = replicate(scenario, 1, seed, None, run, brains=brains, controllers=controllers)
         return Outcome.of(row.to_pylist()[0])
     configuration = scenario.configuration({})
     seed, run = validation.plain_value("seed", seed), validation.plain_value("run", run)
@@ -64,6 +69,7 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     first_run: int = 0,
     *,
     brains: Brains | None = None,
+    controllers: Controllers | None = None,
 ) -> pa.Table:
     """Run a scenario many times. Ctrl-C stops it within a second.
 
@@ -73,8 +79,9 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
         seed: Seed of all random numbers, 0 to 2^64 - 1.
         threads: Number of threads, 1 to 1024; None for one per processor. It changes no result.
         first_run: Number of the first run; the others follow.
-        brains: Python brains by robot kind: see `Simulation`. The runs are then executed one after
-            the other in this process, and each gets new brains.
+        brains: Python brains by kind of robots: see `Simulation`. The runs are then executed one
+            after the other in this process, and each gets new brains.
+        controllers: Python controllers by kind of controllers, as `brains`.
 
     Returns:
         One row per run: `run`, `time_s` (time until the run was complete; the time limit if it was
@@ -94,8 +101,10 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     configuration = scenario.configuration({})
     runs = validation.plain_value("runs", runs)
     first_run = validation.plain_value("first_run", first_run)
-    if brains is not None:
-        create = partial(Simulation, scenario, seed, threads=threads, brains=brains)
+    if brains is not None or controllers is not None:
+        create = partial(
+            Simulation, scenario, seed, threads=threads, brains=brains, controllers=controllers
+        )
         rows = run_in_sequence(create, first_run, runs)
         names = [name for name, *_ in configuration.columns]
         values = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}

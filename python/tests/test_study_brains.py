@@ -1,4 +1,4 @@
-"""Studies with brains and controllers in Python: the same runs, stored, resumed and tightened."""
+"""Studies with brains in Python: the same runs, stored, resumed and tightened."""
 
 import json
 import os
@@ -14,7 +14,6 @@ import pytest
 from command_line import COMMAND, refuse, run_process
 from example_brains import AHEAD, SMALL, Bumper, Talker
 
-import agent_economy as ae
 from agent_economy import InputError, Scenario, study
 from agent_economy.study.user_code import source_hash
 
@@ -83,8 +82,8 @@ def test_a_brain_in_python_that_decides_alike_has_the_same_runs_on_any_workers(
     study.run(scenario, **given, out=tmp_path / "rust")
     answer = study.run(scenario, **given, out=tmp_path / "python", brains={"bumper": Bumper})
     assert rows(tmp_path / "python") == rows(tmp_path / "rust")
-    assert answer.brains is not None
-    assert answer.brains.names == {"bumper": "example_brains:Bumper"}
+    (agents,) = answer.agents
+    assert (agents.parameter, agents.names) == ("brains", {"bumper": "example_brains:Bumper"})
     assert "example_brains:Bumper" in (tmp_path / "python/report.html").read_text("utf-8")
     # The same in one process, and by other numbers of workers.
     plan = study.load_plan(tmp_path / "python")
@@ -102,13 +101,6 @@ def test_a_study_with_brains_uses_all_processors(code: Path) -> None:
     given = ("small.toml", "--brains", "my_brains:BRAINS", "--runs", "12", "--out", "study")
     assert command(code, *given).returncode == 0
     assert len(list(code.glob("process-*"))) == os.cpu_count()
-
-
-def test_a_controller_of_ones_own_is_studied_like_that_of_the_scenario(tmp_path: Path) -> None:
-    given: Any = {"vary": {"robots.rover.count": "12"}, "only_vary": True, "runs": 2}
-    study.run("waypoints", **given, out=tmp_path / "rust")
-    study.run("waypoints", **given, out=tmp_path / "python", brains={"base": ae.Controller})
-    assert rows(tmp_path / "python") == rows(tmp_path / "rust")
 
 
 def test_a_killed_study_resumes_with_its_brains_and_ends_with_the_same_bytes(code: Path) -> None:
@@ -190,8 +182,8 @@ def test_brains_of_a_script_resume_from_the_command_line(code: Path) -> None:
         [sys.executable, "my_script.py"], cwd=code, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    names = [study.load_plan(code / name).engine.brains for name in ("study", "batch")]
-    assert [str(each) for each in names] == [
+    plans = [study.load_plan(code / name) for name in ("study", "batch")]
+    assert [str(*each.engine.agents) for each in plans] == [
         "bumper = my_script:Turner",
         "bumper = Batch(my_script:twice)",
     ]
@@ -223,7 +215,7 @@ def test_brains_that_other_processes_cannot_import_are_refused() -> None:
 @pytest.mark.parametrize(
     ("brains", "error"),
     [
-        ({"rover": Bumper}, 'brains = "rover": must be one of "bumper"'),
+        ({"rover": Bumper}, "brains = 'rover': must be one of 'bumper'"),
         ({"bumper": 3}, r"brains\.bumper = 3: must be a Batch, or a class"),
         ("example_brains:NONE", r"the module example_brains \(.*\) has no NONE"),
         ("example_brains:SMALL", r"brains: example_brains:SMALL = .*must be a dict by the names"),

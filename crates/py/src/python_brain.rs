@@ -44,13 +44,23 @@ impl PythonBrain<'_> {
     fn decide_for(&self, scenario: &Scenario, decision: &mut PendingDecision) -> PyResult<()> {
         let percept = convert::write(self.step.py(), &decision.percept)?;
         let command = self.step.call1((decision.robot.index, percept))?;
-        let at = path_of("brains", &name_of(scenario, decision.robot));
+        let parameter = parameter(scenario, decision.robot.kind);
+        let at = path_of(parameter, &name_of(scenario, decision.robot));
         let at = format!("{at}.step()");
         let read = convert::read::<Command>(&at, &command);
         let tools = tools_of(scenario, decision.robot.kind);
         let read = read.and_then(|read| Kinds::of_scenario(scenario).command(&at, tools, read));
         decision.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         Ok(())
+    }
+}
+
+/// The parameter that replaces the brains of a kind: those of controllers have their own.
+fn parameter(scenario: &Scenario, kind: u8) -> &'static str {
+    if usize::from(kind) < scenario.team().len() {
+        "brains"
+    } else {
+        "controllers"
     }
 }
 

@@ -90,8 +90,17 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         str | None,
         typer.Option(
             metavar="MODULE:NAME",
-            help="Brains and controllers in Python: a dict by kind, such as my_brains:BRAINS, of a "
+            help="Brains in Python: a dict by kind of robots, such as my_brains:BRAINS, of a "
             "module in the working folder or on PYTHONPATH. The study runs on all processors.",
+            show_default="those of the scenario",
+            rich_help_panel=QUESTION,
+        ),
+    ] = None,
+    controllers: Annotated[
+        str | None,
+        typer.Option(
+            metavar="MODULE:NAME",
+            help="Controllers in Python: a dict by kind of controllers, as --brains.",
             show_default="those of the scenario",
             rich_help_panel=QUESTION,
         ),
@@ -187,7 +196,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             min=1,
             max=1024,
             help="Number of worker processes.",
-            show_default="threads of this process; with --brains, one process per processor",
+            show_default="threads of this process; with --brains or --controllers, one process "
+            "per processor",
             rich_help_panel=COMPUTING,
         ),
     ] = None,
@@ -234,6 +244,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             "runs": runs,
             "max_runs": max_runs,
             "brains": brains,
+            "controllers": controllers,
         }
         settings = {name: value for name, value in precision.items() if value is not None}
         refuse_two_executors(workers, dask)
@@ -242,7 +253,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         if resume is None:
             if confidence is not None:
                 settings["confidence"] = confidence
-            if brains is not None:
+            if brains is not None or controllers is not None:
                 import_from(Path.cwd())
             # What a user's module prints must not mix with --json.
             with redirect_stdout(sys.stderr):
@@ -263,9 +274,9 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         typer.echo(str(Description.of(plan)), err=True)
         if vary and (also := others_varied(plan, vary)):
             typer.echo(f"also over {also}, of the scenario", err=True)
-        if plan.engine.brains is not None:
+        for agents in plan.engine.agents:
             import_from(Path.cwd())
-            typer.echo(f"with the brains {plan.engine.brains}", err=True)
+            typer.echo(f"with the {agents.parameter} {agents}", err=True)
         try:
             answer = compute_answer(plan, folder, workers, dask)
         except KeyboardInterrupt:
@@ -274,7 +285,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
 
 
 def import_from(folder: Path) -> None:
-    """Let this process and its workers import brains from a folder, after all other modules."""
+    """Let this process and its workers import agents from a folder, after all other modules."""
     if str(folder) not in sys.path:
         sys.path.append(str(folder))
 

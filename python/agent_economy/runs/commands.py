@@ -19,18 +19,14 @@ PLACE = "at"
 WIDTH = 2
 
 
-def plain_command(robot: str, command: object) -> Any:
-    """Return the command of one robot in plain values.
+def plain_command(at: str, command: object) -> Any:
+    """Return the command of one robot or controller in plain values; `at` is its path in errors.
 
     Raises:
         InputError: If it contains something else.
     """
     # Most commands are plain, and brains in Python take a few microseconds per step.
-    return (
-        command
-        if is_plain(command)
-        else validation.plain_value(f'brains."{robot}".step()', command)
-    )
+    return command if is_plain(command) else validation.plain_value(at, command)
 
 
 def plain_columns(at: str, given: object, rows: int) -> Any:

@@ -21,7 +21,7 @@ from agent_economy.runs.brain import (
 from agent_economy.runs.lane import BelievedLane, believed_lane
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.passage import Vehicle, vehicle
-from agent_economy.runs.python_brains import Brains, python_brains, resized
+from agent_economy.runs.python_brains import Brains, Controllers, python_brains, resized
 from agent_economy.runs.stepped import Change, Snapshot, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
 
@@ -78,6 +78,7 @@ class Simulation(Stepped):
         threads: int | None = None,
         brains: Brains | None = None,
         *,
+        controllers: Controllers | None = None,
         external: Iterable[str] = (),
     ) -> None:
         """Create a run at its first step.
@@ -88,25 +89,28 @@ class Simulation(Stepped):
             run: Run number, 0 to 2^63 - 10,000,001. Each number is a different world.
             threads: Number of threads, 1 to 1024; None for one per processor. It changes no result,
                 and matters only with thousands of robots.
-            brains: Python brains by kind. Either a class or function that is called with the body
-                of a robot and returns its brain: an object with a method `step(percept)` that
-                returns a command, as `Brain` has. It decides instead of the scenario's brain, at
-                the same steps. Or a `Batch`, which decides for all robots of the kind at once. For
-                a kind of controllers, a class or function that is called with its settings and
-                returns a controller: an object with the same method, as `Controller` has.
+            brains: Python brains by kind of robots. Either a class or function that is called with
+                the body of a robot and returns its brain: an object with a method `step(percept)`
+                that returns a command, as `Brain` has. It decides instead of the scenario's brain,
+                at the same steps. Or a `Batch`, which decides for all robots of the kind at once.
+            controllers: Python controllers by kind of controllers: a class or function that is
+                called with the settings of a controller and returns one: an object with a method
+                `step(percept)` that returns a command, as `Controller` has. It decides instead of
+                the scenario's controller.
             external: Names of robots that have external bodies from the start: see `step`. Until
                 its first percept, such a body is stationary where it starts.
 
         Raises:
             InputError: If the scenario has errors or is of another engine, an argument is out of
-                range, or the world has no room for the team or the items.
+                range, or the world has no room for the team or the items. It lists all errors of
+                `brains` and `controllers`.
         """
         super().__init__(as_scenario(scenario), seed, run, sorted_names(external))
         metric, names = self.scenario.metric(), self.declared_external
         numbers = {"seed": self.seed, "run": self.run}
         numbers["threads"] = validation.plain_value("threads", threads)
         self._run = _core.Simulation(metric, **numbers, external=names)
-        self._brains = python_brains(brains, self.scenario)
+        self._brains = python_brains(brains, controllers, self.scenario)
         in_python = [name for name in names if self._is_in_python(name)]
         allowed = "robots with the brain of the scenario: step the brains in `brains` yourself"
         validation.check(not in_python, "external", in_python, allowed)
@@ -435,8 +439,9 @@ class Simulation(Stepped):
 
     def _check_no_python_brains(self, method: str) -> None:
         kinds = [each.kind for each in self._brains]
-        allowed = "none: a snapshot cannot contain the memory of Python brains; restart the run"
-        validation.check(not kinds, f"{method}: brains", kinds, allowed)
+        allowed = "none: a snapshot cannot contain their memory; restart the run"
+        subject = f"{method}: brains and controllers in Python"
+        validation.check(not kinds, subject, kinds, allowed)
 
     @property
     def robots(self) -> tuple[str, ...]:

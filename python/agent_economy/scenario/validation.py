@@ -1,12 +1,12 @@
 """Checks of arguments; their errors have the form of a scenario's."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from numbers import Integral
 from os import PathLike
 from pathlib import Path
 from types import UnionType
-from typing import Any, TypeGuard
+from typing import Any, TypeGuard, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from agent_economy._core import InputError
 from agent_economy.plain import NotPlainError, described, floats, plain
 
 Kinds = type | UnionType
+T = TypeVar("T")
 
 
 def check(is_allowed: bool, name: str, value: object, allowed: str) -> None:  # noqa: FBT001
@@ -95,6 +96,25 @@ def texts(name: str, value: Iterable[str], allowed: str) -> tuple[str, ...]:
 def errors_unless(is_allowed: bool, name: str, value: object, allowed: str) -> list[str]:  # noqa: FBT001
     """Return the error that `check` would raise, as a list of at most one text."""
     return [] if is_allowed else [str(_core.refusal(name, value, allowed))]
+
+
+def all_of(calls: Iterable[Callable[[], T]]) -> list[T]:
+    """Return the results of all calls.
+
+    Raises:
+        InputError: If some raise one; it lists the errors of all.
+    """
+    results, found = [], []
+    for call in calls:
+        try:
+            results.append(call())
+        except InputError as error:
+            found.append(error)
+    if not found:
+        return results
+    joined = InputError("\n".join(map(str, found)))
+    joined.errors = [each for error in found for each in error.errors]
+    raise joined
 
 
 def plain_value(name: str, value: object) -> Any:

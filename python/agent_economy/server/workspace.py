@@ -108,10 +108,12 @@ class Workspace:
             InputError: If there is no such study or configuration.
         """
         plan = load_plan(self.study(name))
-        if plan.engine.brains is not None:
+        if agents := plan.engine.agents:
+            listed = ", ".join(map(str, agents))
+            parameters = ", ".join(f"{each.parameter}=..." for each in agents)
             message = (
-                f"study {name}: its runs have brains in Python ({plan.engine.brains}), which the "
-                "page does not run: use agent_economy.Simulation(..., brains=...)"
+                f"study {name}: its runs have agents in Python ({listed}), which the page does not "
+                f"run: use agent_economy.Simulation(..., {parameters})"
             )
             raise InputError(message)
         return plan.alone(configuration), plan.seed

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from agent_economy._core import InputError
-from agent_economy.runs.python_brains import Brains
+from agent_economy.runs.python_brains import Brains, Controllers
 from agent_economy.scenario import Override, Scenario, Value, as_scenario, validation
 from agent_economy.scenario.source import check_path
 from agent_economy.shell_word import shell_word
@@ -46,6 +46,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     runs: int | None = None,
     max_runs: int | None = None,
     brains: Brains | str | None = None,
+    controllers: Controllers | str | None = None,
     seed: int = 0,
     out: str | Path | None = None,
     compute: Compute | None = None,
@@ -81,12 +82,13 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         runs: Fixed number of runs per configuration; None to stop when the answer is settled.
         max_runs: Run budget of all configurations together; if it is reached first, the answer has
             no guarantee, or that of the tolerance that was reached. None for no limit.
-        brains: Brains and controllers in Python that replace those of the scenario, by kind, as in
+        brains: Brains in Python that replace those of the scenario, by kind of robots, as in
             `Simulation`: classes or functions at the top level of a module. Or the name of such a
             dict, "MODULE:NAME". The runs are computed by one process per processor, each of which
             imports the brains by name; without workers, the script must guard its code with
             `if __name__ == "__main__":`. The hash of their source, with the modules that it imports
             and that are not installed, identifies the study.
+        controllers: Controllers in Python, by kind of controllers, as `brains`.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
         out: Folder of the study; None stores nothing.
         compute: Computes blocks of runs, always the same for the same block. `Workers.columns`
@@ -130,6 +132,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         runs=runs,
         max_runs=max_runs,
         brains=brains,
+        controllers=controllers,
     )
     if decide:
         plan = plans.decided(plan, max_runs=max_runs)

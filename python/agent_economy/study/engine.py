@@ -10,8 +10,8 @@ import numpy as np
 
 from agent_economy import _core
 from agent_economy.scenario import Override, Scenario
+from agent_economy.study.agents import StudyAgents, outcomes
 from agent_economy.study.arguments import Floats
-from agent_economy.study.brains import StudyBrains
 from agent_economy.study.design import Values
 from agent_economy.study.executors import (
     LocalExecutor,
@@ -33,14 +33,14 @@ class Engine:
         configurations: The values of the varied factors of each.
         seed: Seed of all random numbers.
         threads: Number of threads; None for one per processor.
-        brains: Brains and controllers in Python that replace those of the scenario.
+        agents: Brains and controllers in Python that replace those of the scenario.
     """
 
     scenario: Scenario
     configurations: Sequence[Values]
     seed: int
     threads: int | None = None
-    brains: StudyBrains | None = None
+    agents: tuple[StudyAgents, ...] = ()
 
     def __getstate__(self) -> dict[str, object]:
         """Leave out compiled configurations: they are compiled again where they are needed."""
@@ -78,16 +78,15 @@ class Engine:
 
     @contextmanager
     def on_this_machine(self) -> Iterator[Compute]:
-        """Compute on all processors: in threads, or with brains in Python in processes."""
-        if self.brains is None:
+        """Compute on all processors: in threads, or with agents in Python in processes."""
+        if not self.agents:
             yield self
             return
-        brains = self.brains
         with self.in_processes(os.cpu_count() or 1) as workers:
 
             def parts(block: RunBlock) -> Generator[Part]:
                 # Here first, where an error is found before any process starts.
-                _ = brains.loaded
+                _ = [each.loaded for each in self.agents]
                 yield from workers.columns.parts(block)
 
             yield Partwise(parts)
@@ -141,8 +140,8 @@ class Engine:
 
     def __call__(self, block: RunBlock) -> Columns:
         """Return the outcomes of a block of runs."""
-        if self.brains is not None:
-            return self._with_brains(self.brains, block)
+        if self.agents:
+            return self._with_agents(block)
         compiled = [self._compiled(each) for each in block.configurations]
         return _core.run_block(
             compiled,
@@ -152,9 +151,9 @@ class Engine:
             threads=self.threads,
         )
 
-    def _with_brains(self, brains: StudyBrains, block: RunBlock) -> Columns:
+    def _with_agents(self, block: RunBlock) -> Columns:
         for each in block.configurations:
             if each not in self._alone:
                 self._alone[each] = self.alone(each)
         names = [column.name for column in self.columns]
-        return brains.outcomes(self._alone, self.seed, block, names)
+        return outcomes(self.agents, self._alone, self.seed, block, names)

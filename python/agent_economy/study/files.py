@@ -54,17 +54,17 @@ def is_infinite(value: Any) -> bool:
 def as_dict(answer: AnyAnswer) -> dict[str, Any]:
     """Return an answer as JSON values; without what it has none of.
 
-    `omissions`, other `questions`, `runs_to_decide`, `brains`, and each `goal_time` and `clearance`
+    `omissions`, other `questions`, `runs_to_decide`, `agents`, and each `goal_time` and `clearance`
     are in it only if there are any.
     """
     values = asdict(answer, dict_factory=with_names_of_infinity)
     scenario = values.pop("scenario")
     del scenario["source"]
-    if not values.get("omissions", True):
-        del values["omissions"]
-    for name in ("runs_to_decide", "brains"):
-        if values.get(name, 0) is None:
+    for name in ("omissions", "agents"):
+        if not values.get(name, True):
             del values[name]
+    if values.get("runs_to_decide", 0) is None:
+        del values["runs_to_decide"]
     if len(answer.questions) <= 1:
         del values["questions"]
     for result in values["results"]:

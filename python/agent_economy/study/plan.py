@@ -8,7 +8,7 @@ import hashlib
 import json
 import tomllib
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,11 +17,11 @@ import tomli_w
 
 from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
-from agent_economy.runs.python_brains import Brains
+from agent_economy.runs.python_brains import PARAMETERS, Brains, Controllers
 from agent_economy.scenario import Override, Scenario, ScenarioWarning, Source, warnings
 from agent_economy.scenario.validation import of_type, whole
+from agent_economy.study.agents import StudyAgents, agents_of
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS, Guarantee, confidence_errors
-from agent_economy.study.brains import StudyBrains
 from agent_economy.study.check.arguments import check_max_runs, raise_all
 from agent_economy.study.check.request import StudyRequest
 from agent_economy.study.design import Values
@@ -96,7 +96,7 @@ class Plan:
             ],
             "scenario": source.text,
             "files": {name: digest(data) for name, data in self.files.items()},
-            "brains": self.engine.brains and asdict(self.engine.brains),
+            **self.agents,
         }
         document = {
             "format": FORMAT,
@@ -118,12 +118,20 @@ class Plan:
         files = self.scenario.source.files.items()
         return {name: data for name, data in files if isinstance(data, bytes)}
 
+    @property
+    def agents(self) -> dict[str, dict[str, Any]]:
+        """The brains and controllers in Python, by parameter."""
+        return {
+            each.parameter: {"names": each.names, "source": each.source}
+            for each in self.engine.agents
+        }
+
     @cached_property
     def identity(self) -> str:
         """The hash of all that determines the runs: plans with the same identity share a folder.
 
         It covers the version of the program, the seed, the configurations in their order, the
-        columns of a run, the brains in Python with the hash of their source, and the scenario
+        columns of a run, the agents in Python with the hash of their source, and the scenario
         except for the keys that affect only scores and descriptions. The columns depend on the
         whole design: they hold the times of as many finds as any of its item counts allows. It does
         not cover the engine: a folder of another build is refused, and not passed over for a new
@@ -134,8 +142,8 @@ class Plan:
         files = {name: digest(data) for name, data in self.files.items()}
         columns = [(column.name, column.kind) for column in self.engine.columns]
         made_of = [self.seed, self.runs, self.configurations, columns, runs, files]
-        if self.engine.brains is not None:
-            made_of.append(asdict(self.engine.brains))
+        if self.agents:
+            made_of.append(self.agents)
         parts = [own_build().program, *made_of]
         text = json.dumps(parts, sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
@@ -151,19 +159,21 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     runs: int | None = None,
     max_runs: int | None = None,
     brains: Brains | str | None = None,
+    controllers: Controllers | str | None = None,
 ) -> Plan:
     """Return the plan of a scenario's study; None selects the scenario's value or the default.
 
     The question of a scenario with a requirement is the cheapest configuration that meets it,
-    unless `delta`, `guarantee` or `runs` select the best by merit. `brains` are as in `run`.
+    unless `delta`, `guarantee` or `runs` select the best by merit. `brains` and `controllers` are
+    as in `run`.
 
     Raises:
         InputError: If an argument or a configuration is invalid.
     """
     of_type("scenario", scenario, Scenario, "a Scenario")
-    used = None if brains is None else StudyBrains.of(brains, scenario)
+    agents = agents_of(brains, controllers, scenario)
     request = StudyRequest(
-        scenario, seed, delta, confidence, guarantee, runs, max_runs, brains=used
+        scenario, seed, delta, confidence, guarantee, runs, max_runs, agents=agents
     )
     return planned(request, is_new=True)
 
@@ -287,7 +297,7 @@ def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) ->
         runs=data.get("runs"),
         max_runs=question.get("max_runs"),
         finer=question.get("finer"),
-        brains=StudyBrains(**data["brains"]) if "brains" in data else None,
+        agents=tuple(StudyAgents(each, **data[each]) for each in PARAMETERS if each in data),
     )
     return planned(request, is_new=False)
 

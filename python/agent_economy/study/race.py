@@ -148,7 +148,7 @@ class Race:
         obstacle = self._obstacle(impossible[0]) if impossible else ""
         answer = plan.question.conclude(plan.engine, evidence, self._procedure, plan.runs, obstacle)
         questions = record_questions(plan, self._store)
-        return replace(answer, questions=questions, brains=plan.engine.brains), evidence
+        return replace(answer, questions=questions, agents=plan.engine.agents), evidence
 
     def _rounds_until_over(self) -> None:
         procedure = self._procedure

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from agent_economy.scenario import Scenario
 from agent_economy.shares import percent, percent_bounds
+from agent_economy.study.agents import StudyAgents
 from agent_economy.study.answer.effort import Effort
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.published import PublishedResult
@@ -13,7 +14,6 @@ from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.answer.sensitivity import Sensitivity
 from agent_economy.study.answer.side_statements import Omission
 from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
-from agent_economy.study.brains import StudyBrains
 from agent_economy.study.store.ledger import Answered
 
 
@@ -39,7 +39,7 @@ class Answer(StudyAnswer):
         published: Published results, scored with the same merit.
         omissions: Those of the preceding four that could not be stated, each with the reason.
         questions: The questions that were answered from the same runs, this one included.
-        brains: The brains in Python that replaced those of the scenario.
+        agents: The brains and controllers in Python that replaced those of the scenario.
     """
 
     scenario: Scenario
@@ -58,7 +58,7 @@ class Answer(StudyAnswer):
     published: tuple[PublishedResult, ...]
     omissions: tuple[Omission, ...] = ()
     questions: tuple[Answered, ...] = ()
-    brains: StudyBrains | None = None
+    agents: tuple[StudyAgents, ...] = ()
 
     @property
     def chosen(self) -> Result:

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from agent_economy.scenario import Requirement, Scenario
 from agent_economy.shares import percent, percent_bounds
+from agent_economy.study.agents import StudyAgents
 from agent_economy.study.answer.requirement_results import RequirementResult
 from agent_economy.study.answer.study_answer import StudyAnswer, Verdict
-from agent_economy.study.brains import StudyBrains
 from agent_economy.study.store.ledger import Answered
 
 STYLES = {"selected": "bold", "refuted": "dim", "not needed": "dim", "impossible": "dim"}
@@ -34,7 +34,7 @@ class RequirementAnswer(StudyAnswer):
         selected: Index of the cheapest certified configuration; None if none is certified.
         results: Result of each configuration.
         questions: The questions that were answered from the same runs, this one included.
-        brains: The brains in Python that replaced those of the scenario.
+        agents: The brains and controllers in Python that replaced those of the scenario.
     """
 
     scenario: Scenario
@@ -50,7 +50,7 @@ class RequirementAnswer(StudyAnswer):
     results: tuple[RequirementResult, ...]
     runs_to_decide: int | None = None
     questions: tuple[Answered, ...] = ()
-    brains: StudyBrains | None = None
+    agents: tuple[StudyAgents, ...] = ()
 
     # The verdict contains all that they would state.
     details = precision = ""

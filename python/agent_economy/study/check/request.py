@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from agent_economy.scenario import Scenario
 from agent_economy.scenario.validation import is_whole
 from agent_economy.study import design, teams
+from agent_economy.study.agents import StudyAgents
 from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS, Guarantee
-from agent_economy.study.brains import StudyBrains
 from agent_economy.study.check.arguments import MAX_SEED, check_max_runs, check_question, raise_all
 from agent_economy.study.check.expressions import (
     check_conditions,
@@ -33,7 +33,7 @@ class StudyRequest:
     runs: int | None
     max_runs: int | None
     finer: float | None = None
-    brains: StudyBrains | None = None
+    agents: tuple[StudyAgents, ...] = ()
 
     @property
     def is_about_merit(self) -> bool:
@@ -68,7 +68,7 @@ class StudyRequest:
         scenario = self.scenario
         raise_all(self._first_errors())
         points = teams.compared(scenario, self._points())
-        engine = Engine(scenario, points, int(self.seed), brains=self.brains)
+        engine = Engine(scenario, points, int(self.seed), agents=self.agents)
         compared = len(engine.configurations) if self.is_about_merit else 1
         check_max_runs(self.max_runs, self.runs, FIRST_ANALYSIS_RUNS * compared)
         if is_new and self.is_about_merit:

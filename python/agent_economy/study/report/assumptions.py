@@ -19,8 +19,8 @@ def assumptions(view: AnyView) -> Iterator[tuple[str, str]]:
     yield from scenario(answer)
     for path in view.varied:
         yield path, values(answer, path)
-    if answer.brains is not None:
-        yield "brains", f"{answer.brains}; source {answer.brains.source[:16]}"
+    for each in answer.agents:
+        yield each.parameter, f"{each}; source {each.source[:16]}"
     yield "seed", f"{answer.seed}; a run number means the same random numbers in all configurations"
     yield from view.principles
     yield from questions(answer)

@@ -60,7 +60,7 @@ def run_keys(text: str) -> dict[str, Any]:
         if not any(is_within(key, path) for path in QUESTION)
     }
     own = {key: data.get(key) for key in ("program", "seed", "runs")}
-    parts = {name: data.get(name, {}) for name in ("files", "brains")}
+    parts = {name: data.get(name, {}) for name in ("files", "brains", "controllers")}
     return own | of_runs | dict(flat(parts))
 
 
