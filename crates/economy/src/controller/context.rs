@@ -13,6 +13,9 @@ use brain::{
     Percept, Reason, Receiver, Refusal, Task, wait_s,
 };
 
+/// The number of no bid: those of agents begin at 1.
+const NO_BID: u32 = 0;
+
 #[derive(Debug, Clone, Hashed)]
 pub(super) struct Context {
     #[hashed(skip)]
@@ -99,8 +102,9 @@ impl Context {
         Ok(())
     }
 
-    /// A goal is no longer on offer, except to the robot whose bid has a number.
-    pub(super) fn close_offer(&mut self, goal: GoalId, number: u32) {
+    /// A goal is no longer on offer, except to the robot whose bid has a number, if any has.
+    pub(super) fn close_offer(&mut self, goal: GoalId, number: Option<u32>) {
+        let number = number.unwrap_or(NO_BID);
         let claim = Claim { goal, number };
         self.send(Receiver::All, ContractMessage::Withdraw(claim));
     }

@@ -14,7 +14,7 @@
 //! for twice as long, with half the confidence, and no goal is contested only because another robot
 //! would be nearer. New goals that lie better change the order in which robots serve theirs.
 
-use super::{Contracts, NO_BID};
+use super::Contracts;
 use crate::controller::context::Context;
 use crate::controller::ledger::owned::Assigned;
 use alloc::vec::Vec;
@@ -74,7 +74,7 @@ impl Contracts {
             assigned.is_contested = false;
             assigned.overdue_s = now_s + OVERDUE_S + OVERDUE_FACTOR * remaining_s.clamp(0.0, 1e4);
             self.bids.remove_for(goal);
-            context.close_offer(goal, NO_BID);
+            context.close_offer(goal, None);
         }
     }
 

@@ -146,7 +146,7 @@ impl Contracts {
         self.bids.remove_of(robot);
         context.report_assignees(goal);
         repeat_awards(context);
-        context.close_offer(goal, bid.number);
+        context.close_offer(goal, Some(bid.number));
     }
 }
 

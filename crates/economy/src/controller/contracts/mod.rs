@@ -24,9 +24,6 @@ use calls::call;
 use round::Round;
 use unserved::probe;
 
-/// The number of no bid: those of agents begin at 1.
-pub(super) const NO_BID: u32 = 0;
-
 #[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Contracts {
     /// The service leases that it has granted.

@@ -1,7 +1,7 @@
 //! The effect of each message of a robot on the contracts.
 
+use super::Contracts;
 use super::displacement::{call_reserved, note_progress};
-use super::{Contracts, NO_BID};
 use crate::controller::context::Context;
 use brain::LeaseMessage;
 use brain::{
@@ -17,7 +17,7 @@ const DECLINED_PER_ROBOT_S: f64 = 2.0;
 const MAX_TIME_S: f32 = 1e7;
 
 impl Contracts {
-    pub(in super::super) fn receive(
+    pub(crate) fn receive(
         &mut self,
         context: &mut Context,
         from: AgentId,
@@ -43,12 +43,7 @@ impl Contracts {
     }
 
     /// Takes a message of a robot about its service leases.
-    pub(in super::super) fn renew(
-        &mut self,
-        context: &mut Context,
-        from: AgentId,
-        message: LeaseMessage,
-    ) {
+    pub(crate) fn renew(&mut self, context: &mut Context, from: AgentId, message: LeaseMessage) {
         match message {
             LeaseMessage::Renew(renewal) => self.renew_services(context, from, renewal),
             LeaseMessage::RenewOne(claim) => self.renew_service(context, from, claim),
@@ -178,7 +173,7 @@ impl Contracts {
             owned.assigned = None;
             context.robots.learn(from, true, now_s);
             self.bids.remove_for(claim.goal);
-            context.close_offer(claim.goal, NO_BID);
+            context.close_offer(claim.goal, None);
         }
         self.services.release(from, claim);
         self.services.withdraw(claim.goal);

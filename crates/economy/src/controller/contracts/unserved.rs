@@ -1,6 +1,5 @@
 //! Goals that no robot can serve: reported once with the reason, and tried again later.
 
-use super::NO_BID;
 use super::calls::call_to;
 use crate::allocation::Allocation;
 use crate::controller::context::Context;
@@ -44,7 +43,7 @@ fn end_expired(context: &mut Context) {
         if let Some(owned) = context.ledger.get_mut(goal) {
             owned.end();
         }
-        context.close_offer(goal, NO_BID);
+        context.close_offer(goal, None);
     }
 }
 

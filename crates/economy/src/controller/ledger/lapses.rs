@@ -16,7 +16,7 @@ const MAX_ROBOTS: usize = 64;
 
 /// The lapses of one goal.
 #[derive(Debug, Clone, Default)]
-pub(in super::super) struct Lapses(Vec<Lapse>);
+pub(crate) struct Lapses(Vec<Lapse>);
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Lapse {
@@ -33,7 +33,7 @@ impl base::hashed::Hashed for Lapses {
 
 impl Lapses {
     /// Notes a lapse.
-    pub(in super::super) fn add(&mut self, robot: AgentId, now_s: f64) {
+    pub(crate) fn add(&mut self, robot: AgentId, now_s: f64) {
         let known = self.0.iter().position(|lapse| lapse.robot == robot);
         let rest_s = known.map_or(MIN_REST_S, |place| {
             (2.0 * self.0.remove(place).rest_s).min(MAX_REST_S)
@@ -49,7 +49,7 @@ impl Lapses {
     }
 
     /// Whether the bids of a robot count.
-    pub(in super::super) fn may_bid(&self, robot: AgentId, now_s: f64) -> bool {
+    pub(crate) fn may_bid(&self, robot: AgentId, now_s: f64) -> bool {
         let mut lapses = self.0.iter();
         !lapses.any(|lapse| lapse.robot == robot && now_s < lapse.until_s)
     }

@@ -9,7 +9,7 @@ const RETRY_S: f64 = 2.0;
 
 /// The reports that the operator has not acknowledged, at most one of each goal.
 #[derive(Debug, Clone, Default, Hashed)]
-pub(in super::super) struct Reports(Vec<Report>);
+pub(crate) struct Reports(Vec<Report>);
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Report {
@@ -20,12 +20,12 @@ struct Report {
 
 impl Reports {
     /// Reports that no robot can serve a goal, or that it has been lost.
-    pub(in super::super) fn put_unserved(&mut self, report: Refusal, now_s: f64) {
+    pub(crate) fn put_unserved(&mut self, report: Refusal, now_s: f64) {
         self.put(report.goal, ContractMessage::Stuck(report), now_s);
     }
 
     /// Reports that the controller does not own a goal.
-    pub(in super::super) fn put_refused(&mut self, report: Refusal, now_s: f64) {
+    pub(crate) fn put_refused(&mut self, report: Refusal, now_s: f64) {
         self.put(report.goal, ContractMessage::Refuse(report), now_s);
     }
 
@@ -38,17 +38,17 @@ impl Reports {
         });
     }
 
-    pub(in super::super) fn contains(&self, goal: GoalId) -> bool {
+    pub(crate) fn contains(&self, goal: GoalId) -> bool {
         self.0.iter().any(|report| report.goal == goal)
     }
 
     /// The operator knows, or what was reported is no longer so.
-    pub(in super::super) fn remove(&mut self, goal: GoalId) {
+    pub(crate) fn remove(&mut self, goal: GoalId) {
         self.0.retain(|report| report.goal != goal);
     }
 
     /// The reports that are to be sent now.
-    pub(in super::super) fn due(&mut self, now_s: f64) -> Vec<ContractMessage> {
+    pub(crate) fn due(&mut self, now_s: f64) -> Vec<ContractMessage> {
         let due = self.0.iter_mut().filter(|report| now_s >= report.next_s);
         let due = due.map(|report| {
             report.next_s = now_s + RETRY_S;

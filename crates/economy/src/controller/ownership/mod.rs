@@ -20,8 +20,6 @@ use base::hashed::Hashed;
 use brain::{AgentId, GoalId, Grantor, LeaseMessage, OwnershipMessage, Task};
 use kept::Kept;
 use lost::Lost;
-use owner::{hand_over, take_relieved};
-use renewals::renew_one_by_one;
 
 /// Longer leases are invalid, in seconds.
 const MAX_LEASE_S: f32 = 3600.0;
@@ -58,7 +56,7 @@ impl Ownership {
             if left == 0 {
                 break;
             }
-            if hand_over(context, contracts, index) {
+            if Self::hand_over(context, contracts, index) {
                 left -= 1;
             }
         }
@@ -87,7 +85,7 @@ impl Ownership {
             }
             OwnershipMessage::Bind(binding) => self.take_binding(context, contracts, from, binding),
             OwnershipMessage::Relieve(claim) => self.take_relief(context, from, claim),
-            OwnershipMessage::Relieved(claim) => take_relieved(context, from, claim),
+            OwnershipMessage::Relieved(claim) => Self::take_relieved(context, from, claim),
             OwnershipMessage::Restore(task) => self.take_return(context, from, task),
             OwnershipMessage::Serial(_) | OwnershipMessage::Seen(_) => {}
         }
@@ -101,7 +99,7 @@ impl Ownership {
             LeaseMessage::RenewOne(claim) => self.renew_one_granted(context, from, claim),
             LeaseMessage::Renewed(number) => context.ledger.leases.renew(from, number, now_s),
             LeaseMessage::RenewedOne(claim) => context.ledger.leases.renew_one(from, claim, now_s),
-            LeaseMessage::Differs(number) => renew_one_by_one(context, from, number),
+            LeaseMessage::Differs(number) => Self::renew_one_by_one(context, from, number),
         }
     }
 

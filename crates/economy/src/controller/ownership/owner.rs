@@ -10,7 +10,7 @@ use brain::{AgentId, Award, Claim, GoalId, OwnershipMessage, Reason, Refusal, Ta
 
 impl Ownership {
     /// Owns a goal that a person has issued. One that it has lost is awarded when all leases of it have ended.
-    pub(in super::super) fn take_issued(&mut self, context: &mut Context, task: Task) {
+    pub(crate) fn take_issued(&mut self, context: &mut Context, task: Task) {
         context.ledger.reports.remove(task.id);
         let wait_s = if self.is_lost(task.id) {
             context.service_wait_s()
@@ -96,12 +96,7 @@ impl Ownership {
     }
 
     /// A robot reports that it has served a goal whose ownership is lost: it is lost no longer.
-    pub(in super::super) fn restore_done(
-        &mut self,
-        context: &mut Context,
-        from: AgentId,
-        goal: GoalId,
-    ) {
+    pub(crate) fn restore_done(&mut self, context: &mut Context, from: AgentId, goal: GoalId) {
         let mut all = self.lost.iter();
         let index =
             all.position(|lost| lost.owned.task.id == goal && lost.owned.assignees.contains(&from));
@@ -172,6 +167,47 @@ impl Ownership {
             context.ledger.goals.push(owned);
         }
     }
+
+    /// Sends the next message about the handover of a goal; returns whether there was one to send.
+    pub(super) fn hand_over(context: &mut Context, contracts: &Contracts, index: usize) -> bool {
+        let now_s = context.now_s;
+        let best = context.peers.highest();
+        let owned = &mut context.ledger.goals[index];
+        let (goal, task) = (owned.task.id, owned.task_at(now_s));
+        let origin = owned.origin.filter(|origin| context.peers.is_near(*origin));
+        let situation = Situation {
+            now_s,
+            is_done: owned.is_done,
+            best,
+            origin,
+        };
+        let Some(action) = owned.handover.step(&situation) else {
+            return false;
+        };
+        match action {
+            Action::Entrust(backup) => context.send(backup, OwnershipMessage::Entrust(task)),
+            Action::Bind(backup, number) => bind(context, goal, backup, number),
+            Action::Relieve(backup) => relieve(context, goal, backup),
+            Action::Restore(origin) => {
+                let is_free = contracts.is_free(goal);
+                return offer_return(context, index, origin, is_free);
+            }
+        }
+        true
+    }
+
+    /// The backup is relieved: the goal is owned without a lease, if the lease has not ended.
+    pub(super) fn take_relieved(context: &mut Context, from: AgentId, claim: Claim) {
+        let leases = &mut context.ledger.leases;
+        let is_held = leases.is_held(claim.goal, context.now_s);
+        if !leases.is_answer(from, claim) || !is_held {
+            return;
+        }
+        leases.release(claim.goal);
+        if let Some(owned) = context.ledger.get_mut(claim.goal) {
+            owned.handover = Handover::Alone;
+        }
+    }
 }
 
 /// From now on, a goal is owned only under a lease. A backup that answered an earlier request before it received the binding
@@ -202,19 +238,6 @@ fn relieve(context: &mut Context, goal: GoalId, backup: AgentId) {
     context.send(backup, OwnershipMessage::Relieve(Claim { goal, number }));
 }
 
-/// The backup is relieved: the goal is owned without a lease, if the lease has not ended.
-pub(super) fn take_relieved(context: &mut Context, from: AgentId, claim: Claim) {
-    let leases = &mut context.ledger.leases;
-    let is_held = leases.is_held(claim.goal, context.now_s);
-    if !leases.is_answer(from, claim) || !is_held {
-        return;
-    }
-    leases.release(claim.goal);
-    if let Some(owned) = context.ledger.get_mut(claim.goal) {
-        owned.handover = Handover::Alone;
-    }
-}
-
 /// A backup returns a goal that a person has issued here again meanwhile: it is to be the backup of that.
 fn rejoin(context: &mut Context, backup: AgentId, goal: GoalId) {
     let next_s = context.now_s;
@@ -234,33 +257,5 @@ fn offer_return(context: &mut Context, index: usize, origin: AgentId, is_free: b
     owned.next_return_s = now_s + RETRY_S;
     let task = owned.task_at(now_s);
     context.send(origin, OwnershipMessage::Restore(task));
-    true
-}
-
-/// Sends the next message about the handover of a goal; returns whether there was one to send.
-pub(super) fn hand_over(context: &mut Context, contracts: &Contracts, index: usize) -> bool {
-    let now_s = context.now_s;
-    let best = context.peers.highest();
-    let owned = &mut context.ledger.goals[index];
-    let (goal, task) = (owned.task.id, owned.task_at(now_s));
-    let origin = owned.origin.filter(|origin| context.peers.is_near(*origin));
-    let situation = Situation {
-        now_s,
-        is_done: owned.is_done,
-        best,
-        origin,
-    };
-    let Some(action) = owned.handover.step(&situation) else {
-        return false;
-    };
-    match action {
-        Action::Entrust(backup) => context.send(backup, OwnershipMessage::Entrust(task)),
-        Action::Bind(backup, number) => bind(context, goal, backup, number),
-        Action::Relieve(backup) => relieve(context, goal, backup),
-        Action::Restore(origin) => {
-            let is_free = contracts.is_free(goal);
-            return offer_return(context, index, origin, is_free);
-        }
-    }
     true
 }

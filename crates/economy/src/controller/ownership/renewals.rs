@@ -37,22 +37,22 @@ impl Ownership {
             }
         }
     }
-}
 
-/// The lists of leases differ: those that end first are renewed one by one.
-pub(super) fn renew_one_by_one(context: &mut Context, from: AgentId, number: u32) {
-    let now_s = context.now_s;
-    let leases = &mut context.ledger.leases;
-    if !leases.differs(from, number) {
-        return;
-    }
-    let own = leases.leases().iter().filter(|lease| lease.grantor == from);
-    let mut own: Vec<Lease> = own.copied().collect();
-    own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
-    for Lease { goal, .. } in own.into_iter().take(MAX_RENEWALS) {
-        let number = context.numbers.draw();
+    /// The lists of leases differ: those that end first are renewed one by one.
+    pub(super) fn renew_one_by_one(context: &mut Context, from: AgentId, number: u32) {
+        let now_s = context.now_s;
         let leases = &mut context.ledger.leases;
-        leases.request(number, from, Some(goal), now_s);
-        context.send(from, LeaseMessage::RenewOne(Claim { goal, number }));
+        if !leases.differs(from, number) {
+            return;
+        }
+        let own = leases.leases().iter().filter(|lease| lease.grantor == from);
+        let mut own: Vec<Lease> = own.copied().collect();
+        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
+        for Lease { goal, .. } in own.into_iter().take(MAX_RENEWALS) {
+            let number = context.numbers.draw();
+            let leases = &mut context.ledger.leases;
+            leases.request(number, from, Some(goal), now_s);
+            context.send(from, LeaseMessage::RenewOne(Claim { goal, number }));
+        }
     }
 }

@@ -14,18 +14,18 @@ const INITIAL: f64 = 0.9;
 ///
 /// (Jøsang and Ismail, *The beta reputation system*, 2002).
 #[derive(Debug, Clone, Copy, Default, Hashed)]
-pub(in super::super) struct Trust {
+pub(crate) struct Trust {
     served: u32,
     failed: u32,
 }
 
 impl Trust {
-    pub(in super::super) fn value(self) -> f64 {
+    pub(crate) fn value(self) -> f64 {
         let [served, failed] = [self.served, self.failed].map(f64::from);
         (PRIOR_WEIGHT * INITIAL + served) / (PRIOR_WEIGHT + served + failed)
     }
 
-    pub(in super::super) fn learn(&mut self, is_served: bool) {
+    pub(crate) fn learn(&mut self, is_served: bool) {
         let count = if is_served {
             &mut self.served
         } else {

@@ -26,7 +26,7 @@ use work::LaneWork;
 
 /// The lane of a controller, if it has one.
 #[derive(Debug, Clone, Default)]
-pub(in super::super) struct LaneMission {
+pub(crate) struct LaneMission {
     work: Option<Box<LaneWork>>,
 }
 
@@ -40,23 +40,19 @@ impl Hashed for LaneMission {
 }
 
 impl LaneMission {
-    pub(in super::super) fn new(clearance: Option<&Arc<Clearance>>) -> Self {
+    pub(crate) fn new(clearance: Option<&Arc<Clearance>>) -> Self {
         let work = clearance.map(|clearance| Box::new(LaneWork::new(clearance)));
         Self { work }
     }
 
     /// Plans the goals of the lane until it has stated that the lane is clear, or has given it up; returns the act
     /// by which it states so.
-    pub(in super::super) fn step(
-        &mut self,
-        context: &mut Context,
-        contracts: &mut Contracts,
-    ) -> Option<Act> {
+    pub(crate) fn step(&mut self, context: &mut Context, contracts: &mut Contracts) -> Option<Act> {
         self.work.as_mut()?.step(context, contracts)
     }
 
     /// Takes a message of a robot about the lane.
-    pub(in super::super) fn receive(&mut self, from: AgentId, message: &LaneMessage) {
+    pub(crate) fn receive(&mut self, from: AgentId, message: &LaneMessage) {
         let Some(work) = &mut self.work else {
             return;
         };
@@ -68,28 +64,28 @@ impl LaneMission {
         }
     }
 
-    pub(in super::super) fn picture(&self) -> Option<&LanePicture> {
+    pub(crate) fn picture(&self) -> Option<&LanePicture> {
         self.work.as_ref().map(|work| &work.picture)
     }
 
-    pub(in super::super) fn statement(&self) -> Option<LaneStatement> {
+    pub(crate) fn statement(&self) -> Option<LaneStatement> {
         self.work.as_ref()?.decision.statement
     }
 
     /// What it has stated beside the risk; if it has stated nothing, what it would state now.
-    pub(in super::super) fn conclusion(&self, passage: Option<&Passage>) -> Option<LaneConclusion> {
+    pub(crate) fn conclusion(&self, passage: Option<&Passage>) -> Option<LaneConclusion> {
         let work = self.work.as_ref()?;
         let stated = work.conclusion.clone();
         Some(stated.unwrap_or_else(|| LaneConclusion::new(&work.picture, passage)))
     }
 
     /// The passage that it has stated.
-    pub(in super::super) fn stated_passage(&self) -> Option<&PlannedPassage> {
+    pub(crate) fn stated_passage(&self) -> Option<&PlannedPassage> {
         self.work.as_ref()?.conclusion.as_ref()?.passage.as_ref()
     }
 
     /// Whether a mark that may be a mine had no verdict when it last planned.
-    pub(in super::super) fn has_open_marks(&self) -> bool {
+    pub(crate) fn has_open_marks(&self) -> bool {
         self.work.as_ref().is_some_and(|work| work.has_open_marks)
     }
 }

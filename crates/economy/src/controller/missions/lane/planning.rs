@@ -3,7 +3,7 @@
 use super::work::{LaneWork, Planned};
 use crate::clearance::plan::{Circumstances, Plan, Subject};
 use crate::controller::context::Context;
-use crate::controller::contracts::{Contracts, NO_BID};
+use crate::controller::contracts::Contracts;
 use crate::controller::ledger::owned::Owned;
 use alloc::vec::Vec;
 use brain::GoalId;
@@ -129,7 +129,7 @@ impl LaneWork {
                 owned.is_done = true;
                 owned.assigned = None;
                 contracts.forget_bids(*goal);
-                context.close_offer(*goal, NO_BID);
+                context.close_offer(*goal, None);
             }
         }
         self.planned.retain(|planned| !idle.contains(&planned.goal));
