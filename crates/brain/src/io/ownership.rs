@@ -29,7 +29,7 @@ pub enum OwnershipMessage {
     /// From an owner to its backup: a robot that has been awarded a goal. Of a goal that was taken over, only such
     /// a robot can report that it is done.
     Assigned(Assignment),
-    /// From an owner to its backup: a request to be it no longer.
+    /// From an owner to its backup: a request to be the backup no longer.
     Relieve(Claim),
     /// The answer to it: it is no longer the backup.
     Relieved(Claim),

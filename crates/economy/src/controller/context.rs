@@ -126,7 +126,7 @@ impl Context {
         }
     }
 
-    /// Tells the backup of a goal which robots can report that it is done: when it becomes the backup, at each
+    /// Reports to the backup of a goal which robots can report that it is done: when it becomes the backup, at each
     /// award, and again at its commitment, as messages may be lost.
     pub(super) fn report_assignees(&mut self, goal: GoalId) {
         let owned = self.ledger.get(goal);

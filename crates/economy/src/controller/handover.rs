@@ -1,4 +1,4 @@
-//! The handover of a goal: who owns it now, and who would own it if that controller were lost.
+//! The handover of a goal from its owner to the controller that owns it next.
 //!
 //! Each goal has at most one owner. Its backup, the controller in range with the highest serial number (Miller 1990), holds
 //! its description, and alone grants and renews the ownership lease of the owner:
@@ -60,7 +60,7 @@ pub(super) enum Handover {
         is_confirmed: bool,
         next_s: f64,
     },
-    /// The backup is to be it no longer, and has not answered.
+    /// The backup is to be released, and has not answered.
     Relieving { backup: AgentId, next_s: f64 },
 }
 

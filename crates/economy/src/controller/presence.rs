@@ -40,7 +40,7 @@ fn sense(context: &mut Context, percept: &Percept) {
     }
 }
 
-/// Reports its presence to all, and the positions of robots that it sees to its peers.
+/// Reports its presence to all, and to its peers the positions of the robots that it sees.
 #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
 fn report(context: &mut Context, percept: &Percept) {
     let serial = serial(context.own);
