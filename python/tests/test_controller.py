@@ -148,7 +148,7 @@ def test_percepts_that_no_controller_can_have_are_errors() -> None:
     wrong: Any = {"id": ROVER}
     with pytest.raises(ae.InputError, match=r'percept\.id\.role = "robot": must be "controller"'):
         controller.step(wrong)
-    lie = received(ROVER, serial=1)
+    lie = received(ROVER, query={})
     lie["message"]["confidence"] = 2
     with pytest.raises(ae.InputError, match=r"inbox\[0\]\.message\.confidence = 2"):
         controller.step(percept(0.0, lie))
