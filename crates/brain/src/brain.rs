@@ -14,6 +14,7 @@ use crate::inspect::Decision;
 use crate::io::agent_id::AgentId;
 use crate::io::body::Body;
 use crate::io::command::{Command, Motion};
+use crate::io::goal_id::GoalId;
 use crate::io::percept::Percept;
 use crate::messaging::peers::Peers;
 use crate::navigation::speed_governor::SpeedGovernor;
@@ -145,6 +146,19 @@ impl Brain {
     #[must_use]
     pub fn served_goals(&self) -> Vec<ServedGoal> {
         self.assignee().map(Assignee::served).unwrap_or_default()
+    }
+
+    /// The goals of controllers that it has served, as far as it reports them: until the owner has acknowledged that.
+    pub fn finished_goals(&self) -> impl Iterator<Item = GoalId> {
+        let assignees = self.assignee().into_iter();
+        assignees.flat_map(|assignee| assignee.finished.reported())
+    }
+
+    /// The goals of controllers that it serves no longer although it has not served them, until the operator has
+    /// acknowledged its report of that.
+    pub fn returned_goals(&self) -> impl Iterator<Item = GoalId> {
+        let assignees = self.assignee().into_iter();
+        assignees.flat_map(|assignee| assignee.returned.goals())
     }
 
     /// The goals that a person has assigned, in the order of assignment; none if no behaviour of the

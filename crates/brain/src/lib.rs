@@ -80,5 +80,6 @@ pub use service::grantor::{Grant, Grantor, wait_s};
 pub use service::holder::{Holder, Lease};
 pub use service::lane_reports::{LANE_REPORT_MESSAGES, LANE_REPORT_PERIOD_S};
 pub use service::numbers::Numbers;
+pub use service::operator_reports::OperatorReports;
 pub use service::served::ServedGoal;
 pub use spec::BrainSpec;

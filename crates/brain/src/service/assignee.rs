@@ -5,17 +5,18 @@ use super::ability::{Ability, Moment};
 use super::charge_state::{Fence, Firing};
 use super::failures::Failures;
 use super::finished::Finished;
-use super::holder::Holder;
+use super::holder::{Holder, Lease};
 use super::jobs::{Job, Jobs};
 use super::lane_reports::{Interrogation, LANE_REPORT_PERIOD_S, LaneReports};
 use super::numbers::Numbers;
 use super::offers::{Offer, Offers};
+use super::operator_reports::OperatorReports;
 use super::schedule::Schedule;
 use crate::goals::fitness::IMPOSSIBLE_S;
 use crate::io::act::Act;
 use crate::io::agent_id::{AgentId, Receiver};
 use crate::io::command::Command;
-use crate::io::contract::{Award, ContractMessage};
+use crate::io::contract::{Award, ContractMessage, Refusal};
 use crate::io::goal_id::GoalId;
 use crate::io::lease::{Claim, LeaseMessage};
 use crate::io::message::{About, Message};
@@ -41,7 +42,9 @@ pub(crate) struct Assignee {
     pub(crate) jobs: Jobs,
     pub(super) offers: Offers,
     pub(super) failures: Failures,
-    pub(super) finished: Finished,
+    pub(crate) finished: Finished,
+    /// Goals that it serves no longer although it has not served them: their owner may be lost.
+    pub(crate) returned: OperatorReports,
     pub(super) schedule: Schedule,
     /// Whether a person has taken it out of service.
     pub(super) is_out_of_service: bool,
@@ -195,7 +198,7 @@ impl Assignee {
         let others = self.jobs.list.iter().filter(|job| !is_unchanged(job.owner));
         let others: Vec<GoalId> = others.map(|job| job.task.id).collect();
         for goal in others {
-            self.drop_job(goal);
+            self.drop_job(goal, Reason::Lease);
         }
         self.schedule
             .contacts
@@ -217,7 +220,7 @@ impl Assignee {
     fn stop_before_end(&mut self, moment: &Moment) {
         let step_s = moment.body.period_s.max(moment.elapsed_s.min(1.0));
         for goal in self.holder.expire(self.now_s + step_s) {
-            self.jobs.remove(goal);
+            self.drop_job(goal, Reason::Lease);
         }
     }
 
@@ -241,7 +244,7 @@ impl Assignee {
         });
         if let Some((goal, reason)) = hopeless {
             self.report_failure(goal, reason);
-            self.release(goal);
+            self.release(goal, reason);
         }
     }
 
@@ -265,9 +268,8 @@ impl Assignee {
 
     fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {
         let (from, about) = (received.from, received.message.about);
-        if let (AgentId::OPERATOR, About::Contract(ContractMessage::Service(is_in))) = (from, about)
-        {
-            self.set_service(is_in);
+        if let (AgentId::OPERATOR, About::Contract(order)) = (from, about) {
+            self.obey(order);
         }
         if !from.is_controller() || !about.is_of_economy() {
             return;
@@ -293,6 +295,14 @@ impl Assignee {
         }
     }
 
+    fn obey(&mut self, order: ContractMessage) {
+        match order {
+            ContractMessage::Service(is_in) => self.set_service(is_in),
+            ContractMessage::Acknowledge(goal) => self.returned.remove(goal),
+            _ => {}
+        }
+    }
+
     fn take_lease(&mut self, from: AgentId, message: LeaseMessage) {
         match message {
             LeaseMessage::Renewed(number) => self.holder.renew(from, number, self.now_s),
@@ -307,6 +317,7 @@ impl Assignee {
     /// A goal that has been served is no offer. A call to this robot alone is answered.
     fn take_call(&mut self, offer: Offer, is_only_one: bool, ability: &Ability, moment: &Moment) {
         let goal = offer.task.id;
+        self.returned.remove(goal);
         if self.finished.contains(goal) {
             self.finished.report_to(goal, offer.owner, self.now_s);
             return;
@@ -399,7 +410,7 @@ impl Assignee {
             if let Some(lease) = self.holder.lease(goal).copied() {
                 self.refuse(lease.grantor, goal, lease.number, Reason::OutOfService);
             }
-            self.drop_job(goal);
+            self.drop_job(goal, Reason::OutOfService);
         }
     }
 
@@ -419,7 +430,7 @@ impl Assignee {
                 if is_only_one
                     && (lease.number == claim.number || self.holder.is_answer(from, claim)) =>
             {
-                self.release(goal);
+                self.release(goal, Reason::Lease);
             }
             // From now on, the robot accepts no grant that answers an earlier request.
             None if is_only_one && !self.finished.contains(goal) => {
@@ -507,9 +518,8 @@ impl Assignee {
     }
 
     /// Ends a lease by message.
-    pub(super) fn release(&mut self, goal: GoalId) {
-        self.jobs.remove(goal);
-        if let Some(lease) = self.holder.release(goal) {
+    pub(super) fn release(&mut self, goal: GoalId, reason: Reason) {
+        if let Some(lease) = self.drop_job(goal, reason) {
             let number = lease.number;
             self.send(
                 lease.grantor,
@@ -518,9 +528,18 @@ impl Assignee {
         }
     }
 
-    fn drop_job(&mut self, goal: GoalId) {
-        self.jobs.remove(goal);
-        self.holder.release(goal);
+    /// Serves a goal no longer, and reports that to the operator, in case that the owner is lost; returns its lease.
+    fn drop_job(&mut self, goal: GoalId, reason: Reason) -> Option<Lease> {
+        if self.jobs.remove(goal).is_some() {
+            let number = 0;
+            let report = Refusal {
+                goal,
+                number,
+                reason,
+            };
+            self.returned.put_unserved(report, self.now_s);
+        }
+        self.holder.release(goal)
     }
 }
 

@@ -85,7 +85,7 @@ impl Assignee {
                     self.lane.add(missed(&task));
                 }
                 self.report_failure(goal, Reason::Capability);
-                self.release(goal);
+                self.release(goal, Reason::Capability);
                 return;
             }
             job.charges.is_firing = true;

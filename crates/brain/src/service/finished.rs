@@ -45,6 +45,12 @@ impl Finished {
         self.list.iter().any(|service| service.claim.goal == goal)
     }
 
+    /// The goals that it still reports.
+    pub(crate) fn reported(&self) -> impl Iterator<Item = GoalId> {
+        let reported = self.list.iter().filter(|service| service.left > 0);
+        reported.map(|service| service.claim.goal)
+    }
+
     /// A controller offers or awards a goal that has been served: it has to know.
     pub(crate) fn report_to(&mut self, goal: GoalId, owner: AgentId, now_s: f64) {
         let mut list = self.list.iter_mut();

@@ -1,6 +1,6 @@
 //! Goals that controllers own, and robots serve: leases, and the robot's half of the protocol.
 //!
-//! * [`numbers`]: numbers of requests, which never repeat;
+//! * [`numbers`]: numbers of requests, which never repeat; [`operator_reports`]: what the operator is to know;
 //! * [`holder`] and [`grantor`]: the two halves of a lease, for robots and controllers;
 //! * [`assignee`]: the robot's half, a step as a table of contents, with [`bids`],
 //!   [`renewals`] and [`reporting`], the [`jobs`] that it serves, its known [`offers`], its
@@ -27,6 +27,7 @@ pub(crate) mod lane_reports;
 pub(crate) mod lanes;
 pub(crate) mod numbers;
 mod offers;
+pub(crate) mod operator_reports;
 mod reach;
 mod renewals;
 mod reporting;

@@ -11,11 +11,14 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 
 impl Assignee {
-    /// Reports the goals that have been served, and now and then the robot's state.
+    /// Reports the goals that have been served, or that it serves no longer, and now and then the robot's state.
     pub(super) fn report(&mut self, ability: &Ability, moment: &Moment) {
         let done: Vec<(AgentId, Claim)> = self.finished.due(self.now_s).collect();
         for (owner, claim) in done {
             self.send(owner, ContractMessage::Done(claim));
+        }
+        for report in self.returned.due(self.now_s) {
+            self.send(AgentId::OPERATOR, report);
         }
         let Some(at) = moment.at.filter(|_| !self.is_out_of_service) else {
             return;

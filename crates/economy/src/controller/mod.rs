@@ -222,7 +222,8 @@ impl Controller {
     pub fn knows(&self, goal: GoalId) -> bool {
         let ledger = &self.context.ledger;
         let is_own = ledger.get(goal).is_some();
-        is_own || self.ownership.knows(goal) || ledger.reports.contains(goal)
+        let is_reported = ledger.reports.goals().any(|reported| reported == goal);
+        is_own || is_reported || self.ownership.knows(goal)
     }
 
     /// Number of goals that it refused because it owned the maximum number.

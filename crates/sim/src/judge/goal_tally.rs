@@ -40,6 +40,9 @@ pub(crate) struct GoalRecord {
     /// It follows from the messages, and affects no outcome.
     #[hashed(skip)]
     pub(crate) unserved: Option<Reason>,
+    /// Why the robot to which it was awarded last serves it no longer, as the robot has reported to the operator.
+    #[hashed(skip)]
+    pub(crate) returned: Option<Reason>,
     /// Whether a robot has reported that it served the goal when it had not: it was not there, or not long enough. It
     /// follows from the messages, and affects no other outcome.
     #[hashed(skip)]
@@ -109,16 +112,19 @@ impl GoalTally {
         }
     }
 
-    /// Notes that a controller reports to the operator that no robot can serve a goal.
+    /// Notes that a controller reports to the operator that no robot can serve a goal, or a robot that it serves it no longer.
     fn note_unserved(&mut self, moment: &GoalMoment, outgoing: &Outgoing) {
         let message = &outgoing.message;
         let is_of_controller = self.journeys.len() <= outgoing.from as usize;
         if let About::Contract(ContractMessage::Stuck(refusal)) = message.about
             && let Some(goal) = moment.goals.number(refusal.goal)
             && message.to == AgentId::OPERATOR.into()
-            && is_of_controller
         {
-            self.records[goal].unserved = Some(refusal.reason);
+            if is_of_controller {
+                self.records[goal].unserved = Some(refusal.reason);
+            } else {
+                self.records[goal].returned = Some(refusal.reason);
+            }
         }
     }
 
@@ -129,7 +135,7 @@ impl GoalTally {
                 if let Some(goal) = moment.goals.number(award.goal) {
                     let record = &mut self.records[goal];
                     record.awarded_at.get_or_insert(moment.tick);
-                    record.unserved = None;
+                    (record.unserved, record.returned) = (None, None);
                 }
                 return;
             }

@@ -64,7 +64,7 @@ pub struct Controller {
     pub refused: u32,
     /// The goals that it owns, as far as it knows.
     pub goals: Vec<OwnedGoal>,
-    /// The goals that it owned until their lease ended, because the heir did not renew it.
+    /// The goals that it owned until their lease ended, because the backup did not renew it.
     pub lost: Vec<Task>,
 }
 
@@ -80,6 +80,8 @@ impl State {
             let deadline_steps = scenario.goals[usize::from(goal.kind)].deadline_steps;
             let is_late = |issued_at| is_late(deadline_steps, issued_at, self.tick);
             let served = record.served.as_ref();
+            let returned = record.returned.filter(|_| status == GoalStatus::Reported);
+            let unserved = record.unserved.or(returned);
             Goal {
                 id: goal.id,
                 kind: goal.kind,
@@ -94,7 +96,7 @@ impl State {
                 blocked_s: time_s(served.map(|served| served.blocked)),
                 served_by: served.and_then(|served| served.by),
                 is_served_twice: record.is_served_twice,
-                unserved: record.unserved.filter(|_| served.is_none()),
+                unserved: unserved.filter(|_| served.is_none()),
                 has_expired: served.is_none() && record.issued_at.is_some_and(is_late),
                 status,
             }

@@ -5,6 +5,7 @@ use super::state::State;
 use crate::bodies::body_state::Status;
 use crate::judge::goal_moment::is_late;
 use crate::judge::goal_outcome::GoalBalance;
+use crate::judge::goal_tally::GoalRecord;
 use crate::scenario::Scenario;
 use brain::behaviours::BehaviourSpec;
 use brain::{About, AgentId, ContractMessage, GoalId, Issuer, issuer_of};
@@ -53,8 +54,10 @@ impl GoalStatus {
 
 /// What the working agents of a run know of its goals.
 struct Known {
-    /// The robots that hold leases of goals.
+    /// The robots that hold leases of goals, or report that they have served them.
     assignees: BTreeMap<GoalId, usize>,
+    /// The goals of which robots are to report that they serve them no longer.
+    returned: BTreeSet<GoalId>,
     /// The lists of waypoints that robots visit by themselves.
     lists: BTreeSet<Issuer>,
     has_robots: bool,
@@ -113,7 +116,7 @@ impl State {
         } else if self.goals.is_waiting(number) {
             GoalStatus::Waiting
         } else {
-            self.status_without_robot(scenario, known, number, record.issued_to)
+            self.status_without_robot(scenario, known, number, record)
         }
     }
 
@@ -144,18 +147,20 @@ impl State {
         scenario: &Scenario,
         known: &Known,
         number: usize,
-        issued_to: Option<AgentId>,
+        record: &GoalRecord,
     ) -> GoalStatus {
         let id = self.goals.all[number].id;
         let mut controllers = self.controllers.iter();
         let is_owned = controllers.any(|agent| {
-            agent.participant.is_working(&self.body_states) && knows(agent, id, issued_to)
+            agent.participant.is_working(&self.body_states) && knows(agent, id, record.issued_to)
         });
         let has_owners = scenario.first_owner(&self.goals.all[number]).is_some();
         if is_owned {
             GoalStatus::Owned
         } else if known.lists.contains(&id.issuer) || !has_owners && known.has_robots {
             GoalStatus::Waiting
+        } else if record.returned.is_some() || known.returned.contains(&id) {
+            GoalStatus::Reported
         } else {
             GoalStatus::Unknown
         }
@@ -165,6 +170,7 @@ impl State {
         let mut known = Known {
             assignees: BTreeMap::new(),
             lists: BTreeSet::new(),
+            returned: BTreeSet::new(),
             has_robots: false,
         };
         let mut kinds = BTreeSet::new();
@@ -175,9 +181,11 @@ impl State {
             known.has_robots = true;
             kinds.insert(self.ids[robot].kind);
             let served = agent.brain.served_goals();
-            known
-                .assignees
-                .extend(served.iter().map(|goal| (goal.task.id, robot)));
+            let served = served.iter().map(|goal| goal.task.id);
+            let finished = agent.brain.finished_goals();
+            let assigned = finished.chain(served).map(|goal| (goal, robot));
+            known.assignees.extend(assigned);
+            known.returned.extend(agent.brain.returned_goals());
         }
         for kind in kinds {
             let spec = scenario.kinds[usize::from(kind)].brain.spec();

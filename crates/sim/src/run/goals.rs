@@ -1,5 +1,6 @@
 //! Goals are issued when they arrive, and stay when a run continues with another scenario.
 
+use super::operator::order_to;
 use super::state::State;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
@@ -20,7 +21,8 @@ impl State {
         let due = self.goals.due(self.tick);
         let orders = due.filter_map(|number| {
             let owner = self.owner_of(scenario, number)?;
-            Some((owner, self.order_to(owner, self.issue_of(scenario, number))))
+            let id = self.controllers[owner].participant.id;
+            Some((owner, order_to(id, self.issue_of(scenario, number))))
         });
         orders.collect()
     }
@@ -47,7 +49,7 @@ impl State {
         };
         record.issued_to = Some(self.controllers[owner].participant.id);
         record.unserved = None;
-        self.order(owner, self.issue_of(scenario, number));
+        self.order(self.robots() + owner, self.issue_of(scenario, number));
     }
 
     /// The number of the controller that a goal is issued to. If the first one does not work, or has refused it, it is the

@@ -22,53 +22,44 @@ impl State {
         if self.controllers.is_empty() {
             return;
         }
-        let robots = self.robots();
         let reports = sent.filter(|sent| sent.message.to == AgentId::OPERATOR.into());
-        for Outgoing {
-            from,
-            message: report,
-            ..
-        } in reports
-        {
-            let (Some(controller), About::Contract(message)) =
-                ((*from as usize).checked_sub(robots), report.about)
-            else {
+        for Outgoing { from, message, .. } in reports {
+            let About::Contract(report) = message.about else {
                 continue;
             };
-            match message {
-                ContractMessage::Stuck(report) => self.acknowledge(controller, &report),
+            match report {
+                ContractMessage::Stuck(report) => self.acknowledge(*from as usize, &report),
                 ContractMessage::Refuse(refusal) => {
-                    self.acknowledge(controller, &refusal);
-                    self.take_refusal(scenario, controller, &refusal);
+                    self.acknowledge(*from as usize, &refusal);
+                    self.take_refusal(scenario, *from as usize, &refusal);
                 }
                 _ => {}
             }
         }
     }
 
-    fn acknowledge(&mut self, controller: usize, report: &Refusal) {
-        self.order(controller, ContractMessage::Acknowledge(report.goal));
+    fn acknowledge(&mut self, agent: usize, report: &Refusal) {
+        self.order(agent, ContractMessage::Acknowledge(report.goal));
     }
 
-    /// Sends an order to a controller.
-    pub(super) fn order(&mut self, controller: usize, message: ContractMessage) {
-        let order = self.order_to(controller, message);
-        let participant = &mut self.controllers[controller].participant;
-        participant.receive_order(order, self.tick);
-    }
-
-    /// An order as a controller receives it.
-    pub(super) fn order_to(&self, controller: usize, message: ContractMessage) -> ReceivedMessage {
-        let id = self.controllers[controller].participant.id;
-        ReceivedMessage {
-            from: AgentId::OPERATOR,
-            age_s: 0.0,
-            message: Message::to(id, message),
+    /// Sends an order to an agent with a radio: the number of a robot, or after those of all robots, of a controller.
+    pub(super) fn order(&mut self, agent: usize, message: ContractMessage) {
+        let (robots, now) = (self.robots(), self.tick);
+        let participant = if agent < robots {
+            self.agents[agent].inputs.participant.as_deref_mut()
+        } else {
+            Some(&mut self.controllers[agent - robots].participant)
+        };
+        if let Some(participant) = participant {
+            participant.receive_order(order_to(participant.id, message), now);
         }
     }
 
     /// A controller to which a goal was issued does not own it.
-    fn take_refusal(&mut self, scenario: &Scenario, controller: usize, refusal: &Refusal) {
+    fn take_refusal(&mut self, scenario: &Scenario, agent: usize, refusal: &Refusal) {
+        let Some(controller) = agent.checked_sub(self.robots()) else {
+            return;
+        };
         let (Some(number), Some(tally)) = (self.goals.number(refusal.goal), &mut self.tally.goals)
         else {
             return;
@@ -92,5 +83,14 @@ impl State {
             1
         };
         self.goals.issue_again(number, self.tick + wait);
+    }
+}
+
+/// An order as an agent receives it.
+pub(super) fn order_to(agent: AgentId, message: ContractMessage) -> ReceivedMessage {
+    ReceivedMessage {
+        from: AgentId::OPERATOR,
+        age_s: 0.0,
+        message: Message::to(agent, message),
     }
 }

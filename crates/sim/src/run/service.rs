@@ -2,7 +2,7 @@
 
 use super::state::State;
 use crate::scenario::Scenario;
-use brain::{AgentId, ContractMessage, Message, ReceivedMessage};
+use brain::{AgentId, ContractMessage};
 
 impl State {
     /// Orders the robots out of service that the scenario names.
@@ -32,15 +32,7 @@ impl State {
 
     /// A person's order reaches a robot that has a radio.
     fn set_service(&mut self, robot: usize, is_in: bool) {
-        let (id, now) = (self.ids[robot], self.tick);
-        if let Some(participant) = &mut self.agents[robot].inputs.participant {
-            let order = ReceivedMessage {
-                from: AgentId::OPERATOR,
-                age_s: 0.0,
-                message: Message::to(id, ContractMessage::Service(is_in)),
-            };
-            participant.receive_order(order, now);
-        }
+        self.order(robot, ContractMessage::Service(is_in));
     }
 }
 

@@ -2,20 +2,18 @@
 
 pub(super) mod lapses;
 pub(super) mod owned;
-pub(super) mod reports;
 
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{GoalId, Holder};
+use brain::{GoalId, Holder, OperatorReports};
 use owned::Owned;
-use reports::Reports;
 
 #[derive(Debug, Clone, Default, Hashed)]
 pub(super) struct Ledger {
     pub(super) goals: Vec<Owned>,
     /// The ownership leases under which it owns goals that have a backup.
     pub(super) leases: Holder,
-    pub(super) reports: Reports,
+    pub(super) reports: OperatorReports,
     /// Number of goals that it refused.
     pub(super) refused: u32,
 }

@@ -1,7 +1,7 @@
 //! The life of goals: none is lost, whatever is changed, refused, cut or fails.
 
 use crate::common::{Random, scenario, start};
-use brain::{AgentId, GoalId};
+use brain::{AgentId, GoalId, Reason};
 use sim::run::GoalStatus;
 use sim::simulation::Simulation;
 use std::collections::{BTreeMap, BTreeSet};
@@ -120,6 +120,48 @@ fn goals_that_only_a_lost_controller_knew_are_unknown() {
     assert_eq!((goals.balance.unknown, goals.balance.issued()), (12, 12));
 }
 
+#[test]
+fn a_robot_reports_the_goals_that_only_a_lost_controller_could_award_again() {
+    let slow = [
+        ("goals.spot.service_s", "60"),
+        ("controllers.base.service_lease_s", "70"),
+        (
+            "robots.rover.brain.behaviours",
+            "[{ kind = \"serve\", max_goals = 2 }]",
+        ),
+    ];
+    let mut simulation = start(&with(&slow));
+    let awarded = |simulation: &Simulation| {
+        let statuses = statuses(simulation).into_iter();
+        let is_awarded = |status| matches!(status, GoalStatus::Awarded | GoalStatus::InService);
+        statuses.map(is_awarded).collect::<Vec<bool>>()
+    };
+    (0..60).for_each(|_| simulation.step());
+    let before = awarded(&simulation);
+    assert!(before.contains(&true) && before.contains(&false));
+    let failed = with(&[
+        slow[0],
+        slow[1],
+        slow[2],
+        ("controllers.base.failed", "[0]"),
+    ]);
+    simulation.change(scenario(&failed)).unwrap();
+    let simulation = finished(simulation);
+    let goals = simulation.state().each_goal(simulation.scenario());
+    let ends: Vec<_> = goals.map(|goal| (goal.status, goal.unserved)).collect();
+    let reported = (GoalStatus::Reported, Some(Reason::Lease));
+    for (end, was_awarded) in ends.iter().zip(before) {
+        // A robot may end a service that it has begun.
+        let is_known = *end == reported || *end == (GoalStatus::Served, None);
+        assert!(is_known == was_awarded, "{end:?}");
+        assert!(
+            was_awarded || *end == (GoalStatus::Unknown, None),
+            "{end:?}"
+        );
+    }
+    assert!(ends.contains(&reported));
+}
+
 /// Which working controllers know a goal, and which robots hold its lease, as they state it themselves.
 fn knowing(simulation: &Simulation) -> BTreeSet<(GoalId, AgentId)> {
     let state = simulation.state();
@@ -138,11 +180,14 @@ fn knowing(simulation: &Simulation) -> BTreeSet<(GoalId, AgentId)> {
     owned.chain(served).collect()
 }
 
-/// The controllers that work.
+/// The robots and controllers that work.
 fn working(simulation: &Simulation) -> BTreeSet<AgentId> {
-    let controllers = simulation.state().each_controller();
-    let working = controllers.filter(|each| each.is_working);
-    working.map(|each| each.id).collect()
+    let state = simulation.state();
+    let controllers = state.each_controller().filter(|each| each.is_working);
+    let robots = state.each_robot(simulation.scenario());
+    let robots = robots.filter(|robot| robot.status == sim::run::Status::Active);
+    let robots: Vec<AgentId> = robots.map(|robot| robot.id).collect();
+    controllers.map(|each| each.id).chain(robots).collect()
 }
 
 /// A run in which anything happens at random steps.

@@ -1,15 +1,16 @@
 //! Reports to the operator that it has not acknowledged.
 
+use crate::io::contract::{ContractMessage, Refusal};
+use crate::io::goal_id::GoalId;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{ContractMessage, GoalId, Refusal};
 
 /// A report that has not been acknowledged is repeated after this time, in seconds.
 const RETRY_S: f64 = 2.0;
 
-/// The reports that the operator has not acknowledged, at most one of each goal.
+/// The reports of an agent that the operator has not acknowledged, at most one of each goal.
 #[derive(Debug, Clone, Default, Hashed)]
-pub(crate) struct Reports(Vec<Report>);
+pub struct OperatorReports(Vec<Report>);
 
 #[derive(Debug, Clone, Copy, Hashed)]
 struct Report {
@@ -18,14 +19,14 @@ struct Report {
     next_s: f64,
 }
 
-impl Reports {
-    /// Reports that no robot can serve a goal, or that it has been lost.
-    pub(crate) fn put_unserved(&mut self, report: Refusal, now_s: f64) {
+impl OperatorReports {
+    /// Reports that a goal is not being served: no robot can, its owner has lost it, or the lease of its robot has ended.
+    pub fn put_unserved(&mut self, report: Refusal, now_s: f64) {
         self.put(report.goal, ContractMessage::Stuck(report), now_s);
     }
 
-    /// Reports that the controller does not own a goal.
-    pub(crate) fn put_refused(&mut self, report: Refusal, now_s: f64) {
+    /// Reports that a controller does not own a goal.
+    pub fn put_refused(&mut self, report: Refusal, now_s: f64) {
         self.put(report.goal, ContractMessage::Refuse(report), now_s);
     }
 
@@ -38,17 +39,18 @@ impl Reports {
         });
     }
 
-    pub(crate) fn contains(&self, goal: GoalId) -> bool {
-        self.0.iter().any(|report| report.goal == goal)
+    /// The goals of which there are reports.
+    pub fn goals(&self) -> impl Iterator<Item = GoalId> {
+        self.0.iter().map(|report| report.goal)
     }
 
     /// The operator knows, or what was reported is no longer so.
-    pub(crate) fn remove(&mut self, goal: GoalId) {
+    pub fn remove(&mut self, goal: GoalId) {
         self.0.retain(|report| report.goal != goal);
     }
 
     /// The reports that are to be sent now.
-    pub(crate) fn due(&mut self, now_s: f64) -> Vec<ContractMessage> {
+    pub fn due(&mut self, now_s: f64) -> Vec<ContractMessage> {
         let due = self.0.iter_mut().filter(|report| now_s >= report.next_s);
         let due = due.map(|report| {
             report.next_s = now_s + RETRY_S;
