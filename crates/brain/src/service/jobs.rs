@@ -73,8 +73,9 @@ impl Job {
         if let Some(at) = self.charge_at() {
             return (at, ability.act_from_m(ability.charge.as_ref()));
         }
-        let corner = ability.lanes.corner(&self.task, self.corners);
-        if let Some(corner) = corner.filter(|_| ability.sweeps(&self.task)) {
+        let sweeps = ability.sweeps(&self.task);
+        let corner = || ability.lanes.corner(&self.task, self.corners);
+        if let Some(corner) = sweeps.then(corner).flatten() {
             return (corner, (ability.lanes.apart_m / 4.0).clamp(0.2, 2.0));
         }
         let radius_m = if self.task.work.manner().is_at_item {

@@ -3,7 +3,9 @@
 use super::ability::Moment;
 use crate::navigation::path::Wavefront;
 use crate::perception::beliefs::Map;
+use alloc::vec::Vec;
 use base::geometry::Point;
+use core::cell::OnceCell;
 
 /// An obstacle may lie this much farther away than the centre of its cell, as a fraction of the cell.
 const TIGHT_CLEARANCE: f64 = 0.5;
@@ -11,35 +13,56 @@ const TIGHT_CLEARANCE: f64 = 0.5;
 /// Length of a diagonal step of a [`Wavefront`] in cells.
 const DIAGONAL_STEP: f64 = 1.4;
 
+/// Of more obstacles than this, it is not tested one by one whether they are in the way.
+const MAX_OBSTACLES: usize = 64;
+
 /// The places that are connected to the robot's position. Unknown places count as free.
 pub(crate) struct Reach<'m> {
-    known: Option<(&'m Map, Wavefront)>,
+    at: Point,
+    /// None without obstacles.
+    map: Option<&'m Map>,
     /// Cell of the robot.
     start: usize,
+    clearance_m: f64,
+    /// Columns and rows of the occupied cells, if they are few.
+    obstacles: Option<Vec<[i32; 2]>>,
+    /// Computed for the first place with an obstacle in the way.
+    wavefront: OnceCell<Wavefront>,
 }
 
 impl<'m> Reach<'m> {
     pub(crate) fn new(moment: &Moment<'m>, at: Point) -> Self {
         let has_obstacles = |map: &&Map| map.occupancy.occupied().next().is_some();
         let map = moment.map.filter(has_obstacles);
-        let known = map.map(|map| {
-            let mut wavefront = Wavefront::default();
-            let clearance_m = moment.body.radius_m - TIGHT_CLEARANCE * map.field.cell_m;
-            let whole = (&map.field, &map.occupancy);
-            wavefront.expand(whole, at, clearance_m.max(0.0), |_, _| true);
-            (map, wavefront)
+        let clearance_m = map.map_or(0.0, |map| {
+            moment.body.radius_m - TIGHT_CLEARANCE * map.field.cell_m
         });
-        let start = map.map_or(0, |map| map.field.nearest_cell(at));
-        Self { known, start }
+        Self {
+            at,
+            map,
+            start: map.map_or(0, |map| map.field.nearest_cell(at)),
+            clearance_m: clearance_m.max(0.0),
+            obstacles: map.and_then(few_obstacles),
+            wavefront: OnceCell::new(),
+        }
     }
 
     /// How many times as long as the straight line the path to a place is, by the map: 1 without
     /// obstacles between; `None` for a place that is not connected to the robot's position.
     pub(crate) fn detour(&self, place: Point) -> Option<f64> {
-        let Some((map, wavefront)) = &self.known else {
+        let Some(map) = self.map else {
             return Some(1.0);
         };
         let cell = map.field.nearest_cell(place);
+        if !self.may_be_obstructed(map, cell) {
+            return Some(1.0);
+        }
+        let wavefront = self.wavefront.get_or_init(|| {
+            let mut wavefront = Wavefront::default();
+            let whole = (&map.field, &map.occupancy);
+            wavefront.expand(whole, self.at, self.clearance_m, |_, _| true);
+            wavefront
+        });
         let to_cell_m = wavefront.cell_distance_m(&map.field, cell);
         let (cell, path_m) = to_cell_m.map_or_else(
             || wavefront.exit(&map.field, &map.occupancy, place),
@@ -52,6 +75,32 @@ impl<'m> Reach<'m> {
             1.0
         })
     }
+
+    /// Whether an obstacle is near the rectangle of cells between the robot and a cell: in a free one, no path over cells is
+    /// longer than without obstacles.
+    fn may_be_obstructed(&self, map: &Map, cell: usize) -> bool {
+        let Some(obstacles) = &self.obstacles else {
+            return true;
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "a few cells")]
+        let margin = (self.clearance_m / map.field.cell_m) as i32 + 1;
+        let [from, to] = [self.start, cell].map(|cell| map.field.column_and_row_of(cell));
+        let is_within = |at: &[i32; 2]| {
+            (0..2).all(|axis| {
+                let (low, high) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
+                (low - margin..=high + margin).contains(&at[axis])
+            })
+        };
+        obstacles.iter().any(is_within)
+    }
+}
+
+/// The columns and rows of all occupied cells, if they are few.
+fn few_obstacles(map: &Map) -> Option<Vec<[i32; 2]>> {
+    let occupied = map.occupancy.occupied();
+    let places = occupied.map(|cell| map.field.column_and_row_of(cell));
+    let some: Vec<[i32; 2]> = places.take(MAX_OBSTACLES + 1).collect();
+    (some.len() <= MAX_OBSTACLES).then_some(some)
 }
 
 /// Distance without obstacles over the cells of a map, which is up to 8% longer than the straight line.
@@ -112,5 +161,49 @@ mod tests {
                 .is_some_and(|detour| detour > 1.05)
         );
         assert_eq!(reach.detour(corner(3.0, 15.0)), Some(1.0));
+    }
+
+    #[test]
+    fn a_path_is_computed_only_if_an_obstacle_may_be_in_the_way() {
+        let (percept, body) = (Percept::default(), Body::default());
+        for seed in 0..20_u32 {
+            let mut map = map();
+            let place = |number: u32| {
+                let along = |salt: u32| {
+                    let word = (seed * 131 + number + 7 * salt).wrapping_mul(2_654_435_769);
+                    1.0 + f64::from(word >> 16) / 65_536.0 * 17.0
+                };
+                Point {
+                    x: along(1),
+                    y: along(2),
+                }
+            };
+            for number in 0..12 {
+                let (to, from) = (place(number), Point { x: 0.5, y: 0.5 });
+                let free = Segment { from, to };
+                let hit = Some(to);
+                (0..9).for_each(|_| map.occupancy.add_ray(&map.field, &Ray { free, hit }));
+            }
+            let moment = Moment {
+                percept: &percept,
+                body: &body,
+                beliefs: None,
+                map: Some(&map),
+                at: None,
+                deviation_m: 0.0,
+                elapsed_s: 0.1,
+                battery_s: f64::INFINITY,
+                charge: None,
+            };
+            let mut whole = Reach::new(&moment, place(99));
+            let lazy = Reach::new(&moment, place(99));
+            assert!(lazy.obstacles.is_some());
+            whole.obstacles = None;
+            for number in 100..140 {
+                let detours = [&lazy, &whole].map(|reach| reach.detour(place(number)));
+                let [one, other] = detours.map(|detour| detour.unwrap_or(0.0));
+                assert!((one - other).abs() < 1e-9, "{one} {other}");
+            }
+        }
     }
 }

@@ -26,7 +26,15 @@ impl Contracts {
         if !context.may_grant() {
             return;
         }
+        let assigned = context.ledger.goals.iter();
+        let assigned = assigned.filter(|owned| owned.assigned.is_some() && !owned.is_done);
+        let least = assigned
+            .map(|owned| owned.task.value)
+            .fold(f32::INFINITY, f32::min);
         for index in 0..context.ledger.goals.len() {
+            if context.ledger.goals[index].task.value / 2.0 < least {
+                continue;
+            }
             let goal = context.ledger.goals[index].task.id;
             if let Some(robot) = self.waits_for(context, index) {
                 call_to(context, goal, robot);
