@@ -118,7 +118,7 @@ def test_check_reports_valid_scenarios(classic_toml: Path, tmp_path: Path) -> No
 def test_check_prints_how_long_a_round_takes_and_when_lost_goals_are_offered_again() -> None:
     lines = succeed("check", "waypoints").stdout.splitlines()
     (line,) = [line for line in lines if line.startswith("    controllers.base: ")]
-    assert "a round of awards takes at most 0.60 s" in line
+    assert "after an award, the next waits at most 0.60 s" in line
     assert "goals of a lost controller have an owner or are reported" in line
 
 

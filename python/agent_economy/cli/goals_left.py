@@ -13,7 +13,7 @@ class Unserved(NamedTuple):
 
     Attributes:
         goal: Name of the goal, KIND/INDEX.
-        reason: Why, as a controller last reported.
+        reason: Why, as a controller or robot last reported.
     """
 
     goal: str
@@ -25,10 +25,10 @@ class GoalsLeft:
     """The goals that were not served, as far as it is known why.
 
     Attributes:
-        unserved_goals: Goals that a controller reported and no robot has served since.
+        unserved_goals: Goals that a controller or robot reported and no robot has served since.
         failed_controllers: Names of the controllers that do not work.
-        unknown_goals: Names of the goals that no working agent knows: only controllers that do
-            not work had them.
+        unknown_goals: Names of the goals that no working agent knows: all that had them do not
+            work.
     """
 
     unserved_goals: list[Unserved] = field(default_factory=list)

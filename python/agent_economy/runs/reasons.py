@@ -12,6 +12,7 @@ REASONS = {
     "ownership_lost": "its owner has lost it, because the backup did not renew the lease",
     "no_controller": "no controller works that could own it",
     "position": "no robot knows its position well enough",
+    "done_in_error": "a robot reported that it served it, which it had not",
     "invalid": "its numbers are impossible",
 }
 """Reasons that controllers report."""

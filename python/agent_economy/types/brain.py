@@ -157,7 +157,8 @@ class Bid(TypedDict):
         number: The number that the robot gave the bid.
         time_s: Time by which the robot's path and service become longer.
         total_s: Time until it has served all of its goals and this one.
-        energy: The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
+        energy: Energy for the additional path and service, as a fraction of the battery's
+            capacity; 0 if unknown.
         call: The number of the call.
     """
 
@@ -207,6 +208,7 @@ Reason: TypeAlias = Literal[
     "ownership_lost",
     "no_controller",
     "position",
+    "done_in_error",
     "invalid",
 ]
 """Why a goal is not served."""

@@ -45,12 +45,12 @@ pub enum ContractMessage {
     /// From a robot: it does not serve the goal, and no award or call of this number changes that. From a controller to
     /// the operator: it does not own the goal.
     Refuse(Refusal),
-    /// From a robot to the owner: it does not reach the goal. From a controller to the operator: no
-    /// robot can serve the goal, or its owner has lost it.
+    /// From a robot to the owner: it does not reach the goal. From a controller or robot to the
+    /// operator: no robot can serve the goal, its owner has lost it, or the robot serves it no longer.
     Stuck(Refusal),
     /// From a robot or an owner: its lease has ended.
     Release(Claim),
-    /// From a robot to all, until its owner withdraws the goal: the goal has been served.
+    /// From a robot to the owner, until that withdraws the goal: the goal has been served.
     Done(Claim),
     /// From the owner to all: the goal is no longer on offer, except to the robot whose bid has this number, if any has.
     /// To its assignee: it is to release it.
@@ -107,7 +107,7 @@ pub struct Bid {
     pub time_s: f32,
     /// Time until it has served all of its goals and this one.
     pub total_s: f32,
-    /// The same for the energy, as a fraction of the battery's capacity; 0 if unknown.
+    /// Energy for the additional path and service, as a fraction of the battery's capacity; 0 if unknown.
     pub energy: f32,
     /// The number of the call.
     pub call: u16,

@@ -30,6 +30,8 @@ pub enum Reason {
     NoController,
     /// The robot does not know its position well enough.
     Position,
+    /// A robot has reported that it served it, which it had not.
+    DoneInError,
     /// Its numbers are impossible, such as a radius of 0.
     Invalid,
 }

@@ -14,7 +14,7 @@ use super::operator_reports::OperatorReports;
 use super::schedule::Schedule;
 use crate::goals::fitness::IMPOSSIBLE_S;
 use crate::io::act::Act;
-use crate::io::agent_id::{AgentId, Receiver};
+use crate::io::agent_id::{AgentId, AgentRole, Receiver};
 use crate::io::command::Command;
 use crate::io::contract::{Award, ContractMessage, Refusal};
 use crate::io::goal_id::GoalId;
@@ -268,7 +268,7 @@ impl Assignee {
 
     fn receive(&mut self, received: &ReceivedMessage, ability: &Ability, moment: &Moment) {
         let (from, about) = (received.from, received.message.about);
-        if let (AgentId::OPERATOR, About::Contract(order)) = (from, about) {
+        if let (AgentRole::Person, About::Contract(order)) = (from.role, about) {
             self.obey(order);
         }
         if !from.is_controller() || !about.is_of_economy() {
@@ -418,6 +418,11 @@ impl Assignee {
         let goal = claim.goal;
         let is_winner = !is_only_one && self.holder.is_requested(from, claim);
         let offer = self.offers.get(goal);
+        let bid = self.schedule.bid_of(from);
+        if bid.is_some_and(|bid| bid.goal == goal) && !is_winner {
+            // The next round of awards waits for another bid.
+            self.schedule.await_bid();
+        }
         if offer.is_some_and(|offer| offer.owner == from) && !is_winner {
             self.offers.remove(goal);
         }

@@ -32,6 +32,7 @@ use brain::{
 };
 use context::Context;
 use contracts::Contracts;
+use handover::Handover;
 use missions::lane::LaneMission;
 use ownership::Ownership;
 use presence::Presence;
@@ -95,6 +96,18 @@ impl Controller {
             changed.lane = LaneMission::new(settings.clearance.as_ref());
         }
         changed
+    }
+
+    /// Forgets peers that a person has removed: they take over no goal any more.
+    pub fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
+        self.context.peers.list.retain(|peer| !is_removed(peer.id));
+        let ledger = &mut self.context.ledger;
+        for owned in &mut ledger.goals {
+            if owned.handover.bound().is_some_and(&is_removed) {
+                ledger.leases.release(owned.task.id);
+                owned.handover = Handover::Alone;
+            }
+        }
     }
 
     /// The command for a percept, of which it uses time, id, position, neighbours and inbox.
@@ -217,11 +230,12 @@ impl Controller {
         self.context.ledger.owns_at(goal, time_s)
     }
 
-    /// Whether it owns a goal, is the backup to which its owner is bound, has lost it, or reports it to the operator.
+    /// Whether it owns a goal that is not done, is the backup to which its owner is bound, has lost it, or reports it to the
+    /// operator.
     #[must_use]
     pub fn knows(&self, goal: GoalId) -> bool {
         let ledger = &self.context.ledger;
-        let is_own = ledger.get(goal).is_some();
+        let is_own = ledger.has_undone(goal);
         let is_reported = ledger.reports.goals().any(|reported| reported == goal);
         is_own || is_reported || self.ownership.knows(goal)
     }

@@ -1,6 +1,8 @@
 //! The goals of a run.
 
 use base::geometry::Point;
+use base::hash::Hash;
+use base::hashed::Hashed;
 use brain::GoalId;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -33,25 +35,48 @@ impl Goals {
     pub(crate) fn new(all: Vec<Goal>) -> Self {
         let numbers = all.iter().enumerate();
         let numbers = numbers.map(|(number, goal)| (goal.id, number)).collect();
-        let waiting = (0..all.len()).collect();
-        let mut goals = Self {
-            all,
-            numbers,
-            waiting: Vec::new(),
-            refusals: BTreeMap::new(),
-        };
-        goals.wait(waiting);
-        goals
-    }
-
-    /// Notes which goals are yet to be issued, when they arrive.
-    pub(crate) fn wait(&mut self, waiting: Vec<usize>) {
-        let waiting = waiting.into_iter();
+        let waiting = all.iter().enumerate();
         let mut waiting: Vec<_> = waiting
-            .map(|number| Reverse((self.all[number].arrives_at, number)))
+            .map(|(number, goal)| Reverse((goal.arrives_at, number)))
             .collect();
         waiting.sort_unstable();
-        self.waiting = waiting;
+        Self {
+            all,
+            numbers,
+            waiting,
+            refusals: BTreeMap::new(),
+        }
+    }
+
+    /// Takes over which goals wait: those that were not issued until they arrive, and others as long as before, by their
+    /// new numbers; and how often controllers have refused them.
+    pub(crate) fn keep_waiting(
+        &mut self,
+        before: &Self,
+        numbers: &BTreeMap<usize, usize>,
+        is_issued: impl Fn(usize) -> bool,
+    ) {
+        self.waiting
+            .retain(|Reverse((_, number))| !is_issued(*number));
+        for Reverse((at, was)) in &before.waiting {
+            if let Some(number) = numbers.get(was).filter(|number| is_issued(**number)) {
+                self.issue_again(*number, *at);
+            }
+        }
+        let refusals = before.refusals.iter();
+        self.refusals = refusals
+            .filter_map(|(was, count)| Some((*numbers.get(was)?, *count)))
+            .collect();
+    }
+
+    /// Which goals wait until when, and how often controllers have refused them.
+    pub(crate) fn add_issues_to(&self, hash: &mut Hash) {
+        for Reverse((at, number)) in &self.waiting {
+            (*at, *number).add_to(hash);
+        }
+        for (number, count) in &self.refusals {
+            (*number, *count).add_to(hash);
+        }
     }
 
     /// Notes that a goal is issued again at a later time.

@@ -37,16 +37,21 @@ pub(crate) struct GoalRecord {
     /// Whether several robots served it.
     pub(crate) is_served_twice: bool,
     /// Why no robot can serve it, as a controller last reported to the operator.
-    /// It follows from the messages, and affects no outcome.
-    #[hashed(skip)]
     pub(crate) unserved: Option<Reason>,
     /// Why the robot to which it was awarded last serves it no longer, as the robot has reported to the operator.
-    #[hashed(skip)]
     pub(crate) returned: Option<Reason>,
     /// Whether a robot has reported that it served the goal when it had not: it was not there, or not long enough. It
     /// follows from the messages, and affects no other outcome.
     #[hashed(skip)]
     pub(crate) is_done_in_error: bool,
+}
+
+impl GoalRecord {
+    /// Why it is not served, as far as that was reported.
+    pub(crate) fn reason(&self) -> Option<Reason> {
+        let in_error = self.is_done_in_error.then_some(Reason::DoneInError);
+        self.unserved.or(self.returned).or(in_error)
+    }
 }
 
 impl GoalTally {
@@ -69,11 +74,15 @@ impl GoalTally {
         self.stays = before.stays.renumbered(robot, goal);
     }
 
-    /// Notes where robots are, and the messages that they send; returns whether any of it counts.
+    /// Notes where robots are, the messages that they send, and reports that goals are done for which their radio had no
+    /// room: they were served all the same. Returns whether any of it counts.
     pub(crate) fn observe<'m>(
         &mut self,
         moment: &GoalMoment,
-        sent: impl Iterator<Item = &'m Outgoing> + Clone,
+        (sent, unsent_done): (
+            impl Iterator<Item = &'m Outgoing> + Clone,
+            impl Iterator<Item = &'m Outgoing>,
+        ),
         events: &EventLog,
     ) -> bool {
         self.follow(moment);
@@ -84,6 +93,8 @@ impl GoalTally {
         for outgoing in sent.clone() {
             self.messages_sent += 1;
             self.note_unserved(moment, outgoing);
+        }
+        for outgoing in sent.clone().chain(unsent_done) {
             if let Some(goal) = done(outgoing).and_then(|id| moment.goals.number(id)) {
                 let robot = outgoing.from as usize;
                 if self.note_done(moment, robot, goal) {

@@ -61,6 +61,11 @@ impl State {
             .tally
             .continued((to, &next.items), &kept, (&removed, &ids));
         next.keep_goals((self, from), to, &old, &ids);
+        let forgets =
+            |number: &usize| !has_same_ids(&ids) || !old_controllers.contains(&Some(*number));
+        let forgetful: Vec<usize> = (0..self.controllers.len()).filter(forgets).collect();
+        next.reissue_forgotten(self, to, &forgetful);
+        next.note_forgotten(self);
         next.tally.complete_at = next.moment(to).completed_at(self.tally.complete_at);
         if is_same_team(self.robots(), &old)
             && is_same_team(self.controllers.len(), &old_controllers)
@@ -81,11 +86,13 @@ impl State {
         old: &[Option<usize>],
         ids: &BTreeMap<AgentId, AgentId>,
     ) {
-        let has_same_ids = ids.iter().all(|(was, now)| was == now);
+        let has_same_ids = has_same_ids(ids);
+        let is_removed = |id: AgentId| id.is_controller() && !ids.contains_key(&id);
         for (agent, was) in self.controllers.iter_mut().zip(old) {
             if let Some(was) = was {
                 let settings = &to.controller_kind_of(agent.participant.id).settings;
                 agent.take_over(&before.controllers[*was], settings, has_same_ids);
+                agent.controller.forget_peers(is_removed);
                 agent.participant.renumber(ids);
             }
         }
@@ -244,4 +251,9 @@ fn has_same_agent(from: &Kind, to: &Kind) -> bool {
         && from.brain.body().is_same_but_for_others(to.brain.body())
         && from.sensors == to.sensors
         && from.needs_backlog() == to.needs_backlog()
+}
+
+/// Whether no agent has another id: controllers then keep their memory.
+fn has_same_ids(ids: &BTreeMap<AgentId, AgentId>) -> bool {
+    ids.iter().all(|(was, now)| was == now)
 }

@@ -80,8 +80,11 @@ impl State {
             let deadline_steps = scenario.goals[usize::from(goal.kind)].deadline_steps;
             let is_late = |issued_at| is_late(deadline_steps, issued_at, self.tick);
             let served = record.served.as_ref();
-            let returned = record.returned.filter(|_| status == GoalStatus::Reported);
-            let unserved = record.unserved.or(returned);
+            let unserved = match status {
+                GoalStatus::Unknown => None,
+                GoalStatus::Reported => record.reason(),
+                _ => record.unserved,
+            };
             Goal {
                 id: goal.id,
                 kind: goal.kind,

@@ -49,7 +49,8 @@ impl State {
         let records = tally.flat_map(|goals| &goals.records);
         let goals = self.goals.all.iter().zip(records);
         let issued = goals.filter(|(goal, record)| {
-            usize::from(goal.kind) == number && record.issued_to.is_some()
+            let is_issued = was.owner.is_some() && record.issued_at.is_some();
+            usize::from(goal.kind) == number && is_issued
         });
         let issued = issued.map(|(goal, _)| goal.index + 1).max()?;
         (now < issued).then(|| {

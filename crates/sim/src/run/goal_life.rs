@@ -111,20 +111,19 @@ impl State {
             GoalStatus::Expired
         } else if let Some(robot) = self.robot_at(known, number) {
             self.status_with(robot, number)
-        } else if record.unserved.is_some() {
-            GoalStatus::Reported
-        } else if self.goals.is_waiting(number) {
-            GoalStatus::Waiting
         } else {
-            self.status_without_robot(scenario, known, number, record)
+            self.status_without_robot(scenario, known, number)
         }
     }
 
     /// The robot that holds the lease of a goal, or drives there by itself.
     fn robot_at(&self, known: &Known, number: usize) -> Option<usize> {
-        let assignee = known.assignees.get(&self.goals.all[number].id).copied();
+        let id = self.goals.all[number].id;
+        let assignee = known.assignees.get(&id).copied();
+        let is_visited = known.lists.contains(&id.issuer);
         assignee.or_else(|| {
-            let journeys = self.tally.goals.as_ref()?.journeys.iter();
+            let journeys = self.tally.goals.as_ref().filter(|_| is_visited)?;
+            let journeys = journeys.journeys.iter();
             let mut robots = journeys.zip(&self.body_states).enumerate();
             let (robot, _) = robots.find(|(_, (journey, body_state))| {
                 journey.goal == Some(number) && body_state.status == Status::Active
@@ -147,23 +146,50 @@ impl State {
         scenario: &Scenario,
         known: &Known,
         number: usize,
-        record: &GoalRecord,
     ) -> GoalStatus {
         let id = self.goals.all[number].id;
-        let mut controllers = self.controllers.iter();
-        let is_owned = controllers.any(|agent| {
-            agent.participant.is_working(&self.body_states) && knows(agent, id, record.issued_to)
-        });
+        let record = self.goal_record(number);
+        let is_owned = self.knowing_controller(id, record.issued_to).is_some();
         let has_owners = scenario.first_owner(&self.goals.all[number]).is_some();
-        if is_owned {
+        let is_of_operator = self.goals.is_waiting(number) || record.issued_to.is_none();
+        let is_visited = known.lists.contains(&id.issuer) || !has_owners && known.has_robots;
+        let is_returned = record.returned.is_some() || known.returned.contains(&id);
+        if record.unserved.is_some() && (is_owned || is_of_operator) {
+            GoalStatus::Reported
+        } else if is_owned {
             GoalStatus::Owned
-        } else if known.lists.contains(&id.issuer) || !has_owners && known.has_robots {
+        } else if self.goals.is_waiting(number) || is_visited {
             GoalStatus::Waiting
-        } else if record.returned.is_some() || known.returned.contains(&id) {
+        } else if is_returned || record.is_done_in_error {
             GoalStatus::Reported
         } else {
             GoalStatus::Unknown
         }
+    }
+
+    pub(super) fn goal_record(&self, number: usize) -> GoalRecord {
+        let tally = self.tally.goals.as_ref();
+        tally.map_or_else(GoalRecord::default, |tally| tally.records[number])
+    }
+
+    /// The number of a working controller that knows a goal, or is about to receive it.
+    pub(super) fn knowing_controller(
+        &self,
+        goal: GoalId,
+        issued_to: Option<AgentId>,
+    ) -> Option<usize> {
+        self.controllers.iter().position(|agent| {
+            agent.participant.is_working(&self.body_states) && knows(agent, goal, issued_to)
+        })
+    }
+
+    /// Whether one of some controllers works and knows a goal.
+    pub(super) fn is_known_to(&self, controllers: &[usize], goal: GoalId) -> bool {
+        controllers.iter().any(|number| {
+            let agent = &self.controllers[*number];
+            let id = agent.participant.id;
+            agent.participant.is_working(&self.body_states) && knows(agent, goal, Some(id))
+        })
     }
 
     fn known_to_robots(&self, scenario: &Scenario) -> Known {

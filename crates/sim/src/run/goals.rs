@@ -2,11 +2,13 @@
 
 use super::operator::order_to;
 use super::state::State;
+use crate::bodies::body_state::Status;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
 use crate::scenario::Scenario;
-use brain::{AgentId, ContractMessage, Reason, ReceivedMessage};
-use std::collections::BTreeMap;
+use crate::schedule::steps_of;
+use brain::{AgentId, ContractMessage, GoalId, Reason, ReceivedMessage, wait_s};
+use std::collections::{BTreeMap, BTreeSet};
 
 impl State {
     /// Issues the goals that arrive in this step, or that have lost their controller.
@@ -42,6 +44,9 @@ impl State {
             return;
         };
         let record = &mut tally.records[number];
+        if record.served.is_some() {
+            return;
+        }
         record.issued_at.get_or_insert(self.tick);
         let Some(owner) = owner else {
             record.unserved = has_owners.then_some(Reason::NoController);
@@ -82,19 +87,72 @@ impl State {
         let Some(mut tally) = self.tally.goals.take() else {
             return;
         };
-        if let Some(was) = &before.tally.goals {
+        let numbers = before.tally.goals.as_ref().map(|was| {
             let numbers = self.keep_places((before, from), to);
             tally.take_over(was, &numbers, old, ids);
-        }
-        let waits = |(number, _): &(usize, &Goal)| {
-            let record = &tally.records[*number];
-            let is_lost = record.issued_to.is_none() && self.owner_of(to, *number).is_some();
-            record.issued_at.is_none() || record.served.is_none() && is_lost
-        };
-        let waiting = self.goals.all.iter().enumerate().filter(waits);
-        let waiting = waiting.map(|(number, _)| number).collect();
-        self.goals.wait(waiting);
+            numbers
+        });
+        let is_issued = |number: usize| tally.records[number].issued_at.is_some();
+        self.goals
+            .keep_waiting(&before.goals, &numbers.unwrap_or_default(), is_issued);
         self.tally.goals = Some(tally);
+    }
+
+    /// Notes the goals that robots had and have forgotten, because a change has replaced their brains.
+    pub(super) fn note_forgotten(&mut self, before: &Self) {
+        let had = before.goals_of_robots();
+        let have = self.goals_of_robots();
+        let forgotten: Vec<usize> = had
+            .difference(&have)
+            .filter_map(|goal| self.goals.number(*goal))
+            .collect();
+        let Some(tally) = &mut self.tally.goals else {
+            return;
+        };
+        for number in forgotten {
+            tally.records[number].returned.get_or_insert(Reason::Lease);
+        }
+    }
+
+    /// The goals that working robots have been awarded, or are to report to the operator.
+    fn goals_of_robots(&self) -> BTreeSet<GoalId> {
+        let agents = self.agents.iter().zip(&self.body_states);
+        let working = agents.filter(|(_, body_state)| body_state.status == Status::Active);
+        let goals = working.flat_map(|(agent, _)| {
+            let served = agent.brain.served_goals().into_iter();
+            let served = served.map(|served| served.task.id);
+            served
+                .chain(agent.brain.returned_goals())
+                .collect::<Vec<_>>()
+        });
+        goals.collect()
+    }
+
+    /// Issues goals again that no controller knows since a change: those that knew them were removed, or restarted because
+    /// ids have changed. A goal that a robot serves under a lease of one of them waits until that has ended.
+    pub(super) fn reissue_forgotten(&mut self, before: &Self, to: &Scenario, forgetful: &[usize]) {
+        let held = self.goals_of_robots();
+        let leases = to.controllers.iter();
+        let leases_s =
+            leases.map(|kind| wait_s(kind.settings.service_lease_s, kind.settings.max_drift));
+        let lease = steps_of(leases_s.fold(0.0, f64::max), to.step_s) + 1;
+        for number in 0..self.goals.all.len() {
+            let (id, record) = (self.goals.all[number].id, self.goal_record(number));
+            let is_open = record.issued_at.is_some() && record.served.is_none();
+            let is_forgotten = before.is_known_to(forgetful, id) || record.issued_to.is_none();
+            if !is_open || !is_forgotten || self.goals.is_waiting(number) {
+                continue;
+            }
+            let knowing = self.knowing_controller(id, None);
+            let issued_to = knowing.map(|number| self.controllers[number].participant.id);
+            if let Some(tally) = &mut self.tally.goals {
+                tally.records[number].issued_to = issued_to;
+            }
+            if issued_to.is_none() && self.owner_of(to, number).is_some() {
+                let wait = if held.contains(&id) { lease } else { 0 };
+                self.goals.issue_again(number, self.tick + wait);
+            }
+        }
     }
 
     /// Keeps ids and places of goals by the names of their kinds and their indices; returns their numbers now, by
@@ -126,12 +184,13 @@ impl State {
 }
 
 impl Scenario {
-    /// The controller that is first in turn to own a goal, and the number of controllers of its kind; `None` if there
-    /// are none of the kind that owns it.
+    /// The controller that is first in turn to own a goal, and the number of controllers of its kind; `None` if no
+    /// controllers own it, or there are none of any kind.
     pub(super) fn first_owner(&self, goal: &Goal) -> Option<(AgentId, u32)> {
         let owner = usize::from(self.goals[usize::from(goal.kind)].owner?);
         let count = self.controllers[owner].count;
-        let index = goal.index.checked_rem(count)?;
+        let has_others = self.controllers.iter().any(|kind| kind.count > 0);
+        let index = goal.index.checked_rem(count).or(has_others.then_some(0))?;
         let kind = self.controller_number(owner);
         Some((AgentId::controller(kind, index), count))
     }

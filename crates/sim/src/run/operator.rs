@@ -1,6 +1,7 @@
 //! The operator: the person that issues goals to controllers and receives their reports.
 //!
-//! Orders of the operator and answers to it are not sent by radio: they reach working controllers in the next step.
+//! What the operator sends is not sent by radio: it reaches agents in the next step. What agents report to it counts among
+//! the messages of their radios, and arrives at once.
 
 use super::state::State;
 use crate::radio::channel::Outgoing;
@@ -19,7 +20,7 @@ impl State {
         scenario: &Scenario,
         sent: impl Iterator<Item = &'m Outgoing>,
     ) {
-        if self.controllers.is_empty() {
+        if self.tally.goals.is_none() {
             return;
         }
         let reports = sent.filter(|sent| sent.message.to == AgentId::OPERATOR.into());

@@ -89,6 +89,9 @@ impl State {
     }
 
     fn hash_controllers(&self, hash: &mut Hash) {
+        if !self.controllers.is_empty() {
+            self.goals.add_issues_to(hash);
+        }
         for agent in &self.controllers {
             (agent.participant.id, agent.participant.has_failed).add_to(hash);
             agent.controller.add_to(hash);

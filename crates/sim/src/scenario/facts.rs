@@ -59,7 +59,7 @@ impl Scenario {
         facts.into_iter().chain(items).chain(end).collect()
     }
 
-    /// How long a round of awards takes, and how soon goals of a lost controller are offered again, for each kind of
+    /// How long a round of awards waits for bids, and how soon goals of a lost controller are offered again, for each kind of
     /// controllers.
     pub(crate) fn recoveries(&self) -> Vec<(String, String)> {
         let goals = self.number_of_goals();
@@ -69,7 +69,7 @@ impl Scenario {
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
             let round_s = kind.settings.answer_s;
             let text = format!(
-                "a round of awards takes at most {round_s:.2} s, until robots have bid again; \
+                "after an award, the next waits at most {round_s:.2} s for the bids that it has changed; \
                  goals of a lost controller have an owner or are reported, and are offered again, within {within_s:.1} s \
                  if no message is lost"
             );

@@ -14,7 +14,7 @@ use crate::sensors::sensor_frame::NoisePurpose;
 use crate::world::items::RECOGNISED_WITHIN_M;
 use base::geometry::Point;
 use base::trig::sin_cos;
-use brain::{Command, Motion, Percept, Reading, Scan};
+use brain::{About, Command, ContractMessage, Motion, Percept, Reading, Scan};
 
 /// What all robots decide from in one step.
 #[derive(Debug, Clone, Copy)]
@@ -36,8 +36,9 @@ pub(crate) struct WorkerScratch {
     pub(crate) sensing: SensingScratch,
     /// Messages that robots send, in their order.
     pub(crate) outbox: Vec<Outgoing>,
-    /// Number of messages beyond the maximum of their radios, which are not sent.
+    /// Number of messages beyond the maximum of their radios, which are not sent, and those that report goals as done.
     pub(crate) unsent: u64,
+    pub(crate) unsent_done: Vec<Outgoing>,
     /// Commands of brains for external bodies, by the number of the robot.
     pub(crate) external_commands: Vec<(usize, Command)>,
     /// The hash of each decision, in the order of the robots, if decisions are hashed.
@@ -49,6 +50,7 @@ impl WorkerScratch {
         self.sensing.detections.clear();
         self.outbox.clear();
         self.unsent = 0;
+        self.unsent_done.clear();
         self.external_commands.clear();
         self.decisions.clear();
     }
@@ -223,6 +225,8 @@ impl WorkerScratch {
         if let Some(participant) = &agent.inputs.participant {
             let radio = &participant.radio;
             self.unsent += send(robot, radio, &self.command, &mut self.outbox);
+            let unsent = numbered(robot, &self.command).skip(radio.messages_per_step);
+            self.unsent_done.extend(unsent.filter(is_done_of_contract));
         }
     }
 }
@@ -235,18 +239,28 @@ pub(super) fn send(
     command: &Command,
     outbox: &mut Vec<Outgoing>,
 ) -> u64 {
-    let messages = command.outbox.iter().take(radio.messages_per_step);
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "participants have 32-bit numbers"
-    )]
-    outbox.extend(messages.zip(0..).map(|(message, place)| Outgoing {
+    outbox.extend(numbered(number, command).take(radio.messages_per_step));
+    let unsent = command.outbox.len().saturating_sub(radio.messages_per_step);
+    unsent as u64
+}
+
+/// The messages of a command.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "participants have 32-bit numbers"
+)]
+fn numbered(number: usize, command: &Command) -> impl Iterator<Item = Outgoing> {
+    let messages = command.outbox.iter().zip(0..);
+    messages.map(move |(message, place)| Outgoing {
         from: number as u32,
         number: place,
         message: *message,
-    }));
-    let unsent = command.outbox.len().saturating_sub(radio.messages_per_step);
-    unsent as u64
+    })
+}
+
+fn is_done_of_contract(outgoing: &Outgoing) -> bool {
+    let about = &outgoing.message.about;
+    matches!(about, About::Contract(ContractMessage::Done(_)))
 }
 
 #[expect(

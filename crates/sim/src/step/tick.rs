@@ -265,7 +265,8 @@ impl StepScratch {
             body_states: &state.body_states,
         };
         let sent = self.workers.iter().flat_map(|worker| &worker.outbox);
-        tally.observe(&moment, sent, &self.events)
+        let unsent_done = self.workers.iter().flat_map(|worker| &worker.unsent_done);
+        tally.observe(&moment, (sent, unsent_done), &self.events)
     }
 
     /// Reports to the judge what robots detected in this step, and their collisions; returns whether anything was

@@ -26,11 +26,10 @@ pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
         .collect()
 }
 
-/// Whether there are controllers that own such goals.
+/// Whether there are controllers that own such goals: others than the kind that is to own them, if there are none of it.
 fn has_owner(kind: &GoalSpec, spec: &ScenarioSpec) -> bool {
-    let owner = owner_of(kind, spec);
-    let owner = owner.and_then(|owner| spec.controllers.get(owner));
-    owner.is_some_and(|owner| owner.count > 0)
+    let mut controllers = spec.controllers.values();
+    owner_of(kind, spec).is_some() && controllers.any(|controllers| controllers.count > 0)
 }
 
 fn of_goals(kind: &GoalSpec, spec: &ScenarioSpec, at: &Place) -> Option<Warning> {

@@ -103,7 +103,7 @@ export interface Bid {
   time_s: number;
   /** Time until it has served all of its goals and this one. */
   total_s: number;
-  /** The same for the energy, as a fraction of the battery's capacity; 0 if unknown. */
+  /** Energy for the additional path and service, as a fraction of the battery's capacity; 0 if unknown. */
   energy: number;
   /** The number of the call. */
   call: number;
@@ -407,7 +407,7 @@ export interface Provenance {
 }
 
 /** Why a goal is not served. */
-export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "ownership_lost" | "no_controller" | "position" | "invalid";
+export type Reason = "unreachable" | "capability" | "deadline" | "battery" | "full" | "lease" | "out_of_service" | "no_robot" | "ownership_lost" | "no_controller" | "position" | "done_in_error" | "invalid";
 
 /** A received message. */
 export interface ReceivedMessage {

@@ -5,7 +5,8 @@
 //! is stuck, or is overdue: other robots can bid for it, and the first valid bid moves it. If there is
 //! none, the robot keeps it and tries again; if it approaches again, the contest ends. A robot that
 //! stays stuck for half a minute without another bid loses it: it is reported, and offered again later.
-//! A robot that refuses, releases or is silent until its lease ends has lost the goal at once.
+//! A robot that refuses, releases or is silent until its lease ends has lost the goal at once. A goal that all robots
+//! lose again and again rests, and is reported.
 //! A goal that waits because all robots are full displaces a goal of at most half its value whose
 //! service has not begun.
 //! ```
@@ -15,6 +16,7 @@
 //! would be nearer. New goals that lie better change the order in which robots serve theirs.
 
 use super::Contracts;
+use super::unserved::give_up;
 use crate::controller::context::Context;
 use crate::controller::ledger::owned::Assigned;
 use alloc::vec::Vec;
@@ -27,6 +29,9 @@ const RETRY_S: f64 = 1.0;
 /// it reports, and the time that is added, in seconds.
 const OVERDUE_FACTOR: f64 = 4.0;
 const OVERDUE_S: f64 = 60.0;
+
+/// A goal rests, and is reported, when robots have lost it this many times for each robot that is present.
+const FAILURES_PER_ROBOT: usize = 2;
 
 /// A robot that is stuck keeps its goal for this time without a bid of another, in seconds.
 const HOPELESS_S: f64 = 30.0;
@@ -177,9 +182,14 @@ impl Contracts {
             .assigned
             .take()
             .is_some_and(|assigned| assigned.is_contested);
+        let (failures, reason) = (owned.failures, owned.reason);
         if !was_contested {
             owned.offer_again(now_s);
             self.bids.remove_for(goal);
+        }
+        let tries = FAILURES_PER_ROBOT * context.robots.present().count().max(1);
+        if usize::from(failures).is_multiple_of(tries) {
+            give_up(context, goal, reason);
         }
     }
 

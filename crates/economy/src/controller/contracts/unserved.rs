@@ -80,7 +80,7 @@ fn probe_one(context: &mut Context, goal: GoalId) {
 }
 
 /// The goal rests; the first time, that is reported to the operator.
-fn give_up(context: &mut Context, goal: GoalId, reason: Reason) {
+pub(super) fn give_up(context: &mut Context, goal: GoalId, reason: Reason) {
     let now_s = context.now_s;
     let Some(owned) = context.ledger.get_mut(goal) else {
         return;

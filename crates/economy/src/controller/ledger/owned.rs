@@ -56,7 +56,7 @@ pub(crate) struct Owned {
     pub(crate) assignees: Vec<AgentId>,
     pub(crate) lapses: Lapses,
     /// How often a robot has lost it without serving it.
-    pub(crate) failures: u8,
+    pub(crate) failures: u16,
     /// The robot that is to be awarded it next, as it has displaced another goal of the robot.
     pub(crate) reserved: Option<Reservation>,
 }

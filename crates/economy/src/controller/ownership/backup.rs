@@ -2,7 +2,7 @@
 //! goals of lost owners until it can return them.
 
 use super::kept::Kept;
-use super::{MAX_LEASE_S, Ownership};
+use super::{MAX_KEPT, MAX_LEASE_S, Ownership};
 use crate::controller::context::{Context, short};
 use crate::controller::contracts::Contracts;
 use crate::controller::handover::Handover;
@@ -23,7 +23,7 @@ impl Ownership {
     ) {
         give_up(context, contracts, from, task.id);
         let is_own = context.ledger.has_undone(task.id);
-        let is_full = self.kept.len() >= context.settings.max_goals as usize;
+        let is_full = self.kept.len() >= MAX_KEPT;
         let known = self.kept.iter().find(|kept| kept.task.id == task.id);
         let number = match known {
             _ if is_own || !task.is_valid() || !context.may_grant() => return,

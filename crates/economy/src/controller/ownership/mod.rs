@@ -24,6 +24,9 @@ use lost::Lost;
 /// Longer leases are invalid, in seconds.
 const MAX_LEASE_S: f32 = 3600.0;
 
+/// Maximum number of goals of others of which it is the backup.
+const MAX_KEPT: usize = 10_000;
+
 /// Maximum number of messages about handovers per step.
 const MAX_MESSAGES: usize = 4;
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 const RUN: &str = r#"
 clock = { time_limit_s = 200, step_s = 0.2 }
 world.size_m = [40, 40]
-goals.spot = { count = 12, within_m = 1, service_s = 2 }
+goals.spot = { owner = "base", count = 12, within_m = 1, service_s = 2 }
 [controllers.base]
 count = 1
 start.at_m = [[1, 1], [2, 1], [1, 2]]
@@ -238,24 +238,44 @@ impl Fuzzed {
     fn disturb(&mut self) {
         let index = self.random.below(3).to_string();
         let failed = format!("[{index}]");
-        let (key, value) = match self.random.below(6) {
-            0 => ("controllers.base.price", index.as_str()),
-            1 => (
+        let mut any = |values: &[&'static str]| self.random.one_of(values).to_owned();
+        let changes = [
+            ("controllers.base.price", index),
+            (
                 "controllers.base.allocation",
-                self.random
-                    .one_of(&["\"nearest\"", "\"optimal\"", "\"none\""]),
+                any(&["\"nearest\"", "\"optimal\"", "\"none\""]),
             ),
-            2 => ("robots.rover.failed", failed.as_str()),
-            3 => ("robots.rover.out_of_service", failed.as_str()),
-            4 => (
+            ("controllers.base.count", any(&["1", "2", "3"])),
+            ("controllers.base.max_goals", any(&["0", "2", "1000"])),
+            (
                 "controllers.base.radio.loss_probability",
-                self.random.one_of(&["0.9", "0"]),
+                any(&["0.9", "0"]),
             ),
-            _ => ("controllers.base.failed", failed.as_str()),
-        };
+            ("controllers.base.failed", failed.clone()),
+            (
+                "controllers.aide",
+                any(&[
+                    "{ count = 0, start.at_m = [[3, 3]], radio.range_m = 60 }",
+                    "{ count = 1, start.at_m = [[3, 3]], radio.range_m = 60 }",
+                ]),
+            ),
+            ("robots.rover.failed", failed.clone()),
+            ("robots.rover.out_of_service", failed),
+            ("robots.rover.radius_m", any(&["0.2", "0.3"])),
+            (
+                "robots.rover.brain.behaviours",
+                any(&[
+                    "[{ kind = \"serve\" }]",
+                    "[{ kind = \"serve\", max_goals = 2 }, { kind = \"avoid\" }]",
+                ]),
+            ),
+            ("goals.spot.service_s", any(&["0", "2", "6"])),
+        ];
+        let number = self.random.below(12) as usize;
+        let (key, value) = changes.into_iter().nth(number).unwrap();
         let mut values = self.values.clone();
-        values.insert(key, value.to_owned());
-        // Not every controller exists.
+        values.insert(key, value);
+        // Not every controller exists, and not every key changes while goals are known.
         let Ok(to) = crate::common::read(&text_of(&values)) else {
             return;
         };
@@ -298,11 +318,37 @@ impl Fuzzed {
             let mut forgotten = before.filter(|(_, agent)| working.contains(agent));
             assert_eq!(forgotten.next(), None, "{at}: an agent that works knew it");
         }
+        self.check_one_of_each(seed);
         let goals = simulation.outcome().goals.unwrap();
         let others = goals.balance.open + goals.balance.reported + goals.balance.unknown;
         let issued = goals.balance.issued();
         assert_eq!(goals.served + goals.expired + others, issued, "seed {seed}");
         (self.statuses, self.knowing) = (now, known);
+    }
+
+    /// Checks that each goal has at most one owner, and one robot.
+    fn check_one_of_each(&self, seed: u64) {
+        let state = self.simulation.state();
+        let controllers = state.each_controller().filter(|each| each.is_working);
+        let owned = controllers.flat_map(|each| each.goals.into_iter().map(|owned| owned.task.id));
+        let robots = state.each_robot(self.simulation.scenario());
+        let robots = robots.filter(|robot| robot.status == sim::run::Status::Active);
+        let served = robots.flat_map(|robot| {
+            let goals = state.served_goals(robot.id).into_iter();
+            goals.map(|served| served.task.id).collect::<Vec<_>>()
+        });
+        for (what, ids) in [
+            ("owner", owned.collect::<Vec<_>>()),
+            ("robot", served.collect()),
+        ] {
+            let all: BTreeSet<GoalId> = ids.iter().copied().collect();
+            let at = self.simulation.time_s();
+            assert_eq!(
+                all.len(),
+                ids.len(),
+                "seed {seed}, {at:.1} s: one {what} of each goal"
+            );
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use brain::GoalId;
 const SEARCHES_PER_ROBOT: usize = 3;
 
 /// A goal that robots have lost this many times counts as impossible. It is still offered.
-const MAX_FAILURES: u8 = 6;
+const MAX_FAILURES: u16 = 6;
 
 impl LaneWork {
     /// The goals that are worth their time now.
