@@ -44,12 +44,13 @@ def check(percept):
     pass
 """
 COUNTING = """
-import os, pathlib
+import os, pathlib, time
 
 RATE = 0.2
 
 def check(percept):
     pathlib.Path(f"process-{os.getpid()}").touch()
+    time.sleep(0.02)  # one process would otherwise make all runs before another has begun
 """
 FAILING = TURNS.replace("    pass", "    1 / (5 - percept['time_s'])")
 
