@@ -49,8 +49,10 @@ import os, pathlib, time
 RATE = 0.2
 
 def check(percept):
-    pathlib.Path(f"process-{os.getpid()}").touch()
-    time.sleep(0.02)  # one process would otherwise make all runs before another has begun
+    own = pathlib.Path(f"process-{os.getpid()}")
+    if not own.exists():
+        own.touch()
+        time.sleep(2)  # one process could make all runs before another has begun
 """
 FAILING = TURNS.replace("    pass", "    1 / (5 - percept['time_s'])")
 
