@@ -64,7 +64,8 @@ impl State {
         let forgets =
             |number: &usize| !has_same_ids(&ids) || !old_controllers.contains(&Some(*number));
         let forgetful: Vec<usize> = (0..self.controllers.len()).filter(forgets).collect();
-        next.reissue_forgotten(self, to, &forgetful);
+        let lease = from.longest_lease().max(to.longest_lease());
+        next.reissue_forgotten(self, to, &forgetful, lease);
         next.note_forgotten(self);
         next.tally.complete_at = next.moment(to).completed_at(self.tally.complete_at);
         if is_same_team(self.robots(), &old)

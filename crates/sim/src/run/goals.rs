@@ -129,13 +129,16 @@ impl State {
     }
 
     /// Issues goals again that no controller knows since a change: those that knew them were removed, or restarted because
-    /// ids have changed. A goal that a robot serves under a lease of one of them waits until that has ended.
-    pub(super) fn reissue_forgotten(&mut self, before: &Self, to: &Scenario, forgetful: &[usize]) {
+    /// ids have changed. A goal that a robot serves under a lease of one of them waits until that has ended, for a number
+    /// of steps.
+    pub(super) fn reissue_forgotten(
+        &mut self,
+        before: &Self,
+        to: &Scenario,
+        forgetful: &[usize],
+        lease: u64,
+    ) {
         let held = self.goals_of_robots();
-        let leases = to.controllers.iter();
-        let leases_s =
-            leases.map(|kind| wait_s(kind.settings.service_lease_s, kind.settings.max_drift));
-        let lease = steps_of(leases_s.fold(0.0, f64::max), to.step_s) + 1;
         for number in 0..self.goals.all.len() {
             let (id, record) = (self.goals.all[number].id, self.goal_record(number));
             let is_open = record.issued_at.is_some() && record.served.is_none();
@@ -184,6 +187,13 @@ impl State {
 }
 
 impl Scenario {
+    /// The longest service lease of its controllers, in steps, as its grantor waits for its end.
+    pub(super) fn longest_lease(&self) -> u64 {
+        let kinds = self.controllers.iter().map(|kind| &kind.settings);
+        let leases_s = kinds.map(|settings| wait_s(settings.service_lease_s, settings.max_drift));
+        steps_of(leases_s.fold(0.0, f64::max), self.step_s) + 1
+    }
+
     /// The controller that is first in turn to own a goal, and the number of controllers of its kind; `None` if no
     /// controllers own it, or there are none of any kind.
     pub(super) fn first_owner(&self, goal: &Goal) -> Option<(AgentId, u32)> {
