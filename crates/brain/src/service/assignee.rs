@@ -116,11 +116,11 @@ impl Assignee {
             };
             self.lane.state(&looked, moment.body, beliefs);
         }
-        for dispatch in self.lane.step(moment, beliefs, self.now_s) {
-            match dispatch {
-                LaneMessage::Statement(_) => self.send(Receiver::All, dispatch),
+        for message in self.lane.step(moment, beliefs, self.now_s) {
+            match message {
+                LaneMessage::Statement(_) => self.send(Receiver::All, message),
                 // Broadcast, these would be most of the messages that other robots receive.
-                _ => self.send_to_controllers(dispatch),
+                _ => self.send_to_controllers(message),
             }
         }
         self.lane.act(&mut self.acts);

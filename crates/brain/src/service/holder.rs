@@ -64,6 +64,16 @@ impl Holder {
         self.leases.iter().find(|lease| lease.goal == goal)
     }
 
+    /// The leases of a grantor that end first, at most a number of them.
+    #[must_use]
+    pub fn ending_first(&self, grantor: AgentId, count: usize) -> Vec<Lease> {
+        let own = self.leases.iter().filter(|lease| lease.grantor == grantor);
+        let mut own: Vec<Lease> = own.copied().collect();
+        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
+        own.truncate(count);
+        own
+    }
+
     /// Whether the goal is held at a time: the lease has not ended.
     #[must_use]
     pub fn is_held(&self, goal: GoalId, now_s: f64) -> bool {

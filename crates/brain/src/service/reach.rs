@@ -120,6 +120,20 @@ mod tests {
     use crate::perception::beliefs::occupancy::Ray;
     use base::geometry::Segment;
 
+    fn moment<'m>(percept: &'m Percept, body: &'m Body, map: &'m Map) -> Moment<'m> {
+        Moment {
+            percept,
+            body,
+            beliefs: None,
+            map: Some(map),
+            at: None,
+            deviation_m: 0.0,
+            elapsed_s: 0.1,
+            battery_s: f64::INFINITY,
+            charge: None,
+        }
+    }
+
     #[test]
     fn a_place_within_walls_is_out_of_reach_and_one_outside_is_not() {
         let mut map = map();
@@ -142,17 +156,7 @@ mod tests {
                 (0..5).for_each(|_| map.occupancy.add_ray(&map.field, &Ray { free, hit }));
             }
         }
-        let moment = Moment {
-            percept: &percept,
-            body: &body,
-            beliefs: None,
-            map: Some(&map),
-            at: None,
-            deviation_m: 0.0,
-            elapsed_s: 0.1,
-            battery_s: f64::INFINITY,
-            charge: None,
-        };
+        let moment = moment(&percept, &body, &map);
         let reach = Reach::new(&moment, corner(3.0, 3.0));
         assert_eq!(reach.detour(corner(10.0, 10.0)), None);
         assert!(
@@ -184,17 +188,7 @@ mod tests {
                 let hit = Some(to);
                 (0..9).for_each(|_| map.occupancy.add_ray(&map.field, &Ray { free, hit }));
             }
-            let moment = Moment {
-                percept: &percept,
-                body: &body,
-                beliefs: None,
-                map: Some(&map),
-                at: None,
-                deviation_m: 0.0,
-                elapsed_s: 0.1,
-                battery_s: f64::INFINITY,
-                charge: None,
-            };
+            let moment = moment(&percept, &body, &map);
             let mut whole = Reach::new(&moment, place(99));
             let lazy = Reach::new(&moment, place(99));
             assert!(lazy.obstacles.is_some());

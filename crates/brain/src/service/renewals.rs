@@ -4,7 +4,6 @@ use super::assignee::Assignee;
 use super::holder::Lease;
 use crate::io::agent_id::AgentId;
 use crate::io::lease::{Claim, LeaseMessage};
-use alloc::vec::Vec;
 
 /// Minimum time between two attempts to renew, in seconds.
 const RETRY_S: f64 = 0.5;
@@ -39,13 +38,8 @@ impl Assignee {
 
     /// Renews the leases of a controller one by one, those that end first.
     pub(super) fn renew_each(&mut self, from: AgentId) {
-        let own = self.holder.leases().iter();
-        let own = own.filter(|lease| lease.grantor == from);
-        let mut own: Vec<Lease> = own.copied().collect();
-        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
-        for lease in own.into_iter().take(MAX_RENEWALS) {
+        for Lease { goal, .. } in self.holder.ending_first(from, MAX_RENEWALS) {
             let number = self.numbers.draw();
-            let goal = lease.goal;
             self.holder.request(number, from, Some(goal), self.now_s);
             self.send(from, LeaseMessage::RenewOne(Claim { goal, number }));
         }

@@ -1,5 +1,6 @@
 //! The life of a goal: at any time, it is in exactly one state.
 
+use super::agent::Agent;
 use super::controller::ControllerAgent;
 use super::state::State;
 use crate::bodies::body_state::Status;
@@ -192,6 +193,12 @@ impl State {
         })
     }
 
+    /// The robots that work, with their numbers.
+    pub(super) fn working_robots(&self) -> impl Iterator<Item = (usize, &Agent)> {
+        let robots = self.agents.iter().enumerate();
+        robots.filter(|(robot, _)| self.body_states[*robot].status == Status::Active)
+    }
+
     fn known_to_robots(&self, scenario: &Scenario) -> Known {
         let mut known = Known {
             assignees: BTreeMap::new(),
@@ -200,10 +207,7 @@ impl State {
             has_robots: false,
         };
         let mut kinds = BTreeSet::new();
-        for (robot, agent) in self.agents.iter().enumerate() {
-            if self.body_states[robot].status != Status::Active {
-                continue;
-            }
+        for (robot, agent) in self.working_robots() {
             known.has_robots = true;
             kinds.insert(self.ids[robot].kind);
             let served = agent.brain.served_goals();

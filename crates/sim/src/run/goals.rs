@@ -2,7 +2,6 @@
 
 use super::operator::order_to;
 use super::state::State;
-use crate::bodies::body_state::Status;
 use crate::goals::placed::{Goal, Goals};
 use crate::judge::goal_tally::GoalTally;
 use crate::scenario::Scenario;
@@ -116,9 +115,7 @@ impl State {
 
     /// The goals that working robots have been awarded, or are to report to the operator.
     fn goals_of_robots(&self) -> BTreeSet<GoalId> {
-        let agents = self.agents.iter().zip(&self.body_states);
-        let working = agents.filter(|(_, body_state)| body_state.status == Status::Active);
-        let goals = working.flat_map(|(agent, _)| {
+        let goals = self.working_robots().flat_map(|(_, agent)| {
             let served = agent.brain.served_goals().into_iter();
             let served = served.map(|served| served.task.id);
             served

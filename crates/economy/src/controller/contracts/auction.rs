@@ -5,7 +5,7 @@ use super::Contracts;
 use super::calls::call_to;
 use super::displacement::is_reserved;
 use crate::allocation::{Allocation, Market, Offer, Pair};
-use crate::controller::context::Context;
+use crate::controller::context::{Context, short};
 use crate::controller::ledger::owned::Assigned;
 use crate::controller::robots::Robot;
 use alloc::vec::Vec;
@@ -43,7 +43,7 @@ impl Contracts {
         let free = context.ledger.goals.iter().filter(|owned| {
             owned.assigned.is_none()
                 && owned.is_on_offer(context.now_s)
-                && self.services.grant_of(owned.task.id).is_none()
+                && self.is_free(owned.task.id)
                 && context.ledger.owns_at(owned.task.id, context.now_s)
         });
         let called_s = free.clone().filter_map(|owned| owned.called_s);
@@ -199,11 +199,10 @@ fn repeat_awards(context: &mut Context) {
             continue;
         }
         assigned.next_s = now_s + RETRY_S;
-        #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
         let award = Award {
             goal,
             number: assigned.number,
-            lease_s: assigned.lease_s as f32,
+            lease_s: short(assigned.lease_s),
         };
         let robot = assigned.robot;
         context.send(robot, ContractMessage::Award(award));

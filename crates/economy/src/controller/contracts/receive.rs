@@ -3,9 +3,9 @@
 use super::Contracts;
 use super::displacement::{call_reserved, note_progress};
 use crate::controller::context::Context;
-use brain::LeaseMessage;
 use brain::{
-    About, AgentId, Bid, Claim, ContractMessage, GoalId, Reason, Refusal, Renewal, Report, Verdict,
+    About, AgentId, Bid, Claim, ContractMessage, GoalId, LeaseMessage, Reason, Refusal, Renewal,
+    Report, Verdict,
 };
 
 /// A robot that refuses a goal is not called again for it for this time, in seconds, and as much for
@@ -194,12 +194,7 @@ impl Contracts {
     fn renew_service(&mut self, context: &mut Context, from: AgentId, claim: Claim) {
         let answer = if self.services.renew_one(from, claim, context.now_s) {
             About::from(LeaseMessage::RenewedOne(claim))
-        } else if context
-            .ledger
-            .goals
-            .iter()
-            .any(|owned| owned.task.id == claim.goal)
-        {
+        } else if context.ledger.get(claim.goal).is_some() {
             ContractMessage::Withdraw(claim).into()
         } else {
             return;

@@ -49,12 +49,7 @@ fn end_expired(context: &mut Context) {
 
 fn probe_one(context: &mut Context, goal: GoalId) {
     let now_s = context.now_s;
-    let Some(owned) = context
-        .ledger
-        .goals
-        .iter()
-        .find(|owned| owned.task.id == goal)
-    else {
+    let Some(owned) = context.ledger.get(goal) else {
         return;
     };
     let task = owned.task;

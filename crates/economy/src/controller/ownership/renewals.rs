@@ -45,10 +45,7 @@ impl Ownership {
         if !leases.differs(from, number) {
             return;
         }
-        let own = leases.leases().iter().filter(|lease| lease.grantor == from);
-        let mut own: Vec<Lease> = own.copied().collect();
-        own.sort_by(|one, other| one.until_s.total_cmp(&other.until_s));
-        for Lease { goal, .. } in own.into_iter().take(MAX_RENEWALS) {
+        for Lease { goal, .. } in leases.ending_first(from, MAX_RENEWALS) {
             let number = context.numbers.draw();
             let leases = &mut context.ledger.leases;
             leases.request(number, from, Some(goal), now_s);
