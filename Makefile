@@ -137,8 +137,9 @@ clearance: .venv/installed ## Compare what controllers state of mined lanes with
 	$(BIN)/python scripts/clearance.py
 
 # Longer than the schedules of `make test`.
-verify-leases: ## Verify the leases of goals: 10,000 schedules of lost, late and repeated messages
+verify-leases: ## Verify the leases of goals: 10,000 schedules of lost, late and repeated messages, 2,000 of failures
 	SCHEDULES=10000 cargo test --release --locked -p agent-economy-economy --test room safety
+	RUNS=2000 cargo test --release --locked -p agent-economy-economy --test room survival -- --nocapture
 
 # Longer than the runs of `make test`.
 verify-goals: ## Verify that no goal is lost: 10,000 runs with changes, failures, cuts and refusals

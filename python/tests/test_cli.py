@@ -119,7 +119,7 @@ def test_check_prints_how_long_a_round_takes_and_when_lost_goals_are_offered_aga
     lines = succeed("check", "waypoints").stdout.splitlines()
     (line,) = [line for line in lines if line.startswith("    controllers.base: ")]
     assert "after an award, the next waits at most 0.60 s" in line
-    assert "goals of a lost controller have an owner or are reported" in line
+    assert "open goals have an owner or are reported" in line
 
 
 def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Path) -> None:

@@ -75,7 +75,7 @@ def test_a_goal_is_awarded_to_the_robot_that_bids() -> None:
     assert goal["assignee"] == ROVER
     assert goal["lease_s"] is not None
     assert goal["lease_s"] > 0
-    assert (goal["backup"], goal["owner_lease_s"], goal["unserved"]) == (None, None, None)
+    assert (goal["votes"], goal["owner_lease_s"], goal["unserved"]) == ([], None, None)
     assert (controller.lost, controller.refused) == ([], 0)
 
 

@@ -79,9 +79,9 @@ test("controllers that are added during a run are listed, and one is chosen", as
   await expect(controllers.nth(1)).toHaveAttribute("aria-pressed", "true");
   await expect(page.getByRole("heading", { name: "Goals of base/1" })).toBeVisible();
   await controllers.nth(1).click();
-  // The second controller can be the backup of the first once they have received each other.
+  // The others vote for the owner once they have received each other.
   await page.getByRole("button", { name: "Play" }).click();
-  await expect(page.getByText(/backup base\/[12]/).first()).toBeVisible();
+  await expect(page.getByText(/votes of base\/\d/).first()).toBeVisible();
   await page.getByRole("button", { name: "Pause" }).click();
   await expect(status(page)).toContainText("paused");
 });

@@ -60,7 +60,7 @@ pub use io::contract::{Award, Bid, ContractMessage, Fitness, Refusal, Report};
 pub use io::goal_id::{GoalId, GoalList, Issuer, issuer_of};
 pub use io::lease::{Claim, LeaseMessage, Renewal};
 pub use io::message::{About, CommitmentStatus, Message, OrderAction, Provenance};
-pub use io::ownership::{Assignment, OwnershipMessage, Seen};
+pub use io::ownership::{Assignment, Entrust, OwnershipMessage, Seen};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
 pub use io::reason::Reason;

@@ -1,6 +1,6 @@
 //! How soon goals have an owner again, and are offered again, after an agent is lost.
 
-use crate::controller::{CALLS_PER_STEP, REPEAT_S};
+use crate::controller::{CALLS_PER_STEP, CANDIDACY_S, REPEAT_S, RETRY_S, TURN_S};
 use crate::settings::Settings;
 use brain::wait_s;
 
@@ -11,8 +11,9 @@ impl Settings {
     /// failure, for a number of goals and steps and delays of these durations in seconds.
     ///
     /// ```text
-    ///   owner lease      until the backup owns the goal, or the owner reports it as lost; an agent
+    ///   owner lease      until no vote for a lost owner is left, and that reports the goal as lost; an agent
     ///                    that restarts grants nothing for that long
+    /// + candidacies      of several controllers: until a majority votes for one, or it reports that none does
     /// + service lease    until it can be awarded: a robot may still serve it
     /// + call period      until each goal has been called again
     /// + goals x step / calls per step
@@ -27,7 +28,17 @@ impl Settings {
         #[expect(clippy::cast_precision_loss, reason = "a few calls")]
         let calls_s = f64::from(goals) * step_s / CALLS_PER_STEP as f64;
         let drifted = 1.0 + 2.0 * self.max_drift;
-        let by_clock_s = wait_s(leases_s, self.max_drift) + (REPEAT_S + calls_s) * drifted;
+        let waits_s = self.candidacies_s() + REPEAT_S + calls_s;
+        let by_clock_s = wait_s(leases_s, self.max_drift) + waits_s * drifted;
         by_clock_s * drifted + 4.0 * (step_s + delay_s)
+    }
+
+    /// The longest time from the end of the last vote for an owner until the next one owns the goal, or has reported that
+    /// nobody does: each has its turn, one gives up, and another is a candidate. Nothing for a single controller.
+    fn candidacies_s(&self) -> f64 {
+        if self.members < 2 {
+            return 0.0;
+        }
+        f64::from(self.members) * TURN_S + 2.0 * CANDIDACY_S + RETRY_S
     }
 }

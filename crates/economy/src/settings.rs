@@ -16,7 +16,11 @@ pub struct Settings {
     /// Time for which a robot may serve a goal without renewal.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub service_lease_s: f64,
-    /// Time for which a controller owns a goal without renewal by its backup.
+    /// Number of controllers of the kind, whether they work or not: a majority of them votes for the owner of each goal. With 1,
+    /// each owns its goals alone.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub members: u32,
+    /// Time for which a controller votes for the owner of a goal without renewal.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
     /// Time from the first call for bids to the award; at least [`answer_s`](Self::answer_s).
@@ -57,8 +61,7 @@ impl Settings {
         (1.0 + self.max_drift) * (auction_s + trip_s)
     }
 
-    /// The shortest lease that a backup can grant: a shorter one could end before it is renewed, and
-    /// leave the goal without an owner.
+    /// The shortest ownership lease that counts as a vote: a shorter one could end before it is renewed.
     pub(crate) fn min_owner_lease_s(&self) -> f64 {
         self.owner_lease_s / 10.0
     }
@@ -69,6 +72,7 @@ impl Default for Settings {
         Self {
             allocation: Allocation::default(),
             service_lease_s: 20.0,
+            members: 1,
             owner_lease_s: 30.0,
             auction_s: 1.0,
             max_goals: 1000,

@@ -22,13 +22,13 @@ pub(crate) struct Controller {
     agent: Mutex<economy::Controller>,
 }
 
-/// A goal that it owns; `lease_s` is the remaining time of the robot's lease, `owner_lease_s` that of its own.
+/// A goal that it owns; `lease_s` is the remaining time of the robot's lease, `owner_lease_s` that of a majority of votes.
 #[derive(Serialize)]
 struct Owned {
     task: Task,
     assignee: Option<AgentId>,
     lease_s: Option<f64>,
-    backup: Option<AgentId>,
+    votes: Vec<AgentId>,
     owner_lease_s: Option<f64>,
     unserved: Option<Reason>,
 }
@@ -138,8 +138,8 @@ fn as_owned(goal: OwnedGoal) -> Owned {
         task: goal.task,
         assignee: goal.assignee.map(|(robot, _)| robot),
         lease_s: goal.assignee.map(|(_, lease_s)| lease_s),
-        backup: goal.backup.map(|(backup, _)| backup),
-        owner_lease_s: goal.backup.map(|(_, lease_s)| lease_s),
+        votes: goal.votes,
+        owner_lease_s: goal.owner_lease_s,
         unserved: goal.unserved,
     }
 }

@@ -132,9 +132,9 @@ fn dict_of<'py>(
         dict.set_item("assignee", assignee)?;
         dict.set_item("lease_s", owned.assignee.map(|(_, lease_s)| lease_s))?;
         dict.set_item("unserved", owned.unserved.as_ref().and_then(word))?;
-        let backup = owned.backup.map(|(id, _)| name_of(scenario, id));
-        dict.set_item("backup", backup)?;
-        dict.set_item("owner_lease_s", owned.backup.map(|(_, lease_s)| lease_s))?;
+        let votes = owned.votes.iter().map(|id| name_of(scenario, *id));
+        dict.set_item("votes", votes.collect::<Vec<_>>())?;
+        dict.set_item("owner_lease_s", owned.owner_lease_s)?;
         Ok(dict)
     });
     dict.set_item("goals", owned.collect::<PyResult<Vec<_>>>()?)?;

@@ -17,7 +17,7 @@ TOPIC = "/economy"
 
 Content = Mapping[str, Mapping[str, Any]]
 
-OF_OWNERS = ("assignee", "lease_s", "backup", "owner_lease_s", "unserved")
+OF_OWNERS = ("assignee", "lease_s", "owner_lease_s", "unserved")
 OF_CONTROLLERS = ("name", "x_m", "y_m", "range_m", "working", "refused")
 
 
@@ -73,6 +73,7 @@ def economy_of(simulation: Simulation) -> Content:
             "x_m": goals["x_m"].tolist(),
             "y_m": goals["y_m"].tolist(),
             "state": states,
+            "votes": [owner.get("votes", []) for owner in owners],
             **{key: [owner.get(key) for owner in owners] for key in ("owner", *OF_OWNERS)},
         },
         "controllers": {key: [each[key] for each in controllers] for key in OF_CONTROLLERS},
@@ -95,8 +96,8 @@ def state(goals: Mapping[str, Any], place: int, owner: Mapping[str, Any], *, is_
 def warnings(content: Content) -> dict[str, str]:
     """Return what an operator must know, by the name of a goal or controller.
 
-    They are the goals that controllers report because no robot can serve them, goals without an
-    owner because their heir did not renew the lease, and controllers that have failed.
+    They are the goals that controllers report because no robot can serve them, goals that nobody
+    owns because no majority votes for an owner, and controllers that have failed.
     """
     goals, controllers = content["goals"], content["controllers"]
     rows = zip(goals["name"], goals["state"], goals["unserved"], strict=True)

@@ -126,8 +126,8 @@ OWNED: dict[str, Schema] = {
     "owner": each("The controller that owns it, as far as that one knows.", TEXT_OR_NULL),
     "assignee": each("The robot that it is awarded to.", TEXT_OR_NULL),
     "lease_s": each("Remaining time of that robot's lease.", NUMBER_OR_NULL),
-    "backup": each("The controller that renews the owner's lease.", TEXT_OR_NULL),
-    "owner_lease_s": each("Remaining time of the owner's lease.", NUMBER_OR_NULL),
+    "votes": each("The controllers that vote for its owner.", {"type": "array", "items": STRING}),
+    "owner_lease_s": each("Remaining time for which a majority does.", NUMBER_OR_NULL),
     "unserved": each("Why no robot can serve it at present.", TEXT_OR_NULL),
 }
 

@@ -25,7 +25,9 @@ class ControllerSettings(TypedDict, total=False):
     Attributes:
         allocation: The rule by which it allocates its goals to robots; "auction" by default.
         service_lease_s: Time for which a robot may serve a goal without renewal; 20 by default.
-        owner_lease_s: Time for which it owns a goal without renewal by its backup; 30 by default.
+        members: Number of controllers of its kind, of which a majority has to vote for the owner of
+            each goal; 1 by default: it owns its goals alone.
+        owner_lease_s: Time for which it votes for an owner without renewal; 30 by default.
         auction_s: Time from the first call for bids to the award; 1 by default.
         answer_s: Longest time from an award until the robot's next bid has arrived, for which the
             next award waits; 0.5 by default. In a scenario, it follows from radios and brains.
@@ -35,6 +37,7 @@ class ControllerSettings(TypedDict, total=False):
 
     allocation: Literal["none", "nearest", "auction", "auction_last", "optimal"]
     service_lease_s: float
+    members: int
     owner_lease_s: float
     auction_s: float
     answer_s: float
@@ -49,16 +52,15 @@ class OwnedGoal(TypedDict):
         task: The goal.
         assignee: The robot that it is awarded to; None if there is none.
         lease_s: Remaining time of that robot's lease; None without a robot.
-        backup: The controller that renews the owner's lease, and takes the goal over when that
-            ends; None if there is none: the controller then owns the goal without a lease.
-        owner_lease_s: Remaining time of the owner's lease; None without a backup.
+        votes: The controllers that vote for it as the owner.
+        owner_lease_s: Remaining time for which a majority does; None if it owns the goal alone.
         unserved: Why no robot can serve it at present; None if one can.
     """
 
     task: Task
     assignee: AgentId | None
     lease_s: float | None
-    backup: AgentId | None
+    votes: list[AgentId]
     owner_lease_s: float | None
     unserved: Reason | None
 
@@ -130,7 +132,7 @@ class Controller:
 
     @property
     def lost(self) -> list[Task]:
-        """The goals that it owned until its lease ended, because the backup did not renew it."""
+        """The goals that nobody owns, as it has reported: no majority votes for it."""
         return cast("list[Task]", self._controller.lost())
 
     @property

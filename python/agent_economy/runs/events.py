@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from agent_economy.runs.simulation import STATUSES
 
 BROKEN, FAILED_ACT = "broken", ", failed"
-OWNERSHIP_LOST = "lost: its owner's lease has ended"
+OWNERSHIP_LOST = "lost: no majority of controllers votes for an owner"
 
 
 class Event(NamedTuple):
@@ -82,6 +82,11 @@ def sent(of: str, value: Any) -> Words:
     return "sent", of, f"{about}{of_goal} to {receiver or 'all'}", of
 
 
+def unserved(reason: str) -> str:
+    """Return that a goal is not served, and why."""
+    return OWNERSHIP_LOST if reason == "ownership_lost" else f"no robot can serve it: {reason}"
+
+
 WORDS: dict[str, Callable[[str, Any], Words]] = {
     "detected": detected,
     "served": lambda of, robot: ("served", of, f"served by {robot}", robot),
@@ -92,7 +97,7 @@ WORDS: dict[str, Callable[[str, Any], Words]] = {
     "status": status,
     "issued": lambda of, _: ("issued", of, "issued", ""),
     "expired": lambda of, _: ("failed", of, "expired", ""),
-    "unserved": lambda of, reason: ("failed", of, f"no robot can serve it: {reason}", ""),
+    "unserved": lambda of, reason: ("failed", of, unserved(reason), ""),
     "awarded": awarded,
     "lost": lambda of, by: ("failed", of, OWNERSHIP_LOST, by),
     "failed": lambda of, _: ("failed", of, "has failed", of),

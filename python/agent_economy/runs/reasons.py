@@ -9,7 +9,7 @@ REASONS = {
     "lease": "the service takes longer than a lease",
     "out_of_service": "the robots are out of service",
     "no_robot": "no robot is in range",
-    "ownership_lost": "its owner has lost it, because the backup did not renew the lease",
+    "ownership_lost": "no majority of controllers votes for an owner",
     "no_controller": "no controller works that could own it",
     "position": "no robot knows its position well enough",
     "done_in_error": "a robot reported that it served it, which it had not",

@@ -309,6 +309,18 @@ class Seen(TypedDict):
     at_m: Sequence[float]
 
 
+class Entrust(TypedDict):
+    """A request to vote for the sender as the owner of a goal.
+
+    Attributes:
+        number: The number of the request.
+        task: The description of the goal.
+    """
+
+    number: int
+    task: Task
+
+
 class Assignment(TypedDict):
     """A robot that has been awarded a goal.
 
@@ -321,21 +333,24 @@ class Assignment(TypedDict):
     robot: AgentId
 
 
+class OwnershipMessagePresent(TypedDict):
+    """From a controller to all: it is present."""
+
+
 class OwnershipMessage(TypedDict, total=False):
     """A message between controllers.
 
     It has one of these keys.
     """
 
-    serial: int
+    present: OwnershipMessagePresent
     seen: Seen
-    entrust: Task
+    entrust: Entrust
     entrusted: Award
-    bind: Award
     assigned: Assignment
-    relieve: Claim
-    relieved: Claim
-    restore: Task
+    release: Claim
+    ended: GoalId
+    noted: GoalId
 
 
 class Lane(TypedDict):

@@ -13,38 +13,45 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum OwnershipMessage {
-    /// From a controller to all: it is present, and has this serial number.
-    Serial(u32),
+    /// From a controller to all: it is present.
+    Present {},
     /// From a controller to others: the position of a robot that they may not see.
     Seen(Seen),
-    /// From an owner to another controller: it is to be the backup of a goal.
-    Entrust(Task),
-    /// The answer to it, and to a binding: it is ready to be the backup, and grants ownership leases of this
-    /// duration.
+    /// From the owner of a goal, or a candidate, to others of its kind: a request to vote for it, and to keep the description
+    /// of the goal.
+    Entrust(Entrust),
+    /// The answer to it: a vote, which is an ownership lease of this duration from sending the request.
     Entrusted(Award),
-    /// From an owner to its backup: from now on, it owns the goal only while the backup renews its lease.
-    /// The number is that of the answer to which it refers, the duration that of its longest service
-    /// lease.
-    Bind(Award),
-    /// From an owner to its backup: a robot that has been awarded a goal. Of a goal that was taken over, only such
+    /// From an owner to its voters: a robot that has been awarded a goal. Of a goal that was taken over, only such
     /// a robot can report that it is done.
     Assigned(Assignment),
-    /// From an owner to its backup: a request to be the backup no longer.
-    Relieve(Claim),
-    /// The answer to it: it is no longer the backup.
-    Relieved(Claim),
-    /// From a backup that has taken a goal over to the previous owner: it can have it back.
-    Restore(Task),
+    /// From a controller to its voters: it neither owns the goal any more nor is a candidate. The number is that of the request
+    /// by which the lease was granted.
+    Release(Claim),
+    /// From a controller to others of its kind: the goal has been served, or is not to be served any more.
+    Ended(GoalId),
+    /// The answer to it.
+    Noted(GoalId),
 }
 
 impl OwnershipMessage {
     pub(super) fn urgency(&self) -> u8 {
         match self {
-            Self::Entrust(_) | Self::Serial(_) => 2,
+            Self::Entrust(_) | Self::Present {} => 2,
             Self::Seen(_) => 3,
             _ => 1,
         }
     }
+}
+
+/// A request to vote for the sender as the owner of a goal.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
+#[serde(deny_unknown_fields)]
+pub struct Entrust {
+    /// The number of the request.
+    pub number: u32,
+    /// The description of the goal.
+    pub task: Task,
 }
 
 /// A robot that has been awarded a goal.

@@ -24,7 +24,7 @@ pub enum Reason {
     OutOfService,
     /// No robot is in range.
     NoRobot,
-    /// Its owner has lost it: the backup did not renew the ownership lease.
+    /// No majority of controllers votes for an owner.
     OwnershipLost,
     /// No controller that could own it works.
     NoController,

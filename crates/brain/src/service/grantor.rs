@@ -79,6 +79,22 @@ impl Grantor {
         true
     }
 
+    /// Grants a goal that the same agent may hold already: from now on, the lease has the number of this request, so that a
+    /// release that it sent before has no effect. A request from before the one that was granted grants nothing.
+    pub fn grant_again(&mut self, holder: AgentId, claim: Claim, wait_s: f64, now_s: f64) -> bool {
+        let mut grants = self.grants.iter_mut();
+        let own = grants.find(|grant| grant.goal == claim.goal && grant.is_renewed_by(holder));
+        let Some(grant) = own else {
+            return self.grant(holder, claim, wait_s, now_s);
+        };
+        let is_older = claim.number.wrapping_sub(grant.number) > u32::MAX / 2;
+        if !is_older {
+            (grant.number, grant.wait_s) = (claim.number, grant.wait_s.max(wait_s));
+            grant.extend(now_s);
+        }
+        !is_older
+    }
+
     /// Renews one lease; returns whether the sender holds it.
     pub fn renew_one(&mut self, from: AgentId, claim: Claim, now_s: f64) -> bool {
         let mut grants = self.grants.iter_mut();
@@ -195,6 +211,17 @@ mod tests {
             assert!(grantor.renew_one(HOLDER, claim(number), 1.0));
         }
         assert!(grantor.release(HOLDER, claim(5)).is_some());
+    }
+
+    #[test]
+    fn a_request_that_is_granted_again_voids_the_release_of_the_one_before_it() {
+        let mut grantor = grantor();
+        assert!(grantor.grant_again(HOLDER, claim(6), 10.0, 4.0));
+        assert!(!grantor.grant_again(HOLDER, claim(5), 10.0, 5.0));
+        assert!(!grantor.grant_again(OTHER, claim(7), 10.0, 5.0));
+        assert!(grantor.release(HOLDER, claim(5)).is_none());
+        assert_eq!(grantor.expire(13.9).len(), 0);
+        assert!(grantor.release(HOLDER, claim(6)).is_some());
     }
 
     #[test]

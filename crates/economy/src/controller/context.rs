@@ -1,5 +1,6 @@
 //! What the parts of a controller share: its clock, its outbox, and what it knows of goals, robots and peers.
 
+use super::handover::Role;
 use super::ledger::Ledger;
 use super::ledger::owned::Owned;
 use super::peers::Peers;
@@ -20,6 +21,8 @@ const NO_BID: u32 = 0;
 pub(super) struct Context {
     #[hashed(skip)]
     pub(super) settings: Arc<Settings>,
+    /// The longest service lease that awards had under earlier settings.
+    longest_wait_s: f64,
     pub(super) own: AgentId,
     /// Its clock, and the time since the last step.
     pub(super) now_s: f64,
@@ -40,6 +43,7 @@ impl Context {
     pub(super) fn new(settings: Arc<Settings>) -> Self {
         Self {
             settings,
+            longest_wait_s: 0.0,
             own: AgentId::default(),
             now_s: f64::NEG_INFINITY,
             step_s: 0.0,
@@ -58,6 +62,44 @@ impl Context {
             silent_until_s: None,
             ..Self::new(settings)
         }
+    }
+
+    /// Takes other settings. With more members, a majority has to vote for it as the owner of each goal again.
+    pub(super) fn set(&mut self, settings: Arc<Settings>) {
+        self.longest_wait_s = self.takeover_wait_s();
+        self.settings = settings;
+        self.count_votes();
+        let (now_s, wait_s) = (self.now_s, self.longest_wait_s);
+        for owned in &mut self.ledger.goals {
+            if owned.role == Role::Owner && !owned.is_held(now_s) {
+                owned.role = Role::Candidate {
+                    since_s: now_s,
+                    wait_s,
+                };
+            }
+        }
+    }
+
+    /// Notes until when it owns its goals.
+    pub(super) fn count_votes(&mut self) {
+        let needed = self.votes_needed();
+        self.ledger.count_votes(needed);
+    }
+
+    /// The same for one goal.
+    pub(super) fn count_votes_for(&mut self, goal: GoalId) {
+        let needed = self.votes_needed();
+        self.ledger.count_votes_for(goal, needed);
+    }
+
+    /// Forgets controllers that a person has removed: their votes do not count any more.
+    pub(super) fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
+        self.peers.list.retain(|peer| !is_removed(peer.id));
+        self.ledger.voters.retain(|voter| !is_removed(voter.id));
+        for owned in &mut self.ledger.goals {
+            owned.votes.retain(|vote| !is_removed(vote.voter));
+        }
+        self.count_votes();
     }
 
     /// Begins a step; returns whether its percept is not older than the last one.
@@ -99,6 +141,7 @@ impl Context {
             return Err(Reason::Full);
         }
         self.ledger.goals.push(Owned::new(task, self.now_s, wait_s));
+        self.count_votes_for(task.id);
         Ok(())
     }
 
@@ -126,26 +169,42 @@ impl Context {
         }
     }
 
-    /// Reports to the backup of a goal which robots can report that it is done: when it becomes the backup, at each
-    /// award, and again at its commitment, as messages may be lost.
+    /// Reports to the voters for a goal which robots can report that it is done: at each vote, at each award, and again at its
+    /// commitment, as messages may be lost.
     pub(super) fn report_assignees(&mut self, goal: GoalId) {
-        let owned = self.ledger.get(goal);
-        let Some((backup, owned)) = owned.and_then(|owned| Some((owned.handover.bound()?, owned)))
-        else {
-            return;
-        };
-        for robot in owned.assignees.clone() {
-            self.send(
-                backup,
-                OwnershipMessage::Assigned(Assignment { goal, robot }),
-            );
+        let assignees = self.ledger.get(goal).map(|owned| owned.assignees.clone());
+        let voters: Vec<AgentId> = self
+            .ledger
+            .votes_for(goal)
+            .map(|(voter, _)| voter)
+            .collect();
+        for robot in assignees.into_iter().flatten() {
+            for voter in &voters {
+                let assignment = Assignment { goal, robot };
+                self.send(*voter, OwnershipMessage::Assigned(assignment));
+            }
         }
+    }
+
+    /// Whether another controller has a vote for the owners of its goals.
+    pub(super) fn is_member(&self, other: AgentId) -> bool {
+        self.votes_needed() > 0 && other.kind == self.own.kind
+    }
+
+    /// Number of votes of other controllers with which it owns a goal.
+    pub(super) fn votes_needed(&self) -> usize {
+        self.settings.members as usize / 2
     }
 
     /// The time for which the next award of a goal waits, by the durations that messages have.
     pub(super) fn service_wait_s(&self) -> f64 {
         let lease_s = short(self.settings.service_lease_s);
         wait_s(lease_s.into(), self.settings.max_drift)
+    }
+
+    /// How long the leases of the robots of other controllers can last: a change of the scenario may have made them shorter.
+    pub(super) fn takeover_wait_s(&self) -> f64 {
+        self.service_wait_s().max(self.longest_wait_s)
     }
 
     pub(super) fn owner_wait_s(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! A controller: it owns goals, and awards them to robots.
 //!
 //! * [`context`]: what its parts share: clock, outbox, the [`ledger`] of its goals, the [`robots`] and [`peers`] in range;
-//! * [`presence`]: it reports to peers that it is in range;
+//! * [`presence`]: it reports to other controllers that it is in range;
 //! * [`contracts`]: goals are offered to robots, and awarded;
 //! * [`ownership`]: goals are handed over between controllers, by the [`handover`] protocol;
 //! * [`missions`]: missions for which it plans goals itself.
@@ -17,6 +17,7 @@ mod presence;
 mod robots;
 
 pub(crate) use contracts::{CALLS_PER_STEP, REPEAT_S};
+pub(crate) use handover::{CANDIDACY_S, RETRY_S, TURN_S};
 pub use missions::lane::LaneConclusion;
 pub use ownership::RENEWAL_RETRY_S;
 
@@ -24,6 +25,7 @@ use crate::clearance::{LanePicture, LaneStatement};
 use crate::passage::PlannedPassage;
 use crate::settings::Settings;
 use alloc::sync::Arc;
+use alloc::vec::Vec;
 use base::geometry::Point;
 use base::hashed::Hashed;
 use brain::{
@@ -32,7 +34,6 @@ use brain::{
 };
 use context::Context;
 use contracts::Contracts;
-use handover::Handover;
 use missions::lane::LaneMission;
 use ownership::Ownership;
 use presence::Presence;
@@ -48,16 +49,16 @@ pub struct Controller {
 }
 
 /// A goal that a controller owns.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OwnedGoal {
     /// The goal.
     pub task: Task,
     /// The robot that serves it, and the remaining time of its lease in seconds; `None` if there is none.
     pub assignee: Option<(AgentId, f64)>,
-    /// The controller that renews the lease of the owner and takes the goal over when it ends, and the remaining time
-    /// of that lease in seconds; `None` if there is none: the controller then owns the goal without a
-    /// lease.
-    pub backup: Option<(AgentId, f64)>,
+    /// The controllers that vote for it as the owner.
+    pub votes: Vec<AgentId>,
+    /// The remaining time in seconds for which a majority does; `None` if it owns the goal alone.
+    pub owner_lease_s: Option<f64>,
     /// Why no robot can serve it at present, if that is so.
     pub unserved: Option<Reason>,
 }
@@ -85,29 +86,28 @@ impl Controller {
         }
     }
 
-    /// The controller with the settings of another one, and its own memory.
+    /// The controller with the settings of another one, and its own memory. If controllers of its kind own goals alone from now
+    /// on, it forgets those that it does not own.
     #[must_use]
     pub fn with_settings_of(&self, other: &Self) -> Self {
         let settings = &other.context.settings;
         let is_same_lane = self.context.settings.clearance == settings.clearance;
         let mut changed = self.clone();
-        changed.context.settings = settings.clone();
+        let had_members = changed.context.votes_needed() > 0;
+        changed.context.set(settings.clone());
+        if had_members && changed.context.votes_needed() == 0 {
+            let (context, contracts) = (&mut changed.context, &mut changed.contracts);
+            changed.ownership.own_alone(context, contracts);
+        }
         if !is_same_lane {
             changed.lane = LaneMission::new(settings.clearance.as_ref());
         }
         changed
     }
 
-    /// Forgets peers that a person has removed: they take over no goal any more.
+    /// Forgets controllers that a person has removed: they own no goal, and their votes do not count.
     pub fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
-        self.context.peers.list.retain(|peer| !is_removed(peer.id));
-        let ledger = &mut self.context.ledger;
-        for owned in &mut ledger.goals {
-            if owned.handover.bound().is_some_and(&is_removed) {
-                ledger.leases.release(owned.task.id);
-                owned.handover = Handover::Alone;
-            }
-        }
+        self.context.forget_peers(is_removed);
     }
 
     /// The command for a percept, of which it uses time, id, position, neighbours and inbox.
@@ -120,16 +120,17 @@ impl Controller {
             return;
         }
         self.contracts.expire(&mut self.context);
-        self.ownership
-            .expire(&mut self.context, &mut self.contracts);
+        self.ownership.expire(&mut self.context);
         for received in &percept.inbox {
             self.receive(received);
         }
         self.presence.step(&mut self.context, percept);
         let act = self.lane.step(&mut self.context, &mut self.contracts);
         command.acts.extend(act);
+        self.ownership
+            .settle(&mut self.context, &mut self.contracts);
         self.contracts.step(&mut self.context);
-        self.ownership.step(&mut self.context, &self.contracts);
+        self.ownership.step(&mut self.context);
         self.context.send_reports();
         let outbox = &mut self.context.outbox;
         outbox.sort_by_key(Message::urgency);
@@ -177,8 +178,8 @@ impl Controller {
     fn receive_of_peer(&mut self, from: AgentId, message: &Message) {
         let context = &mut self.context;
         match message.about {
-            About::Ownership(OwnershipMessage::Serial(serial)) => {
-                context.peers.note(from, serial, context.now_s);
+            About::Ownership(OwnershipMessage::Present {}) => {
+                context.peers.note(from, context.now_s);
             }
             About::Ownership(OwnershipMessage::Seen(seen)) => {
                 let at = Point::from(seen.at_m.map(f64::from));
@@ -187,11 +188,13 @@ impl Controller {
                     .robots
                     .see(seen.robot, at, message.confidence, now_s);
             }
-            About::Ownership(about) => {
+            About::Ownership(about) if context.is_member(from) => {
                 self.ownership
                     .receive(context, &mut self.contracts, from, about);
             }
-            About::Lease(about) => self.ownership.renew(context, from, about),
+            About::Lease(about) if context.is_member(from) => {
+                self.ownership.renew(context, from, about);
+            }
             About::Lane(LaneMessage::Gain(gain)) => context.peers.note_lane_gain(from, gain.into()),
             _ => {}
         }
@@ -200,14 +203,18 @@ impl Controller {
     /// The goals that it owns and that are not done, in the order in which it received them.
     pub fn goals(&self) -> impl Iterator<Item = OwnedGoal> {
         let (ledger, now_s) = (&self.context.ledger, self.context.now_s);
-        let open = ledger.goals.iter().filter(|owned| !owned.is_done);
+        let open = ledger
+            .goals
+            .iter()
+            .filter(move |owned| owned.is_held(now_s));
         open.map(move |owned| OwnedGoal {
             task: owned.task,
             assignee: self.contracts.assignee(owned.task.id, now_s),
-            backup: owned.handover.bound().map(|backup| {
-                let lease = ledger.leases.lease(owned.task.id);
-                (backup, lease.map_or(0.0, |lease| lease.until_s - now_s))
-            }),
+            votes: ledger
+                .votes_for(owned.task.id)
+                .map(|(voter, _)| voter)
+                .collect(),
+            owner_lease_s: Some(owned.held_until_s - now_s).filter(|lease_s| lease_s.is_finite()),
             unserved: owned.unserved(now_s),
         })
     }
@@ -219,9 +226,11 @@ impl Controller {
         done.map(|owned| owned.task.id)
     }
 
-    /// The goals that it owned until their lease ended, because the backup did not renew it.
+    /// The goals for which it has reported that it does not own them, as no majority votes for it, and of which it knows no
+    /// other owner.
     pub fn lost(&self) -> impl Iterator<Item = Task> {
-        self.ownership.lost()
+        let candidates = self.context.ledger.lost();
+        self.ownership.lost().chain(candidates)
     }
 
     /// Whether it owns a goal at a time on its clock, which is not before its last step.
@@ -230,7 +239,7 @@ impl Controller {
         self.context.ledger.owns_at(goal, time_s)
     }
 
-    /// Whether it owns a goal that is not done, is the backup to which its owner is bound, has lost it, or reports it to the
+    /// Whether it owns a goal that is not done, is a candidate for it, keeps its description as a voter, or reports it to the
     /// operator.
     #[must_use]
     pub fn knows(&self, goal: GoalId) -> bool {

@@ -17,7 +17,6 @@ pub(super) struct Peers {
 #[derive(Debug, Clone, Copy, Hashed)]
 pub(super) struct Peer {
     pub(super) id: AgentId,
-    serial: u32,
     received_s: f64,
     /// The expected number of mines of a lane that its goals may still find or destroy, once it has reported it.
     lane_gain: LaneGain,
@@ -37,12 +36,11 @@ impl Hashed for LaneGain {
 }
 
 impl Peers {
-    pub(super) fn note(&mut self, id: AgentId, serial: u32, now_s: f64) {
+    pub(super) fn note(&mut self, id: AgentId, now_s: f64) {
         let known = self.list.iter().position(|peer| peer.id == id);
         let known = known.map(|index| self.list.remove(index));
         self.list.push(Peer {
             id,
-            serial,
             received_s: now_s,
             lane_gain: known.map(|peer| peer.lane_gain).unwrap_or_default(),
         });
@@ -56,8 +54,8 @@ impl Peers {
         }
     }
 
-    /// Those that share a lane with a controller: they are of the same kind.
-    pub(super) fn on_lane_of(&self, own: AgentId) -> impl Iterator<Item = AgentId> {
+    /// Those of the same kind: they vote for each other, and share a lane.
+    pub(super) fn members_of(&self, own: AgentId) -> impl Iterator<Item = AgentId> {
         let same = self
             .list
             .iter()
@@ -77,21 +75,10 @@ impl Peers {
         self.list.retain(is_near);
     }
 
-    pub(super) fn is_near(&self, id: AgentId) -> bool {
-        self.list.iter().any(|peer| peer.id == id)
-    }
-
-    /// The one with the highest serial number.
-    pub(super) fn highest(&self) -> Option<AgentId> {
-        let all = self.list.iter();
-        let highest = all.max_by_key(|peer| (peer.serial, peer.id));
-        highest.map(|peer| peer.id)
-    }
-
     /// The turn of a controller among those in range that share a lane, and the number of turns.
     pub(super) fn turn(&self, own: AgentId) -> (u32, u32) {
         let (before, after): (Vec<AgentId>, Vec<AgentId>) =
-            self.on_lane_of(own).partition(|id| *id < own);
+            self.members_of(own).partition(|id| *id < own);
         let count = |ids: &[AgentId]| u32::try_from(ids.len()).unwrap_or(u32::MAX);
         let turn = count(&before);
         (turn, turn.saturating_add(count(&after)).saturating_add(1))

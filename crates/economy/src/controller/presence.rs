@@ -43,8 +43,7 @@ fn sense(context: &mut Context, percept: &Percept) {
 /// Reports its presence to all, and to its peers the positions of the robots that it sees.
 #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
 fn report(context: &mut Context, percept: &Percept) {
-    let serial = serial(context.own);
-    context.send(Receiver::All, OwnershipMessage::Serial(serial));
+    context.send(Receiver::All, OwnershipMessage::Present {});
     let peers: Vec<AgentId> = context.peers.list.iter().map(|peer| peer.id).collect();
     for (robot, at) in seen(percept).take(MAX_SEEN) {
         let at_m = [at.x as f32, at.y as f32];
@@ -52,11 +51,6 @@ fn report(context: &mut Context, percept: &Percept) {
             context.send(*peer, OwnershipMessage::Seen(Seen { robot, at_m }));
         }
     }
-}
-
-/// The serial number of a controller: that of its kind, then that within the kind.
-fn serial(id: AgentId) -> u32 {
-    u32::from(id.kind) << 24 | id.index & 0x00ff_ffff
 }
 
 /// The robots that its sensors detect, and their positions in the world.

@@ -1,7 +1,7 @@
 //! The effect of each message of robots on a controller.
 
 use crate::hand::{
-    Agent, BACKUP, Hand, OTHER, OWNER, ROBOT, TASK, assignee_of, award, awarder, bid_of, claim,
+    Agent, Hand, MEMBER, OTHER, OWNER, ROBOT, TASK, assignee_of, award, awarder, bid_of, claim,
     controller, now, owner, refusal, sent_any,
 };
 use crate::team::goal_id;
@@ -14,7 +14,7 @@ use economy::{Controller, Settings};
 
 #[test]
 fn issue_of_the_operator_alone_makes_a_controller_own_a_goal_and_call_for_bids() {
-    for (from, count) in [(AgentId::OPERATOR, 1), (ROBOT, 0), (BACKUP, 0)] {
+    for (from, count) in [(AgentId::OPERATOR, 1), (ROBOT, 0), (MEMBER, 0)] {
         let mut owner = controller(OWNER);
         let sent = owner.take(from, About::Contract(ContractMessage::Issue(TASK)));
         assert_eq!(owner.agent.goals().count(), count);
@@ -234,7 +234,7 @@ fn a_report_or_a_sighting_of_another_controller_makes_a_robot_known() {
         robot: ROBOT,
         at_m: [-50.0, 0.0],
     };
-    owner.take(BACKUP, About::Ownership(OwnershipMessage::Seen(far)));
+    owner.take(MEMBER, About::Ownership(OwnershipMessage::Seen(far)));
     let sent = owner.wait(15.0);
     let alone = sent.iter().find(|(to, sent)| {
         *to != Receiver::All && matches!(sent, About::Contract(ContractMessage::Call { .. }))

@@ -3,8 +3,8 @@
 use crate::team::{STEP_S, brain, goal_id, robot_id, station_id};
 use base::geometry::Point;
 use brain::{
-    About, AgentId, Award, Bid, Brain, Claim, Command, ContractMessage, GoalId, Message, Percept,
-    Reading, Reason, ReceivedMessage, Receiver, Refusal, Task,
+    About, AgentId, Award, Bid, Brain, Claim, Command, ContractMessage, GoalId, Message,
+    OwnershipMessage, Percept, Reading, Reason, ReceivedMessage, Receiver, Refusal, Task,
 };
 use economy::{Controller, Settings};
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub(crate) const ROBOT: AgentId = robot_id(0);
 pub(crate) const OTHER: AgentId = robot_id(1);
 pub(crate) const OWNER: AgentId = station_id(0);
-pub(crate) const BACKUP: AgentId = station_id(1);
+pub(crate) const MEMBER: AgentId = station_id(1);
 
 /// An agent that is stepped by hand.
 pub(crate) struct Hand<A> {
@@ -107,9 +107,16 @@ pub(crate) const fn now<T>(value: T) -> Option<Reading<T>> {
     Some(Reading { value, age_s: 0.0 })
 }
 
+/// A controller that owns its goals alone.
 pub(crate) fn controller(id: AgentId) -> Hand<Controller> {
+    member(id, 1)
+}
+
+/// A controller of a kind with a number of them.
+pub(crate) fn member(id: AgentId, members: u32) -> Hand<Controller> {
     let settings = Settings {
         max_drift: 0.0,
+        members,
         ..Settings::default()
     };
     Hand {
@@ -118,6 +125,32 @@ pub(crate) fn controller(id: AgentId) -> Hand<Controller> {
         now_s: 0.0,
         reported: Vec::new(),
     }
+}
+
+/// A candidate to which the goal was issued, and the number of its request for the vote of a member.
+pub(crate) fn voted(members: u32, voter: AgentId) -> (Hand<Controller>, u32) {
+    let mut candidate = member(OWNER, members);
+    let issue = About::Contract(ContractMessage::Issue(TASK));
+    candidate.take(AgentId::OPERATOR, issue);
+    let sent = candidate.take(voter, About::Ownership(OwnershipMessage::Present {}));
+    let number = sent.iter().find_map(|(_, sent)| match sent {
+        About::Ownership(OwnershipMessage::Entrust(request)) => Some(request.number),
+        _ => None,
+    });
+    (candidate, number.unwrap())
+}
+
+/// One of three controllers, which owns the goal by the vote of a member.
+pub(crate) fn owner_of_three() -> Hand<Controller> {
+    let (mut owner, number) = voted(3, MEMBER);
+    let vote = Award {
+        goal: goal_id(0),
+        number,
+        lease_s: 30.0,
+    };
+    owner.take(MEMBER, About::Ownership(OwnershipMessage::Entrusted(vote)));
+    assert_eq!(owner.agent.goals().count(), 1);
+    owner
 }
 
 /// A robot that has received the call of a goal 10 m away.

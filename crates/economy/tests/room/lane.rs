@@ -150,7 +150,7 @@ fn two_controllers_in_range_plan_different_tiles_and_one_that_is_lost_is_replace
             let other = AgentId::controller(1, 1 - index);
             station.step(&[
                 report(),
-                (other, About::Ownership(OwnershipMessage::Serial(index))),
+                (other, About::Ownership(OwnershipMessage::Present {})),
             ]);
         }
     }
@@ -167,7 +167,7 @@ fn a_controller_of_another_kind_shares_no_lane() {
     let mut station = Station::new(0);
     let other = AgentId::controller(2, 0);
     for _ in 0..700 {
-        station.step(&[(other, About::Ownership(OwnershipMessage::Serial(7)))]);
+        station.step(&[(other, About::Ownership(OwnershipMessage::Present {}))]);
     }
     // Without robots in range, it gives the lane up although the other one reports nothing about it.
     assert!(station.controller.lane_statement().is_some());
@@ -175,7 +175,7 @@ fn a_controller_of_another_kind_shares_no_lane() {
     for _ in 0..40 {
         station.step(&[
             report(),
-            (other, About::Ownership(OwnershipMessage::Serial(7))),
+            (other, About::Ownership(OwnershipMessage::Present {})),
         ]);
     }
     assert_eq!(station.goals(), [5.0, 15.0, 25.0]);
@@ -186,7 +186,7 @@ fn gives_up(gain: Option<f32>) -> bool {
     let mut station = Station::new(0);
     let other = AgentId::controller(1, 1);
     for _ in 0..1200 {
-        let mut inbox = vec![(other, About::Ownership(OwnershipMessage::Serial(1)))];
+        let mut inbox = vec![(other, About::Ownership(OwnershipMessage::Present {}))];
         inbox.extend(gain.map(|gain| (other, About::Lane(LaneMessage::Gain(gain)))));
         station.step(&inbox);
     }
@@ -210,7 +210,7 @@ fn controllers_report_what_their_goals_may_find_to_each_other_only() {
     for _ in 0..200 {
         let sent = station.step(&[
             report(),
-            (other, About::Ownership(OwnershipMessage::Serial(1))),
+            (other, About::Ownership(OwnershipMessage::Present {})),
         ]);
         gains.extend(sent.into_iter().filter_map(|sent| match sent {
             About::Lane(LaneMessage::Gain(gain)) => Some(gain),

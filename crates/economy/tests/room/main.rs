@@ -14,5 +14,6 @@ mod network;
 mod quality;
 mod robots;
 mod safety;
+mod survival;
 mod sweep;
 mod team;

@@ -2,7 +2,7 @@
 
 use crate::network::Weather;
 use crate::team::{Team, brain, goal_id, task};
-use brain::Task;
+use brain::{About, ContractMessage, Message, Reason, Task};
 use economy::{Allocation, Settings};
 
 fn settings() -> Settings {
@@ -79,63 +79,82 @@ fn a_robot_that_is_lost_loses_its_goals_to_the_others() {
 }
 
 #[test]
-fn the_backup_serves_the_goals_of_a_controller_that_is_lost() {
-    let mut team = Team::new([3, 2], &settings(), Weather::default(), 3);
-    team.issue_random(12, 100.0);
-    team.run(12.0);
-    team.crash_station(0);
-    team.run(1.1 * (30.0 + 20.0) + 2.0);
-    let known = |team: &Team| {
-        let backup = team.controller(1);
-        let owned = backup.goals().map(|goal| goal.task.id).chain(backup.done());
-        let own = owned.filter(|goal| goal.number % 2 == 0);
-        own.count()
-    };
-    assert_eq!(known(&team), 6);
-    // The lost controller was the backup of the others: they lose their owner, unless they are done.
-    team.reissue_lost(1);
-    team.run_until_done(12, 600.0);
-    assert_eq!(team.done(), 12);
+fn the_loss_of_any_minority_of_controllers_loses_no_goal() {
+    for (stations, lost) in [
+        (3, vec![0]),
+        (3, vec![2]),
+        (4, vec![1]),
+        (5, vec![0, 4]),
+        (5, vec![1, 3]),
+    ] {
+        let mut team = Team::new([3, stations], &settings(), Weather::default(), 3);
+        team.issue_random(12, 100.0);
+        team.run(12.0);
+        for station in &lost {
+            team.crash_station(*station);
+        }
+        team.run_until_done(12, 900.0);
+        assert_eq!(team.done(), 12, "{stations} {lost:?}");
+        let is_lost = |message: &Message| {
+            matches!(message.about, About::Contract(ContractMessage::Stuck(report))
+                if report.reason == Reason::OwnershipLost)
+        };
+        assert!(!team.to_operator.iter().any(is_lost), "{stations} {lost:?}");
+    }
 }
 
 #[test]
-fn a_goal_whose_backup_is_lost_loses_its_owner_and_can_be_issued_again() {
-    let mut team = Team::new([1, 2], &settings(), Weather::default(), 3);
-    let far = Task {
-        capability: 9,
-        ..task(0, [50.0, 50.0])
-    };
-    team.issue(0, far);
-    team.run(20.0);
-    assert!(team.controller(0).goals().next().unwrap().backup.is_some());
-    team.crash_station(1);
-    team.run(40.0);
-    let lost = team.controller(0).lost().map(|task| task.id);
-    assert!(lost.eq([goal_id(0)]));
-    assert_eq!(team.controller(0).goals().count(), 0);
-    team.issue(0, far);
-    team.run(1.0);
-    assert_eq!(team.controller(0).goals().count(), 1);
-    assert_eq!(team.controller(0).lost().count(), 0);
+fn the_working_controller_with_the_highest_serial_number_takes_over() {
+    for (lost, next) in [(0, 2), (1, 2), (2, 1)] {
+        let mut team = Team::new([1, 3], &settings(), Weather::default(), 3);
+        let far = task(0, [1e6, 0.0]);
+        team.issue(lost, far);
+        team.run(10.0);
+        team.crash_station(lost);
+        team.run(60.0);
+        let owners = (0..3).filter(|it| *it != lost && team.controller(*it).goals().count() == 1);
+        assert!(owners.eq([next]), "{lost}");
+    }
 }
 
 #[test]
-fn a_backup_returns_the_goals_of_a_controller_that_is_in_range_again() {
-    let mut team = Team::new([1, 2], &settings(), Weather::default(), 3);
-    let impossible = Task {
-        capability: 9,
-        ..task(0, [50.0, 50.0])
-    };
-    team.issue(0, impossible);
+fn without_a_majority_nobody_owns_a_goal_and_that_is_reported() {
+    for (stations, lost, survivor) in [(2, vec![1], 0), (2, vec![0], 1), (3, vec![0, 1], 2)] {
+        let mut team = Team::new([1, stations], &settings(), Weather::default(), 3);
+        team.issue(0, task(0, [1e6, 0.0]));
+        team.run(20.0);
+        for station in lost {
+            team.crash_station(station);
+        }
+        team.run(60.0);
+        let controller = team.controller(survivor);
+        assert_eq!(controller.goals().count(), 0);
+        let lost = controller.lost().map(|task| task.id);
+        assert!(lost.eq([goal_id(0)]));
+        assert!(!team.to_operator.is_empty());
+    }
+}
+
+#[test]
+fn a_controller_without_a_majority_owns_its_goals_again_when_one_is_back() {
+    let mut team = Team::new([1, 3], &settings(), Weather::default(), 3);
+    team.issue(0, task(0, [1e6, 0.0]));
     team.run(20.0);
-    team.stations[0].is_cut_off = true;
+    for station in &mut team.stations {
+        station.is_cut_off = true;
+    }
     team.run(60.0);
-    assert_eq!(team.controller(1).goals().count(), 1);
-    assert_eq!(team.controller(0).goals().count(), 0);
-    team.stations[0].is_cut_off = false;
+    let owners = |team: &Team| {
+        (0..3)
+            .map(|it| team.controller(it).goals().count())
+            .sum::<usize>()
+    };
+    assert_eq!(owners(&team), 0);
+    for station in &mut team.stations {
+        station.is_cut_off = false;
+    }
     team.run(30.0);
-    assert_eq!(team.controller(0).goals().count(), 1);
-    assert_eq!(team.controller(1).goals().count(), 0);
+    assert_eq!(owners(&team), 1);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The effect of each message on a robot.
 
 use crate::hand::{
-    BACKUP, CALL, OTHER, OWNER, TASK, assignee, award, bid, claim, refusal, robot, sent_any,
+    CALL, MEMBER, OTHER, OWNER, TASK, assignee, award, bid, claim, refusal, robot, sent_any,
 };
 use crate::network::Weather;
 use crate::team::{Team, goal_id, task};
@@ -77,7 +77,7 @@ fn a_withdrawal_ends_the_service_and_is_answered_by_a_release() {
         About::Contract(ContractMessage::Withdraw(claim(number))),
     );
     robot.take(
-        BACKUP,
+        MEMBER,
         About::Contract(ContractMessage::Withdraw(claim(number))),
     );
     robot.take(

@@ -137,7 +137,10 @@ impl Team {
             }
         };
         let clocks: Vec<Clock> = (0..robots + stations).map(|_| clock()).collect();
-        let settings = Arc::new(settings.clone());
+        let settings = Arc::new(Settings {
+            members: stations,
+            ..settings.clone()
+        });
         let brain = brain(&[], "");
         let robots = (0..robots).map(|index| Robot {
             id: robot_id(index),
@@ -203,14 +206,6 @@ impl Team {
             goals.map(|goal| goal.task.at()).collect()
         });
         served.collect()
-    }
-
-    /// Issues the lost goals of a controller again.
-    pub(crate) fn reissue_lost(&mut self, station: usize) {
-        let lost: Vec<Task> = self.controller(station).lost().collect();
-        for task in lost {
-            self.issue(station, task);
-        }
     }
 
     /// From 0 to 1.

@@ -56,6 +56,7 @@ impl ControllerSpec {
         Settings {
             allocation: self.allocation,
             service_lease_s: self.service_lease_s,
+            members: self.members(),
             owner_lease_s: self.owner_lease_s,
             auction_s: self.auction_s,
             max_goals: self.max_goals,

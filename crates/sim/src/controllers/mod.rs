@@ -48,7 +48,10 @@ pub struct ControllerSpec {
     #[serde(default = "service_lease_s")]
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub service_lease_s: f64,
-    /// Time for which a controller owns a goal without renewal by its backup, in seconds.
+    /// Which controllers take the goals of a lost one over.
+    #[serde(default)]
+    pub backup: Backup,
+    /// Time for which a controller votes for the owner of a goal without renewal, in seconds.
     #[serde(default = "owner_lease_s")]
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
@@ -62,6 +65,28 @@ pub struct ControllerSpec {
     pub max_goals: u32,
     /// A mined lane that they are to clear. Only one kind of controllers can have one.
     pub clearance: Option<ClearanceSpec>,
+}
+
+/// Which controllers of a kind take the goals of a lost one over.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Backup {
+    /// A majority of the kind: a controller owns a goal only while more than half of all controllers of the kind, itself
+    /// included, vote for it. n controllers survive the loss of (n - 1) / 2 of them, rounded down, without losing a goal.
+    #[default]
+    Majority,
+    /// None: each owns its goals alone, and they are lost with it.
+    None,
+}
+
+impl ControllerSpec {
+    /// Number of controllers of which a majority has to vote for the owner of a goal.
+    pub(crate) fn members(&self) -> u32 {
+        match self.backup {
+            Backup::Majority => self.count.max(1),
+            Backup::None => 1,
+        }
+    }
 }
 
 fn service_lease_s() -> f64 {

@@ -64,7 +64,7 @@ pub struct Controller {
     pub refused: u32,
     /// The goals that it owns, as far as it knows.
     pub goals: Vec<OwnedGoal>,
-    /// The goals that it owned until their lease ended, because the backup did not renew it.
+    /// The goals that nobody owns, as it has reported: no majority votes for it.
     pub lost: Vec<Task>,
 }
 

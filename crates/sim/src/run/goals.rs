@@ -139,17 +139,26 @@ impl State {
         for number in 0..self.goals.all.len() {
             let (id, record) = (self.goals.all[number].id, self.goal_record(number));
             let is_open = record.issued_at.is_some() && record.served.is_none();
-            let is_forgotten = before.is_known_to(forgetful, id) || record.issued_to.is_none();
-            if !is_open || !is_forgotten || self.goals.is_waiting(number) {
+            if !is_open || self.goals.is_waiting(number) {
                 continue;
             }
             let knowing = self.knowing_controller(id, None);
+            // Of controllers that own goals alone from now on, voters forget them.
+            let is_unknown = knowing.is_none() && before.knowing_controller(id, None).is_some();
+            let is_forgotten = before.is_known_to(forgetful, id) || record.issued_to.is_none();
+            if !is_forgotten && !is_unknown {
+                continue;
+            }
             let issued_to = knowing.map(|number| self.controllers[number].participant.id);
             if let Some(tally) = &mut self.tally.goals {
                 tally.records[number].issued_to = issued_to;
             }
             if issued_to.is_none() && self.owner_of(to, number).is_some() {
-                let wait = if held.contains(&id) { lease } else { 0 };
+                let wait = if held.contains(&id) || !is_forgotten {
+                    lease
+                } else {
+                    0
+                };
                 self.goals.issue_again(number, self.tick + wait);
             }
         }

@@ -59,8 +59,8 @@ impl Scenario {
         facts.into_iter().chain(items).chain(end).collect()
     }
 
-    /// How long a round of awards waits for bids, and how soon goals of a lost controller are offered again, for each kind of
-    /// controllers.
+    /// How long a round of awards waits for bids, and what the loss of controllers of each kind
+    /// costs.
     pub(crate) fn recoveries(&self) -> Vec<(String, String)> {
         let goals = self.number_of_goals();
         let kinds = self.controllers.iter().filter(|kind| kind.count > 0);
@@ -68,9 +68,16 @@ impl Scenario {
             let delay_s = seconds(kind.radio.delay_steps, self.step_s);
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
             let round_s = kind.settings.answer_s;
+            let lost = match kind.settings.members {
+                1 => "the goals of a lost controller are lost with it".to_owned(),
+                members => format!(
+                    "the loss of any {} of {members} controllers loses no goal",
+                    (members - 1) / 2
+                ),
+            };
             let text = format!(
-                "after an award, the next waits at most {round_s:.2} s for the bids that it has changed; \
-                 goals of a lost controller have an owner or are reported, and are offered again, within {within_s:.1} s \
+                "after an award, the next waits at most {round_s:.2} s for the bids that it has changed; {lost}; \
+                 open goals have an owner or are reported, and are offered again, within {within_s:.1} s after a loss \
                  if no message is lost"
             );
             (format!("controllers.{}", kind.name), text)

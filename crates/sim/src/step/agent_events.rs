@@ -209,11 +209,9 @@ fn of_contract(message: &ContractMessage) -> Option<(&'static str, Option<GoalId
 /// The same for a message about the ownership of a goal.
 fn of_ownership(message: &OwnershipMessage) -> Option<(&'static str, Option<GoalId>)> {
     let (about, goal) = match message {
-        OwnershipMessage::Entrusted(award) => ("acceptance as backup", award.goal),
-        OwnershipMessage::Bind(award) => ("ownership lease", award.goal),
-        OwnershipMessage::Relieve(claim) => ("release of the backup", claim.goal),
-        OwnershipMessage::Relieved(claim) => ("confirmed release of the backup", claim.goal),
-        OwnershipMessage::Restore(task) => ("return", task.id),
+        OwnershipMessage::Entrusted(vote) => ("vote", vote.goal),
+        OwnershipMessage::Release(claim) => ("release of the vote", claim.goal),
+        OwnershipMessage::Ended(goal) => ("end of the goal", *goal),
         _ => return None,
     };
     Some((about, Some(goal)))

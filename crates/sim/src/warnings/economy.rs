@@ -16,18 +16,22 @@ pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     if !spec.controllers.values().any(|kind| kind.count > 0) || goals(spec).next().is_none() {
         return Vec::new();
     }
-    let kinds = spec.controllers.iter().filter(|(_, kind)| kind.count > 0);
-    let of_kinds = kinds.flat_map(|(name, kind)| {
+    let of_kinds = owners(spec).flat_map(|(name, kind)| {
         let at = at.key("controllers").key(name);
-        let owns = goals(spec).any(|(_, goal)| owner_of(goal, spec) == Some(name));
         let found = [of_allocation(kind, spec, &at), of_maximum(kind, &at)];
-        found.into_iter().flatten().filter(move |_| owns)
+        found.into_iter().flatten()
     });
     of_failures(spec, at)
         .into_iter()
         .chain(of_kinds)
         .chain(of_searches(spec, at))
         .collect()
+}
+
+/// The kinds of controllers that own goals, by their names.
+pub(super) fn owners(spec: &ScenarioSpec) -> impl Iterator<Item = (&String, &ControllerSpec)> + '_ {
+    let kinds = spec.controllers.iter().filter(|(_, kind)| kind.count > 0);
+    kinds.filter(|(name, _)| goals(spec).any(|(_, goal)| owner_of(goal, spec) == Some(name)))
 }
 
 /// The kinds of goals that there are, by their names.

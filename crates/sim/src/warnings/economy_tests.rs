@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Two rovers that serve the goals of two controllers.
+/// Two rovers that serve the goals of three controllers.
 const JOB: &str = r#"
 clock = { time_limit_s = 60 }
 world = { size_m = [10, 10] }
@@ -14,7 +14,7 @@ radio = { range_m = 20 }
 sensors = { gps = { kind = "position" }, compass = { kind = "heading" } }
 brain = { behaviours = [{ kind = "serve" }] }
 [controllers.base]
-count = 2
+count = 3
 radio = { range_m = 20 }
 [goals.spot]
 count = 4
@@ -45,8 +45,10 @@ fn goals_that_robots_serve_have_no_warning() {
 
 #[test]
 fn controllers_or_robots_that_have_all_failed_have_a_warning() {
-    let controllers =
-        warnings_with(&[("[controllers.base]", "[controllers.base]\nfailed = [0, 1]")]);
+    let controllers = warnings_with(&[(
+        "[controllers.base]",
+        "[controllers.base]\nfailed = [0, 1, 2]",
+    )]);
     assert!(
         controllers.contains("controllers = {...}: all controllers have failed"),
         "{controllers}"
@@ -90,7 +92,7 @@ fn a_search_without_a_detector_of_items_has_a_warning() {
 
 #[test]
 fn a_radio_that_is_too_narrow_to_renew_all_leases_has_a_warning() {
-    let many = ("count = 4", "count = 1000");
+    let many = ("count = 4", "count = 1500");
     let narrow = warnings_with(&[many]);
     assert!(
         narrow
@@ -98,19 +100,58 @@ fn a_radio_that_is_too_narrow_to_renew_all_leases_has_a_warning() {
         "{narrow}"
     );
     let wide = (
-        "count = 2\nradio = { range_m = 20 }",
-        "count = 2\nradio = { range_m = 20, messages_per_step = 9 }",
+        "count = 3\nradio = { range_m = 20 }",
+        "count = 3\nradio = { range_m = 20, messages_per_step = 9 }",
     );
     assert_eq!(warnings_with(&[many, wide]), "");
-    // A single controller has no backup.
-    assert_eq!(
-        warnings_with(&[
-            many,
-            (
-                "[controllers.base]\ncount = 2",
-                "[controllers.base]\ncount = 1"
-            )
-        ]),
-        ""
+    // A controller that owns its goals alone renews nothing.
+    let single = (
+        "[controllers.base]\ncount = 3",
+        "[controllers.base]\ncount = 1",
+    );
+    assert_eq!(warnings_with(&[many, single]), "");
+    let alone = ("count = 3", "count = 3\nbackup = \"none\"");
+    assert_eq!(warnings_with(&[many, alone]), "");
+}
+
+#[test]
+fn controllers_of_which_no_majority_is_left_have_a_warning() {
+    let base = "[controllers.base]\ncount = 3";
+    let two = warnings_with(&[(base, "[controllers.base]\ncount = 2")]);
+    assert!(
+        two.contains("controllers.base.count = 2: each needs the vote of the other"),
+        "{two}"
+    );
+    let alone = "[controllers.base]\ncount = 2\nbackup = \"none\"";
+    assert_eq!(warnings_with(&[(base, alone)]), "");
+    let failed = warnings_with(&[(base, "[controllers.base]\ncount = 3\nfailed = [0, 2]")]);
+    assert!(
+        failed.contains("1 of 3 work, which is no majority"),
+        "{failed}"
+    );
+}
+
+#[test]
+fn controllers_out_of_range_of_a_majority_have_a_warning() {
+    let base = "[controllers.base]\ncount = 3";
+    let at = |places: &str| {
+        format!("[controllers.base]\ncount = 3\nstart = {{ kind = \"fixed\", at_m = {places} }}")
+    };
+    let size = ("size_m = [10, 10]", "size_m = [100, 10]");
+    let radio = (
+        "radio = { range_m = 20 }\nsensors",
+        "radio = { range_m = 200 }\nsensors",
+    );
+    let with = |places: &str| warnings_with(&[(base, &at(places)), size, radio]);
+    assert_eq!(with("[[1, 1], [11, 1], [21, 1]]"), "");
+    let far = with("[[1, 1], [40, 1], [80, 1]]");
+    assert!(
+        far.contains("no controller hears a majority of the 3"),
+        "{far}"
+    );
+    let some = with("[[1, 1], [11, 1], [80, 1]]");
+    assert!(
+        some.contains("radio.range_m = 20: some controllers do not hear a majority of the 3 of its kind: 1 of them"),
+        "{some}"
     );
 }

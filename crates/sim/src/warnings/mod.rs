@@ -10,6 +10,7 @@ mod goals;
 mod lane_radios;
 pub(crate) mod lane_reach;
 mod lane_work;
+mod majority;
 mod narrow_radios;
 mod out_of_reach;
 mod position_errors;
@@ -26,11 +27,12 @@ const MAX_WARNINGS: usize = 10;
 /// Warnings about a scenario at a place in a document.
 type Examination = fn(&Checked, &Place) -> Vec<Warning>;
 
-const EXAMINATIONS: [Examination; 10] = [
+const EXAMINATIONS: [Examination; 11] = [
     cropped_maps::warnings,
     room::warnings,
     goals::warnings,
     economy::warnings,
+    majority::warnings,
     narrow_radios::warnings,
     lane_radios::warnings,
     lane_reach::warnings,

@@ -9,9 +9,11 @@ use economy::RENEWAL_RETRY_S;
 
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let spec = &checked.spec;
-    let controllers: u32 = spec.controllers.values().map(|kind| kind.count).sum();
-    // A single controller has no backup, and renews no leases.
-    let kinds = spec.controllers.iter().filter(|_| controllers > 1);
+    // A controller that owns its goals alone renews no leases.
+    let kinds = spec
+        .controllers
+        .iter()
+        .filter(|(_, kind)| kind.members() > 1);
     let found = kinds.filter_map(|(name, kind)| {
         let at = at.key("controllers").key(name);
         of_controllers((name, kind), spec, &at)

@@ -163,6 +163,14 @@ export interface Coverage {
   driven: [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
 }
 
+/** A request to vote for the sender as the owner of a goal. */
+export interface Entrust {
+  /** The number of the request. */
+  number: number;
+  /** The description of the goal. */
+  task: Task;
+}
+
 /** The progress of a robot towards a goal. */
 export interface Fitness {
   /** The goal. */
@@ -333,7 +341,7 @@ export interface Observation {
 export type OrderAction = "assign" | "withdraw";
 
 /** A message between controllers. */
-export type OwnershipMessage = { serial: number } | { seen: Seen } | { entrust: Task } | { entrusted: Award } | { bind: Award } | { assigned: Assignment } | { relieve: Claim } | { relieved: Claim } | { restore: Task };
+export type OwnershipMessage = { present: Record<string, never> } | { seen: Seen } | { entrust: Entrust } | { entrusted: Award } | { assigned: Assignment } | { release: Claim } | { ended: GoalId } | { noted: GoalId };
 
 /** All that a robot knows at one moment; any part may be missing. Angles are relative to the robot's front, anticlockwise, unless stated otherwise. */
 export interface Percept {

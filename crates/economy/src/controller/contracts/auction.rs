@@ -44,7 +44,6 @@ impl Contracts {
             owned.assigned.is_none()
                 && owned.is_on_offer(context.now_s)
                 && self.is_free(owned.task.id)
-                && context.ledger.owns_at(owned.task.id, context.now_s)
         });
         let called_s = free.clone().filter_map(|owned| owned.called_s);
         let oldest_s = called_s.clone().fold(f64::INFINITY, f64::min);

@@ -169,8 +169,7 @@ impl Contracts {
             return;
         }
         if !owned.is_done {
-            owned.is_done = true;
-            owned.assigned = None;
+            owned.finish(now_s);
             context.robots.learn(from, true, now_s);
             self.bids.remove_for(claim.goal);
             context.close_offer(claim.goal, None);
@@ -182,7 +181,12 @@ impl Contracts {
 
     fn renew_services(&mut self, context: &mut Context, from: AgentId, renewal: Renewal) {
         note_robot(context, from);
-        let answer = if self.services.renew(from, renewal, context.now_s) {
+        let now_s = context.now_s;
+        let mut own = self.services.grants().iter();
+        let is_owner = own.all(|it| {
+            it.holder != from || it.is_withdrawn || context.ledger.owns_at(it.goal, now_s)
+        });
+        let answer = if is_owner && self.services.renew(from, renewal, now_s) {
             LeaseMessage::Renewed(renewal.number)
         } else {
             LeaseMessage::Differs(renewal.number)
@@ -190,11 +194,13 @@ impl Contracts {
         context.send(from, answer);
     }
 
-    /// A lease that the robot does not have, or is to release, is withdrawn.
+    /// A lease that the robot does not have, or is to release, is withdrawn. A candidate does not know whether it is to.
     fn renew_service(&mut self, context: &mut Context, from: AgentId, claim: Claim) {
-        let answer = if self.services.renew_one(from, claim, context.now_s) {
+        let now_s = context.now_s;
+        let is_owner = context.ledger.owns_at(claim.goal, now_s);
+        let answer = if is_owner && self.services.renew_one(from, claim, now_s) {
             About::from(LeaseMessage::RenewedOne(claim))
-        } else if context.ledger.get(claim.goal).is_some() {
+        } else if is_owner || context.ledger.get(claim.goal).is_some_and(|it| it.is_done) {
             ContractMessage::Withdraw(claim).into()
         } else {
             return;

@@ -1,7 +1,7 @@
 //! A goal that a controller owns, and what has happened to it.
 
 use super::lapses::Lapses;
-use crate::controller::handover::Handover;
+use crate::controller::handover::{Role, Vote};
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 use brain::{AgentId, Reason, Task};
@@ -33,10 +33,14 @@ pub(crate) struct Owned {
     /// Its deadline on the controller's clock.
     pub(crate) due_at_s: f64,
     pub(crate) is_done: bool,
-    /// The owner that has lost it to this controller, its backup.
+    pub(crate) role: Role,
+    /// The votes of others, and until when a majority votes for this controller.
+    pub(crate) votes: Vec<Vote>,
+    pub(crate) held_until_s: f64,
+    /// The owner before this controller.
     pub(crate) origin: Option<AgentId>,
-    /// When it is offered to that owner again; minus infinity if it never was.
-    pub(crate) next_return_s: f64,
+    /// Whether it has been reported that nobody owns it.
+    pub(crate) is_reported: bool,
     /// From when on it can be awarded.
     pub(crate) ready_s: f64,
     /// Number of its offer, when that was called first, and when it is called next.
@@ -44,7 +48,6 @@ pub(crate) struct Owned {
     pub(crate) called_s: Option<f64>,
     pub(crate) next_call_s: f64,
     pub(crate) assigned: Option<Assigned>,
-    pub(crate) handover: Handover,
     /// Since when no robot has bid for it, and when the next is called alone.
     pub(crate) without_bid_s: f64,
     pub(crate) next_probe_s: f64,
@@ -101,22 +104,27 @@ pub(crate) struct Rest {
 }
 
 impl Owned {
-    /// A goal that can be awarded after a time.
+    /// A goal that can be awarded a time after the controller owns it.
     pub(crate) fn new(task: Task, now_s: f64, wait_s: f64) -> Self {
         Self {
             task,
             due_at_s: now_s + f64::from(task.due_s),
             is_done: false,
+            role: Role::Candidate {
+                since_s: now_s,
+                wait_s,
+            },
+            votes: Vec::new(),
+            held_until_s: f64::NEG_INFINITY,
             origin: None,
-            next_return_s: f64::NEG_INFINITY,
-            ready_s: now_s + wait_s,
+            is_reported: false,
+            ready_s: f64::INFINITY,
             call: 0,
             called_s: None,
-            next_call_s: now_s + wait_s,
+            next_call_s: f64::INFINITY,
             assigned: None,
-            handover: Handover::Alone,
-            without_bid_s: now_s + wait_s,
-            next_probe_s: now_s + wait_s,
+            without_bid_s: f64::INFINITY,
+            next_probe_s: f64::INFINITY,
             declined: Vec::new(),
             reason: Reason::NoRobot,
             rest: Rest {
@@ -130,10 +138,42 @@ impl Owned {
         }
     }
 
+    /// Whether the controller owns it at a time.
+    pub(crate) fn is_held(&self, time_s: f64) -> bool {
+        self.role == Role::Owner && !self.is_done && time_s < self.held_until_s
+    }
+
+    /// The controller owns it from now on, and awards it after a time.
+    pub(crate) fn win(&mut self, now_s: f64, wait_s: f64) {
+        (self.role, self.is_reported) = (Role::Owner, false);
+        self.ready_s = now_s + wait_s;
+        (self.next_call_s, self.called_s) = (self.ready_s, None);
+        (self.without_bid_s, self.next_probe_s) = (self.ready_s, self.ready_s);
+    }
+
+    /// The vote of another controller.
+    pub(crate) fn vote_of(&mut self, voter: AgentId, now_s: f64) -> &mut Vote {
+        let known = self.votes.iter().position(|vote| vote.voter == voter);
+        let index = known.unwrap_or_else(|| {
+            self.votes.push(Vote::new(voter, now_s));
+            self.votes.len() - 1
+        });
+        &mut self.votes[index]
+    }
+
+    /// It has been served: the voters are to know that.
+    pub(crate) fn finish(&mut self, now_s: f64) {
+        (self.is_done, self.assigned) = (true, None);
+        for vote in &mut self.votes {
+            vote.next_s = now_s;
+        }
+    }
+
     /// Whether robots can bid for it.
     pub(crate) fn is_on_offer(&self, now_s: f64) -> bool {
         let is_free = self.assigned.is_none_or(|assigned| assigned.is_contested);
-        !self.is_done && is_free && now_s >= self.ready_s && now_s >= self.rest.until_s
+        let is_owned = self.role == Role::Owner && !self.is_done;
+        is_owned && is_free && now_s >= self.ready_s && now_s >= self.rest.until_s
     }
 
     /// Offers it again: bids for the last offer do not count.

@@ -1,4 +1,4 @@
-//! A goal of another controller, of which this one is the backup.
+//! A goal that a controller does not own: it votes for an owner, and takes the goal over when that is lost.
 
 use alloc::vec::Vec;
 use base::hashed::Hashed;
@@ -8,26 +8,25 @@ use brain::{AgentId, Task};
 pub(super) struct Kept {
     pub(super) task: Task,
     pub(super) due_at_s: f64,
+    /// The last owner or candidate that it knows of: it may have lost the goal itself.
     pub(super) owner: AgentId,
-    /// Number of the answer that the owner has to name.
-    pub(super) number: u32,
-    pub(super) is_bound: bool,
-    /// How long the owner's service leases can last after its own lease.
-    pub(super) service_wait_s: f64,
-    /// The robots that the owner has awarded it to, as far as its messages arrived.
+    /// Whether it has been reported that nobody owns it, as far as this controller knows.
+    pub(super) is_reported: bool,
+    /// When this controller becomes a candidate; infinity while it votes for another.
+    pub(super) turn_s: f64,
+    /// The robots that owners have awarded it to, as far as their messages arrived.
     pub(super) assignees: Vec<AgentId>,
 }
 
 impl Kept {
-    /// A goal whose owner is not bound yet.
-    pub(super) fn new(task: Task, due_at_s: f64, owner: AgentId, number: u32) -> Self {
+    /// A goal of another controller, for which this one votes.
+    pub(super) fn new(task: Task, due_at_s: f64, owner: AgentId) -> Self {
         Self {
             task,
             due_at_s,
             owner,
-            number,
-            is_bound: false,
-            service_wait_s: 0.0,
+            is_reported: false,
+            turn_s: f64::INFINITY,
             assignees: Vec::new(),
         }
     }

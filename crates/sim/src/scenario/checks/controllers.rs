@@ -111,34 +111,39 @@ fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
     let drift = spec.clock.max_drift;
     let [robots_s, controllers_s] = round_trips_s(kind, spec);
     let min_service_s = kind.settings(spec).min_service_lease_s(robots_s);
-    let auction = format!("an auction of {} s and ", kind.auction_s);
+    let clocks = on_clocks(drift);
+    let (auction_s, trips) = (kind.auction_s, trips(kind));
+    let service = format!(
+        "an auction of {auction_s} s and a round trip of {robots_s:.3} s over the radio{clocks}"
+    );
+    let trips_s = format!("of {controllers_s:.3} s over the radio{clocks}");
+    let owner = match trips {
+        1 => format!("a round trip {trips_s}"),
+        _ => format!("{trips} round trips {trips_s}, so that it is renewed in time"),
+    };
+    let min_owner_s = (1.0 + drift) * f64::from(trips) * controllers_s;
     let leases = [
         (
             "service_lease_s",
             kind.service_lease_s,
             min_service_s,
-            auction,
-            robots_s,
+            service,
         ),
-        (
-            "owner_lease_s",
-            kind.owner_lease_s,
-            (1.0 + drift) * controllers_s,
-            String::new(),
-            controllers_s,
-        ),
+        ("owner_lease_s", kind.owner_lease_s, min_owner_s, owner),
     ];
     let short = leases
         .into_iter()
-        .filter(|(_, lease_s, min_s, ..)| lease_s < min_s);
-    let errors = short.map(|(key, lease_s, min_s, auction, trip_s)| {
-        let clocks = on_clocks(drift);
-        let allowed = format!(
-            "at least {min_s:.3}: it must outlast {auction}a round trip of {trip_s:.3} s over the radio{clocks}"
-        );
+        .filter(|(_, lease_s, min_s, _)| lease_s < min_s);
+    let errors = short.map(|(key, lease_s, min_s, what)| {
+        let allowed = format!("at least {min_s:.3}: it must outlast {what}");
         of_lease(lease_s, allowed, &at.key(key))
     });
     errors.collect()
+}
+
+/// Round trips that an ownership lease outlasts: a vote is renewed when two thirds of it are left, and once more.
+fn trips(kind: &ControllerSpec) -> u32 {
+    if kind.members() > 1 { 3 } else { 1 }
 }
 
 /// Why a lease is longer than by exact clocks, in words; empty if clocks do not drift.

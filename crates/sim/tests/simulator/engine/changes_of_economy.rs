@@ -6,11 +6,12 @@ use sim::simulation::Simulation;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Two controllers and three rovers. Half of the goals are issued when the scenario changes.
+/// Controllers of two kinds and three rovers. Half of the goals are issued when the scenario changes.
 const RUN: &str = r#"
 clock.time_limit_s = 150
 world.size_m = [60, 40]
-robots.bird = { layer = "air", start.at_m = [[30, 20]], brain.behaviours = [] }
+robots.bird = { layer = "air", start.at_m = [[30, 20], [31, 20]], brain.behaviours = [] }
+controllers.base.count = 2
 controllers.base.radio = { range_m = 80, messages_per_step = 20, loss_probability = 0.1 }
 controllers.mast = { start.at_m = [[50, 30]], radio.range_m = 80 }
 goals.spot = { count = 8, owner = "base", every_s = 10 }
@@ -61,7 +62,7 @@ fn has_effect(to: Arc<Scenario>) -> bool {
 }
 
 /// Keys with a value that changes the outcome.
-const EFFECTIVE: [(&str, &str, &str); 18] = [
+const EFFECTIVE: [(&str, &str, &str); 19] = [
     ("controllers.base", "count", "3"),
     ("controllers.base", "aboard", "\"bird\""),
     ("controllers.base.radio", "range_m", "5"),
@@ -78,7 +79,8 @@ const EFFECTIVE: [(&str, &str, &str); 18] = [
     ("controllers.base", "failed", "[0]"),
     ("controllers.base", "allocation", "\"none\""),
     ("controllers.base", "service_lease_s", "5"),
-    ("controllers.mast", "owner_lease_s", "0.8"),
+    ("controllers.base", "owner_lease_s", "4"),
+    ("controllers.base", "backup", "\"none\""),
     ("controllers.base", "auction_s", "4"),
     ("controllers.base", "max_goals", "1"),
     ("goals.spot", "count", "4"),

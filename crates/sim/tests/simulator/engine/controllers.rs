@@ -5,7 +5,7 @@ use brain::AgentId;
 use sim::run::{Controller, Status};
 use sim::simulation::Simulation;
 
-const ONE: &str = "
+const ONE: &str = r#"
 clock.time_limit_s = 100
 world.size_m = [40, 20]
 goals.spot.placement.at_m = [[20, 10], [22, 10], [24, 10], [26, 10]]
@@ -16,10 +16,11 @@ radio.range_m = 5
 brain.behaviours = []
 [controllers.base]
 count = 2
+backup = "none"
 price = 3
 start.at_m = [[8, 10], [30, 5], [31, 5]]
 radio.range_m = 5
-";
+"#;
 
 const ROVER: AgentId = AgentId::robot(0, 0);
 
@@ -162,6 +163,41 @@ fn controllers_keep_their_goals_when_others_are_added_or_removed() {
     simulation.change(scenario(ONE)).unwrap();
     simulation.step();
     assert_eq!(owned(&simulation), [2, 2]);
+}
+
+/// Controllers that hear each other and vote for owners, and goals that no robot serves.
+const MAJORITY: &str = "
+clock.time_limit_s = 200
+world.size_m = [40, 20]
+goals.spot.placement.at_m = [[20, 10], [22, 10], [24, 10], [26, 10]]
+robots.rover = { start.at_m = [[10, 10]], radio.range_m = 50, brain.behaviours = [] }
+controllers.base = { start.at_m = [[8, 10], [30, 5], [31, 5], [9, 9], [7, 7]], radio.range_m = 50 }
+";
+
+/// The goals that are owned a time after the number of controllers has changed.
+fn owned_after(counts: [u32; 2], time_s: f64) -> Vec<usize> {
+    let text = |count: u32| with(MAJORITY, &format!("controllers.base.count = {count}"));
+    let mut simulation = start(&text(counts[0]));
+    (0..50).for_each(|_| simulation.step());
+    assert_eq!(owned(&simulation).iter().sum::<usize>(), 4, "{counts:?}");
+    simulation.change(scenario(&text(counts[1]))).unwrap();
+    let end_s = simulation.time_s() + time_s;
+    while simulation.time_s() < end_s {
+        simulation.step();
+    }
+    owned(&simulation)
+}
+
+#[test]
+fn each_goal_has_an_owner_after_the_number_of_controllers_has_changed() {
+    for counts in [[1, 3], [2, 3], [3, 5], [3, 4], [1, 5]] {
+        let owned = owned_after(counts, 5.0);
+        assert_eq!(owned.iter().sum::<usize>(), 4, "{counts:?}: {owned:?}");
+    }
+    for counts in [[3, 2], [5, 3], [5, 2], [3, 1], [2, 1]] {
+        let owned = owned_after(counts, 60.0);
+        assert_eq!(owned.iter().sum::<usize>(), 4, "{counts:?}: {owned:?}");
+    }
 }
 
 #[test]

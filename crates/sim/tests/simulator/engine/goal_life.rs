@@ -13,7 +13,7 @@ world.size_m = [40, 40]
 goals.spot = { owner = "base", count = 12, within_m = 1, service_s = 2 }
 [controllers.base]
 count = 1
-start.at_m = [[1, 1], [2, 1], [1, 2]]
+start.at_m = [[1, 1], [2, 1], [1, 2], [3, 3], [39, 39]]
 radio = { range_m = 100, messages_per_step = 20 }
 [robots.rover]
 count = 3
@@ -206,9 +206,13 @@ impl Fuzzed {
         let mut any = |values: &[&'static str]| random.one_of(values);
         let changes = [
             ("clock.time_limit_s", "80"),
-            ("controllers.base.count", any(&["1", "2", "3"])),
+            ("controllers.base.count", any(&["1", "2", "3", "5"])),
+            (
+                "controllers.base.backup",
+                any(&["\"none\"", "\"majority\"", "\"majority\""]),
+            ),
             ("controllers.base.max_goals", any(&["0", "2", "5", "1000"])),
-            ("controllers.base.owner_lease_s", any(&["2", "5", "30"])),
+            ("controllers.base.owner_lease_s", any(&["4", "6", "30"])),
             ("controllers.base.service_lease_s", any(&["10", "20"])),
             (
                 "controllers.base.radio.messages_per_step",
@@ -236,7 +240,7 @@ impl Fuzzed {
 
     /// Lets something happen.
     fn disturb(&mut self) {
-        let index = self.random.below(3).to_string();
+        let index = self.random.below(5).to_string();
         let failed = format!("[{index}]");
         let mut any = |values: &[&'static str]| self.random.one_of(values).to_owned();
         let changes = [
@@ -245,7 +249,11 @@ impl Fuzzed {
                 "controllers.base.allocation",
                 any(&["\"nearest\"", "\"optimal\"", "\"none\""]),
             ),
-            ("controllers.base.count", any(&["1", "2", "3"])),
+            ("controllers.base.count", any(&["1", "2", "3", "5"])),
+            (
+                "controllers.base.backup",
+                any(&["\"none\"", "\"majority\""]),
+            ),
             ("controllers.base.max_goals", any(&["0", "2", "1000"])),
             (
                 "controllers.base.radio.loss_probability",
@@ -271,7 +279,7 @@ impl Fuzzed {
             ),
             ("goals.spot.service_s", any(&["0", "2", "6"])),
         ];
-        let number = self.random.below(12) as usize;
+        let number = self.random.below(13) as usize;
         let (key, value) = changes.into_iter().nth(number).unwrap();
         let mut values = self.values.clone();
         values.insert(key, value);

@@ -8,16 +8,16 @@ use sim::judge::events::EventKind;
 use sim::run::Goal;
 use sim::simulation::Simulation;
 
-const TWO: &str = "
+const TWO: &str = r#"
 clock.time_limit_s = 100
 world.size_m = [40, 20]
-controllers.base = { start.at_m = [[5, 5], [6, 5]], radio.range_m = 50 }
+controllers.base = { backup = "none", start.at_m = [[5, 5], [6, 5]], radio.range_m = 50 }
 goals.spot = { placement.at_m = [[10, 10], [13, 10], [30, 10]], within_m = 0.5 }
 [robots.rover]
 start = { at_m = [[10, 10], [12, 12]], heading_deg = [0, 0] }
 radio.range_m = 50
 brain.behaviours = []
-";
+"#;
 
 const ROVER: AgentId = AgentId::robot(0, 0);
 const OTHER: AgentId = AgentId::robot(0, 1);

@@ -97,8 +97,8 @@ def details(goal: Goal) -> Iterator[str]:
         yield f"{'by' if goal.status == 'served' else 'to'} {goal.robot}"
     if goal.lease_s is not None:
         yield f"lease {goal.lease_s:.0f} s"
-    if goal.backup is not None:
-        yield f"backup {goal.backup}"
+    if goal.votes:
+        yield f"votes of {', '.join(goal.votes)}"
     if goal.unserved:
         yield reason_label(goal.unserved)
 

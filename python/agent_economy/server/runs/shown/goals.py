@@ -41,7 +41,7 @@ class Goal(NamedTuple):
         at: Its position.
         status: One of `STATUSES`.
         owner: The controller that owns it; None if none does.
-        backup: The controller that takes it over when its owner is lost; None if none does.
+        votes: The controllers that vote for its owner.
         robot: The robot that it is awarded to, or that served it.
         lease_s: Remaining time of that robot's lease, on the owner's clock; None if it has none.
         unserved: Why no robot can serve it at present; None if one can.
@@ -51,7 +51,7 @@ class Goal(NamedTuple):
     at: Point
     status: str
     owner: str | None
-    backup: str | None
+    votes: Sequence[str]
     robot: str | None
     lease_s: float | None
     unserved: str | None
@@ -98,7 +98,7 @@ def goal(of: Row, owned: Row) -> Goal:
         at=(of["x_m"], of["y_m"]),
         status=status,
         owner=owned.get("owner"),
-        backup=owned.get("backup"),
+        votes=owned.get("votes", ()),
         robot=(of["served_by"] or None) if status == "served" else assignee,
         lease_s=owned.get("lease_s"),
         unserved=owned.get("unserved") if owned else reported,

@@ -126,8 +126,7 @@ impl LaneWork {
         let idle: Vec<GoalId> = idle.map(|planned| planned.goal).collect();
         for goal in &idle {
             if let Some(owned) = context.ledger.get_mut(*goal) {
-                owned.is_done = true;
-                owned.assigned = None;
+                owned.finish(context.now_s);
                 contracts.forget_bids(*goal);
                 context.close_offer(*goal, None);
             }

@@ -123,7 +123,7 @@ impl LaneWork {
         };
         #[expect(clippy::cast_possible_truncation, reason = "messages are short")]
         let gain = gain as f32;
-        let peers: Vec<AgentId> = context.peers.on_lane_of(context.own).collect();
+        let peers: Vec<AgentId> = context.peers.members_of(context.own).collect();
         for peer in peers {
             context.send(peer, LaneMessage::Gain(gain));
         }

@@ -105,6 +105,31 @@ fn a_lease_outlasts_an_auction_and_a_round_trip() {
 }
 
 #[test]
+fn an_ownership_lease_that_a_majority_grants_outlasts_three_round_trips() {
+    let with = |count: u32, lease_s: f64, backup: &str| {
+        let radio = "radio = { range_m = 9, delay_s = 1 }";
+        let text = format!(
+            "{GOOD}\n[controllers.base]\ncount = {count}\n{radio}\nowner_lease_s = {lease_s}\n{backup}\n"
+        );
+        errors_in(&text).concat()
+    };
+    let few = with(3, 5.0, "");
+    assert!(
+        few.starts_with("controllers.base.owner_lease_s = 5: must be at least 7."),
+        "{few}"
+    );
+    assert!(few.contains("3 round trips"), "{few}");
+    for (count, lease_s, backup) in [(3, 8.0, ""), (1, 5.0, ""), (3, 5.0, "backup = \"none\"")] {
+        assert_eq!(with(count, lease_s, backup), "");
+    }
+    let unknown = with(3, 30.0, "backup = \"heir\"");
+    assert!(
+        unknown.contains("controllers.base.backup = \"heir\""),
+        "{unknown}"
+    );
+}
+
+#[test]
 fn the_error_of_a_default_lease_names_the_default() {
     let auction = error_of(&format!("{RADIO}auction_s = 30"));
     let start = "controllers.base.service_lease_s = 20 (default): must be at least 3";
