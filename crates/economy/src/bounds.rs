@@ -34,7 +34,7 @@ impl Settings {
     }
 
     /// The longest time from the end of the last vote for an owner until the next one owns the goal, or has reported that
-    /// nobody does: each has its turn, one gives up, and another is a candidate. Nothing for a single controller.
+    /// no controller does: each has its turn, one gives up, and another is a candidate. Nothing for a single controller.
     fn candidacies_s(&self) -> f64 {
         if self.members < 2 {
             return 0.0;

@@ -96,8 +96,8 @@ def state(goals: Mapping[str, Any], place: int, owner: Mapping[str, Any], *, is_
 def warnings(content: Content) -> dict[str, str]:
     """Return what an operator must know, by the name of a goal or controller.
 
-    They are the goals that controllers report because no robot can serve them, goals that nobody
-    owns because no majority votes for an owner, and controllers that have failed.
+    They are the goals that controllers report because no robot can serve them, goals that no
+    controller owns because no majority votes for one, and controllers that have failed.
     """
     goals, controllers = content["goals"], content["controllers"]
     rows = zip(goals["name"], goals["state"], goals["unserved"], strict=True)

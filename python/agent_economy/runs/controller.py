@@ -132,7 +132,7 @@ class Controller:
 
     @property
     def lost(self) -> list[Task]:
-        """The goals that nobody owns, as it has reported: no majority votes for it."""
+        """The goals that no controller owns, as it has reported: no majority votes for it."""
         return cast("list[Task]", self._controller.lost())
 
     @property

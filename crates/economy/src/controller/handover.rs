@@ -4,7 +4,7 @@
 //! included, votes for it. A vote of another one is an ownership lease: its holder renews it, and the *voter* grants the
 //! goal to no other controller before the lease has ended on its own clock. Two majorities have a member in common, so that
 //! no two controllers own a goal. The members of a kind are those of the scenario, whether they work or not. (The votes of
-//! an election as in Raft, Ongaro and Ousterhout 2014; leases as in Gray and Cheriton 1989.)
+//! an election as in Raft, Ongaro and Ousterhout 2014; leases as in Burrows 2006.)
 //!
 //! ```text
 //! candidate or owner         voter
@@ -13,7 +13,7 @@
 //!       -- Renew -->
 //!       <-- Renewed --             and so on
 //!       -- Release -->             the vote is free again
-//!       -- Ended -->               the goal has been served: the voter votes for nobody any more
+//!       -- Ended -->               the goal has been served: the voter votes for no controller any more
 //!       <-- Noted --
 //! ```
 //!
@@ -28,7 +28,7 @@
 //! | kept, free | another one requests the vote | granted |
 //! | | after a time, shorter for higher serial numbers | `Candidate` |
 //!
-//! A controller that restarts does not know for whom it has voted: it votes for nobody for the longest lease. So a goal whose
+//! A controller that restarts does not know for which controllers it has voted: it votes for no controller for the longest lease. So a goal whose
 //! owner is lost is owned by the working controller in range with the highest serial number (Miller 1990) that a majority
 //! votes for. n controllers survive the loss of (n - 1) / 2 of them, rounded down.
 

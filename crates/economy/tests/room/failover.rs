@@ -288,7 +288,7 @@ fn a_served_goal_has_no_candidate_any_more() {
     let sent = voter.take(OWNER, ended);
     let noted = about(OwnershipMessage::Noted(goal_id(0)));
     assert!(sent.contains(&(OWNER.into(), noted)));
-    // Another one has not heard of it.
+    // Another one does not know that.
     let sent = voter.take(THIRD, request(8));
     assert!(sent.contains(&(THIRD.into(), ended)));
     voter.wait(100.0);
@@ -318,7 +318,7 @@ fn of_two_candidates_the_one_with_the_higher_serial_number_gets_the_vote_of_the_
     let mut higher = member(THIRD, 3);
     higher.take(AgentId::OPERATOR, issue);
     assert_eq!(vote_for(&higher.take(MEMBER, request(5)), MEMBER), None);
-    // An owner gives its vote to nobody.
+    // An owner gives its vote to no controller.
     assert_eq!(
         vote_for(&owner_of_three().take(THIRD, request(5)), THIRD),
         None
@@ -341,7 +341,7 @@ fn a_candidate_that_no_majority_votes_for_reports_that_and_lets_others_try() {
 }
 
 #[test]
-fn a_controller_that_restarts_votes_for_nobody_for_the_longest_lease() {
+fn a_controller_that_restarts_votes_for_no_controller_for_the_longest_lease() {
     let mut voter = member(MEMBER, 3);
     voter.agent = Controller::restarted(Arc::new(Settings {
         max_drift: 0.0,

@@ -118,7 +118,7 @@ fn the_working_controller_with_the_highest_serial_number_takes_over() {
 }
 
 #[test]
-fn without_a_majority_nobody_owns_a_goal_and_that_is_reported() {
+fn without_a_majority_no_controller_owns_a_goal_and_that_is_reported() {
     for (stations, lost, survivor) in [(2, vec![1], 0), (2, vec![0], 1), (3, vec![0, 1], 2)] {
         let mut team = Team::new([1, stations], &settings(), Weather::default(), 3);
         team.issue(0, task(0, [1e6, 0.0]));

@@ -64,7 +64,7 @@ pub struct Controller {
     pub refused: u32,
     /// The goals that it owns, as far as it knows.
     pub goals: Vec<OwnedGoal>,
-    /// The goals that nobody owns, as it has reported: no majority votes for it.
+    /// The goals that no controller owns, as it has reported: no majority votes for it.
     pub lost: Vec<Task>,
 }
 

@@ -146,12 +146,12 @@ fn controllers_out_of_range_of_a_majority_have_a_warning() {
     assert_eq!(with("[[1, 1], [11, 1], [21, 1]]"), "");
     let far = with("[[1, 1], [40, 1], [80, 1]]");
     assert!(
-        far.contains("no controller hears a majority of the 3"),
+        far.contains("no controller reaches a majority of the 3"),
         "{far}"
     );
     let some = with("[[1, 1], [11, 1], [80, 1]]");
     assert!(
-        some.contains("radio.range_m = 20: some controllers do not hear a majority of the 3 of its kind: 1 of them"),
+        some.contains("radio.range_m = 20: some controllers do not reach a majority of the 3 of its kind: 1 of them"),
         "{some}"
     );
 }

@@ -1,4 +1,4 @@
-//! Warnings about kinds of controllers of which no majority is left, or hears each other.
+//! Warnings about kinds of controllers of which no majority is left, or in range of each other.
 
 use super::economy::owners;
 use crate::controllers::ControllerSpec;
@@ -33,7 +33,7 @@ fn of_two(kind: &ControllerSpec, at: &Place) -> Option<Warning> {
     })
 }
 
-/// So many have failed from the start that no majority is left.
+/// No majority is left of those that have not failed from the start.
 fn of_failed(kind: &ControllerSpec, at: &Place) -> Option<Warning> {
     let failed = (0..kind.count).filter(|index| kind.failed.contains(index));
     let working = kind.count - u32::try_from(failed.count()).unwrap_or(kind.count);
@@ -56,15 +56,15 @@ fn of_range(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Option<Wa
     }
     let places = at_m.get(..kind.count as usize)?;
     let range_m = kind.radio.range_m;
-    let is_heard = |one: Point, other: Point| one.to(other).length() <= range_m;
-    let heard = |place: &Point| places.iter().filter(|it| is_heard(*place, **it)).count();
+    let is_near = |one: Point, other: Point| one.to(other).length() <= range_m;
+    let near = |place: &Point| places.iter().filter(|it| is_near(*place, **it)).count();
     let alone = places
         .iter()
-        .map(heard)
-        .filter(|heard| *heard <= places.len() / 2);
+        .map(near)
+        .filter(|near| *near <= places.len() / 2);
     let alone = alone.count();
     (alone > 0).then(|| {
-        let which = if alone == places.len() { "no controller hears" } else { "some controllers do not hear" };
+        let which = if alone == places.len() { "no controller reaches" } else { "some controllers do not reach" };
         let effect = format!(
             "{which} a majority of the {} of its kind: {alone} of them own no goals. With backup = \"none\", each owns its goals \
              alone",

@@ -42,7 +42,7 @@ impl Ledger {
         self.get(goal).is_some_and(|owned| !owned.is_done)
     }
 
-    /// The goals for which it is a candidate again, after it has reported that nobody owns them.
+    /// The goals for which it is a candidate again, after it has reported that no controller owns them.
     pub(super) fn lost(&self) -> impl Iterator<Item = Task> {
         let goals = self.goals.iter();
         let lost = goals.filter(|it| it.is_reported && it.role != Role::Owner && !it.is_done);

@@ -39,7 +39,7 @@ pub(crate) struct Owned {
     pub(crate) held_until_s: f64,
     /// The owner before this controller.
     pub(crate) origin: Option<AgentId>,
-    /// Whether it has been reported that nobody owns it.
+    /// Whether it has been reported that no controller owns it.
     pub(crate) is_reported: bool,
     /// From when on it can be awarded.
     pub(crate) ready_s: f64,

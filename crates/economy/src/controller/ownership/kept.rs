@@ -10,7 +10,7 @@ pub(super) struct Kept {
     pub(super) due_at_s: f64,
     /// The last owner or candidate that it knows of: it may have lost the goal itself.
     pub(super) owner: AgentId,
-    /// Whether it has been reported that nobody owns it, as far as this controller knows.
+    /// Whether it has been reported that no controller owns it, as far as this controller knows.
     pub(super) is_reported: bool,
     /// When this controller becomes a candidate; infinity while it votes for another.
     pub(super) turn_s: f64,

@@ -110,7 +110,7 @@ impl Ownership {
         }
     }
 
-    /// The goals that nobody owns, as it has reported.
+    /// The goals that no controller owns, as it has reported.
     pub(super) fn lost(&self) -> impl Iterator<Item = Task> {
         let lost = self.kept.iter().filter(|kept| kept.is_reported);
         lost.map(|kept| kept.task)

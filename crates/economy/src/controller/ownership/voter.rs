@@ -135,7 +135,7 @@ impl Ownership {
         context.send(from, OwnershipMessage::Noted(goal));
     }
 
-    /// It votes for nobody as the owner of a goal any more.
+    /// It votes for no controller as the owner of a goal any more.
     fn end(&mut self, goal: GoalId) {
         self.kept.retain(|kept| kept.task.id != goal);
         self.granted.end(goal);

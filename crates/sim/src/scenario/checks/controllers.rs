@@ -141,7 +141,7 @@ fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
     errors.collect()
 }
 
-/// Round trips that an ownership lease outlasts: a vote is renewed when two thirds of it are left, and once more.
+/// Round trips that an ownership lease outlasts: a vote is renewed when two thirds of it are left, and twice later.
 fn trips(kind: &ControllerSpec) -> u32 {
     if kind.members() > 1 { 3 } else { 1 }
 }

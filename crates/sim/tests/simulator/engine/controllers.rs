@@ -165,7 +165,7 @@ fn controllers_keep_their_goals_when_others_are_added_or_removed() {
     assert_eq!(owned(&simulation), [2, 2]);
 }
 
-/// Controllers that hear each other and vote for owners, and goals that no robot serves.
+/// Controllers in range of each other that vote for owners, and goals that no robot serves.
 const MAJORITY: &str = "
 clock.time_limit_s = 200
 world.size_m = [40, 20]
