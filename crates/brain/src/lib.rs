@@ -64,6 +64,7 @@ pub use io::ownership::{Assignment, Entrust, OwnershipMessage, Seen};
 pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
 pub use io::reason::Reason;
+pub use io::trade::{Price, TradeMessage, TradeOffer, Transfer};
 pub use io::work::lane::{
     CELLS_PER_MESSAGE, Coverage, HAS_ANOTHER, Lane, LaneMessage, MARK_KINDS, Mark, MarkVerdict,
     Statement,

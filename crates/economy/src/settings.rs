@@ -23,6 +23,8 @@ pub struct Settings {
     /// Time for which a controller votes for the owner of a goal without renewal.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
+    /// The terms on which it trades goals with the others of its kind; without them, it does not.
+    pub trade: Option<Trade>,
     /// Time from the first call for bids to the award; at least [`answer_s`](Self::answer_s).
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub auction_s: f64,
@@ -45,6 +47,28 @@ pub struct Settings {
     /// Whether a person ends its mission on the lane.
     #[serde(skip)]
     pub is_called_off: bool,
+}
+
+/// The terms on which controllers of a kind trade goals with each other.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Trade {
+    /// A goal goes to another controller only if the share of its promises that this one has kept, times the probability in
+    /// its robot's bid, is at least this.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub confidence: f64,
+    /// A goal goes to another controller only if its cost is at most this part of the owner's, or the owner has no bid.
+    #[schemars(range(min = 0.01, max = 0.99))]
+    pub gain: f64,
+}
+
+impl Default for Trade {
+    fn default() -> Self {
+        Self {
+            confidence: 0.5,
+            gain: 0.7,
+        }
+    }
 }
 
 impl Settings {
@@ -74,6 +98,7 @@ impl Default for Settings {
             service_lease_s: 20.0,
             members: 1,
             owner_lease_s: 30.0,
+            trade: None,
             auction_s: 1.0,
             max_goals: 1000,
             max_drift: 1e-4,

@@ -67,7 +67,7 @@ pub(crate) fn goals<'py>(
 }
 
 /// The controllers of a run, each as a dict with its `name` (KIND/INDEX), `x_m`, `y_m`, `aboard`, `range_m`, `working`,
-/// `refused`, the `goals` that it owns as far as it knows, and `lost`.
+/// `transfers`, `refused`, the `goals` that it owns as far as it knows, and `lost`.
 #[pyfunction]
 pub(crate) fn controllers<'py>(
     py: Python<'py>,
@@ -121,6 +121,7 @@ fn dict_of<'py>(
     dict.set_item("aboard", aboard)?;
     dict.set_item("range_m", controller.range_m)?;
     dict.set_item("working", controller.is_working)?;
+    dict.set_item("transfers", controller.transfers)?;
     dict.set_item("refused", controller.refused)?;
     let owned = controller.goals.iter().map(|owned| {
         let dict = PyDict::new(py);

@@ -28,6 +28,8 @@ class ControllerSettings(TypedDict, total=False):
         members: Number of controllers of its kind, of which a majority has to vote for the owner of
             each goal; 1 by default: it owns its goals alone.
         owner_lease_s: Time for which it votes for an owner without renewal; 30 by default.
+        trade: The terms on which it trades goals with others of its kind; None by default: it does
+            not.
         auction_s: Time from the first call for bids to the award; 1 by default.
         answer_s: Longest time from an award until the robot's next bid has arrived, for which the
             next award waits; 0.5 by default. In a scenario, it follows from radios and brains.
@@ -39,10 +41,26 @@ class ControllerSettings(TypedDict, total=False):
     service_lease_s: float
     members: int
     owner_lease_s: float
+    trade: "TradeSettings | None"
     auction_s: float
     answer_s: float
     max_goals: int
     max_drift: float
+
+
+class TradeSettings(TypedDict, total=False):
+    """The terms on which controllers trade goals, as in `[controllers.NAME.trade]`.
+
+    Attributes:
+        confidence: A goal goes to another controller only if the share of its promises that this
+            one has kept, times the probability in its robot's bid, is at least this; 0.5 by
+            default.
+        gain: A goal goes to another controller only if its cost is at most this part of the
+            owner's, or the owner has no bid; 0.7 by default.
+    """
+
+    confidence: float
+    gain: float
 
 
 class OwnedGoal(TypedDict):

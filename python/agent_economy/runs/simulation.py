@@ -523,12 +523,13 @@ class Simulation(Stepped):
         """The controllers, with the goals that they own as far as they know.
 
         Each has `name` (KIND/INDEX), `x_m`, `y_m`, `aboard` (a robot, or None), `range_m`,
-        `working`, `refused` (the number of goals refused), `lost` (names of goals that no
-        controller owns, as it has reported), and `goals`, each with `goal` (KIND/INDEX, or None
-        for a goal that is not of the scenario), `x_m`, `y_m`, `assignee` (the robot that it is
-        awarded to, or None), `lease_s` (the remaining time of that robot's lease, or None),
-        `votes` (the controllers that vote for the owner), `owner_lease_s` (the remaining time for
-        which a majority does, or None) and `unserved` (why no robot can serve it, or None).
+        `working`, `transfers` (the number of goals given to others by trade), `refused` (the
+        number of goals refused), `lost` (names of goals that no controller owns, as it has
+        reported), and `goals`, each with `goal` (KIND/INDEX, or None for a goal that is not of
+        the scenario), `x_m`, `y_m`, `assignee` (the robot that it is awarded to, or None),
+        `lease_s` (the remaining time of that robot's lease, or None), `votes` (the controllers
+        that vote for the owner), `owner_lease_s` (the remaining time for which a majority does,
+        or None) and `unserved` (why no robot can serve it, or None).
         """
         return _core.controllers(self._run)
 

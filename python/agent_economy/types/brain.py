@@ -268,6 +268,7 @@ class ContractMessage(TypedDict, total=False):
     release: Claim
     done: Claim
     withdraw: Claim
+    estimate: Task
 
 
 class Renewal(TypedDict):
@@ -451,6 +452,64 @@ class LaneMessage(TypedDict, total=False):
     gain: float
 
 
+class TradeOffer(TypedDict):
+    """A goal that is offered to another controller.
+
+    Attributes:
+        cost_s: The cost that a price has to be below by a factor, in seconds; `f32.MAX` if any
+            is.
+        task: The description of the goal.
+    """
+
+    cost_s: float
+    task: Task
+
+
+class Price(TypedDict):
+    """What it costs another controller to have a goal served.
+
+    Attributes:
+        goal: The goal.
+        number: The number that its sender gave the price, which is different for each.
+        cost_s: The cost of its best bid, as for awards, in seconds.
+    """
+
+    goal: GoalId
+    number: int
+    cost_s: float
+
+
+class Transfer(TypedDict):
+    """The transfer of a goal to another controller.
+
+    Attributes:
+        goal: The goal.
+        price: The number of the price that is accepted.
+        lease: The number of the request by which the receiver has voted for the sender, which
+            is released; 0 without one.
+        limit_s: The cost that the next price has to be below by a factor, in seconds.
+    """
+
+    goal: GoalId
+    price: int
+    lease: int
+    limit_s: float
+
+
+class TradeMessage(TypedDict, total=False):
+    """A message between controllers of a kind about a goal that one of them owns.
+
+    It has one of these keys.
+    """
+
+    offer: TradeOffer
+    price: Price
+    decline: GoalId
+    transfer: Transfer
+    dismiss: Claim
+    dismissed: Claim
+
+
 class AboutItem(TypedDict):
     """An item.
 
@@ -527,6 +586,7 @@ class About(TypedDict, total=False):
     lease: LeaseMessage
     ownership: OwnershipMessage
     lane: LaneMessage
+    trade: TradeMessage
 
 
 ActKind: TypeAlias = Literal[

@@ -55,12 +55,15 @@ pub enum ContractMessage {
     /// From the owner to all: the goal is no longer on offer, except to the robot whose bid has this number, if any has.
     /// To its assignee: it is to release it.
     Withdraw(Claim),
+    /// From a controller to a robot: a request of what it would bid for a goal that another controller owns. The answer is
+    /// a bid that no award can accept, or a refusal.
+    Estimate(Task),
 }
 
 impl ContractMessage {
     pub(super) fn urgency(&self) -> u8 {
         match self {
-            Self::Call { .. } | Self::Bid(_) => 2,
+            Self::Call { .. } | Self::Estimate(_) | Self::Bid(_) => 2,
             Self::Query {} | Self::Report(_) | Self::Fitness(_) => 3,
             _ => 1,
         }

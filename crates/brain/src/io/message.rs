@@ -5,6 +5,7 @@ use super::contract::ContractMessage;
 use super::goal_id::GoalId;
 use super::lease::LeaseMessage;
 use super::ownership::OwnershipMessage;
+use super::trade::TradeMessage;
 use super::work::lane::LaneMessage;
 use base::geometry::Point;
 use base::hash::Hash;
@@ -53,6 +54,7 @@ impl Message {
             About::Lease(_) => 0,
             About::Contract(message) => message.urgency(),
             About::Ownership(message) => message.urgency(),
+            About::Trade(message) => message.urgency(),
             About::Lane(message) => message.urgency(),
             About::Goal { .. } | About::Order { .. } => 1,
             About::Item { .. } | About::Sender { .. } => 3,
@@ -130,6 +132,8 @@ pub enum About {
     Ownership(OwnershipMessage),
     /// A mined lane.
     Lane(LaneMessage),
+    /// The transfer of a goal, from a controller to another one.
+    Trade(TradeMessage),
 }
 
 impl About {
@@ -137,7 +141,11 @@ impl About {
     #[must_use]
     pub fn is_of_economy(&self) -> bool {
         match self {
-            Self::Contract(_) | Self::Lease(_) | Self::Ownership(_) | Self::Lane(_) => true,
+            Self::Contract(_)
+            | Self::Lease(_)
+            | Self::Ownership(_)
+            | Self::Lane(_)
+            | Self::Trade(_) => true,
             Self::Item { .. } | Self::Sender { .. } | Self::Goal { .. } | Self::Order { .. } => {
                 false
             }
@@ -159,7 +167,8 @@ content!(
     Contract(ContractMessage),
     Lease(LeaseMessage),
     Ownership(OwnershipMessage),
-    Lane(LaneMessage)
+    Lane(LaneMessage),
+    Trade(TradeMessage)
 );
 
 /// The observations of one item by one robot: they count once, whichever robot reports them, and

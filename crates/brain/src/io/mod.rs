@@ -13,5 +13,6 @@ pub(crate) mod ownership;
 pub(crate) mod percept;
 pub(crate) mod random_words;
 pub(crate) mod reason;
+pub(crate) mod trade;
 pub(crate) mod verdict;
 pub(crate) mod work;

@@ -9,7 +9,7 @@ use super::holder::{Holder, Lease};
 use super::jobs::{Job, Jobs};
 use super::lane_reports::{Interrogation, LANE_REPORT_PERIOD_S, LaneReports};
 use super::numbers::Numbers;
-use super::offers::{Offer, Offers};
+use super::offers::{NO_CALL, Offer, Offers};
 use super::operator_reports::OperatorReports;
 use super::schedule::Schedule;
 use crate::goals::fitness::IMPOSSIBLE_S;
@@ -283,6 +283,9 @@ impl Assignee {
             About::Contract(ContractMessage::Call { number, task }) if task.is_valid() => {
                 let offer = Offer::new(task, from, number, self.now_s);
                 self.take_call(offer, is_only_one, ability, moment);
+            }
+            About::Contract(ContractMessage::Estimate(task)) if task.is_valid() => {
+                self.answer_estimate(Offer::new(task, from, NO_CALL, self.now_s), ability, moment);
             }
             About::Contract(ContractMessage::Award(award)) => {
                 self.take_award(from, award, ability, moment);

@@ -3,7 +3,7 @@
 use super::ability::{Ability, Moment};
 use super::assignee::Assignee;
 use super::bidding::{Bidder, Estimate};
-use super::offers::Offer;
+use super::offers::{NO_CALL, Offer};
 use super::schedule::StandingBid;
 use crate::io::contract::ContractMessage;
 use crate::io::message::{About, Message};
@@ -63,6 +63,27 @@ impl Assignee {
         let known = (&self.jobs, &self.failures);
         let bidder = Bidder::new(ability, known, moment, self.now_s);
         bidder.map_or(Err(Reason::Unreachable), |bidder| bidder.estimate(offer))
+    }
+
+    /// Answers what it would bid for a goal that the sender does not own: no award can accept that.
+    pub(super) fn answer_estimate(&mut self, offer: Offer, ability: &Ability, moment: &Moment) {
+        let (to, goal) = (offer.owner, offer.task.id);
+        let is_known = self.finished.contains(goal) || self.jobs.get(goal).is_some();
+        let estimate = if is_known {
+            Err(Reason::Lease)
+        } else {
+            self.estimate(&offer, ability, moment)
+        };
+        match estimate {
+            Ok(estimate) => {
+                let number = self.numbers.draw();
+                self.outbox.push(Message {
+                    confidence: estimate.confidence,
+                    ..Message::to(to, ContractMessage::Bid(estimate.bid(number)))
+                });
+            }
+            Err(reason) => self.refuse(to, goal, NO_CALL.into(), reason),
+        }
     }
 
     pub(super) fn send_bid(&mut self, estimate: &Estimate) {

@@ -12,6 +12,9 @@ const MAX_OFFERS: usize = 256;
 /// An offer is forgotten if its call is not repeated within this time, in seconds.
 const LIFE_S: f64 = 60.0;
 
+/// The number of no call.
+pub(super) const NO_CALL: u16 = u16::MAX;
+
 /// All known offers.
 #[derive(Debug, Clone, Default, Hashed)]
 pub(crate) struct Offers {

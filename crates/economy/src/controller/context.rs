@@ -69,12 +69,12 @@ impl Context {
         self.longest_wait_s = self.takeover_wait_s();
         self.settings = settings;
         self.count_votes();
-        let (now_s, wait_s) = (self.now_s, self.longest_wait_s);
+        let now_s = self.now_s;
         for owned in &mut self.ledger.goals {
             if owned.role == Role::Owner && !owned.is_held(now_s) {
                 owned.role = Role::Candidate {
                     since_s: now_s,
-                    wait_s,
+                    free_until_s: f64::NEG_INFINITY,
                 };
             }
         }
@@ -129,8 +129,21 @@ impl Context {
         self.outbox.push(Message::to(to, about));
     }
 
-    /// Owns a goal, which can be awarded after a time: one that a person has issued, or that it has planned.
-    pub(super) fn own(&mut self, task: Task, wait_s: f64) -> Result<(), Reason> {
+    /// The same with a confidence.
+    pub(super) fn send_with(
+        &mut self,
+        to: impl Into<Receiver>,
+        about: impl Into<About>,
+        confidence: f64,
+    ) {
+        self.outbox.push(Message {
+            confidence,
+            ..Message::to(to, about)
+        });
+    }
+
+    /// Is a candidate for a goal that a person has issued, or that it has planned.
+    pub(super) fn own(&mut self, task: Task) -> Result<(), Reason> {
         if self.ledger.get(task.id).is_some() {
             return Ok(());
         }
@@ -140,7 +153,8 @@ impl Context {
         if self.ledger.open(self.now_s) >= self.settings.max_goals as usize {
             return Err(Reason::Full);
         }
-        self.ledger.goals.push(Owned::new(task, self.now_s, wait_s));
+        let owned = Owned::new(task, self.now_s, f64::INFINITY);
+        self.ledger.goals.push(owned);
         self.count_votes_for(task.id);
         Ok(())
     }
@@ -186,9 +200,10 @@ impl Context {
         }
     }
 
-    /// Whether another controller has a vote for the owners of its goals.
+    /// Whether another controller may vote for the owners of its goals, or trade with it.
     pub(super) fn is_member(&self, other: AgentId) -> bool {
-        self.votes_needed() > 0 && other.kind == self.own.kind
+        let has_messages = self.votes_needed() > 0 || self.settings.trade.is_some();
+        has_messages && other.kind == self.own.kind
     }
 
     /// Number of votes of other controllers with which it owns a goal.

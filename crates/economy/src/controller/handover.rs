@@ -28,6 +28,9 @@
 //! | kept, free | another one requests the vote | granted |
 //! | | after a time, shorter for higher serial numbers | `Candidate` |
 //!
+//! By [trade](super::trade), an owner transfers a goal without an assignee: it is the first voter for the next one. Where
+//! controllers own goals alone (`backup = "none"`), a majority is the next owner and the previous one, until that is dismissed.
+//!
 //! A controller that restarts does not know for which controllers it has voted: it votes for no controller for the longest lease. So a goal whose
 //! owner is lost is owned by the working controller in range with the highest serial number (Miller 1990) that a majority
 //! votes for. n controllers survive the loss of (n - 1) / 2 of them, rounded down.
@@ -51,8 +54,9 @@ pub(crate) enum Role {
     /// It requests the votes of others.
     Candidate {
         since_s: f64,
-        /// How long the leases of the robots of previous owners can last.
-        wait_s: f64,
+        /// If it owns the goal before this time, no robot of a previous owner holds a lease of it: always for a goal that was
+        /// issued to it, for a time after a transfer, and never if a previous owner was lost.
+        free_until_s: f64,
     },
     /// A majority votes for it, as far as it knows.
     Owner,

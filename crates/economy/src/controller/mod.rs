@@ -4,6 +4,7 @@
 //! * [`presence`]: it reports to other controllers that it is in range;
 //! * [`contracts`]: goals are offered to robots, and awarded;
 //! * [`ownership`]: goals are handed over between controllers, by the [`handover`] protocol;
+//! * [`trade`]: goals go to the controller that can have them served;
 //! * [`missions`]: missions for which it plans goals itself.
 
 mod context;
@@ -15,6 +16,7 @@ mod ownership;
 mod peers;
 mod presence;
 mod robots;
+mod trade;
 
 pub(crate) use contracts::{CALLS_PER_STEP, REPEAT_S};
 pub(crate) use handover::{CANDIDACY_S, RETRY_S, TURN_S};
@@ -37,6 +39,7 @@ use contracts::Contracts;
 use missions::lane::LaneMission;
 use ownership::Ownership;
 use presence::Presence;
+use trade::Trading;
 
 /// One controller: it owns goals, and awards them to robots.
 #[derive(Debug, Clone, Hashed)]
@@ -45,6 +48,7 @@ pub struct Controller {
     presence: Presence,
     contracts: Contracts,
     ownership: Ownership,
+    trading: Trading,
     lane: LaneMission,
 }
 
@@ -73,6 +77,7 @@ impl Controller {
             presence: Presence::default(),
             contracts: Contracts::default(),
             ownership: Ownership::default(),
+            trading: Trading::default(),
         }
     }
 
@@ -130,6 +135,8 @@ impl Controller {
         self.ownership
             .settle(&mut self.context, &mut self.contracts);
         self.contracts.step(&mut self.context);
+        self.trading
+            .step(&mut self.context, &mut self.contracts, &mut self.ownership);
         self.ownership.step(&mut self.context);
         self.context.send_reports();
         let outbox = &mut self.context.outbox;
@@ -166,6 +173,8 @@ impl Controller {
                 if let ContractMessage::Done(claim) = about {
                     self.ownership.restore_done(context, from, claim.goal);
                 }
+                self.trading
+                    .take_answer(context, from, (&about, message.confidence));
                 self.contracts
                     .receive(context, from, about, message.confidence);
             }
@@ -189,8 +198,16 @@ impl Controller {
                     .see(seen.robot, at, message.confidence, now_s);
             }
             About::Ownership(about) if context.is_member(from) => {
+                if let OwnershipMessage::Ended(goal) = about {
+                    self.trading.note_end(context, from, goal);
+                }
                 self.ownership
                     .receive(context, &mut self.contracts, from, about);
+            }
+            About::Trade(about) if context.is_member(from) => {
+                let about = (about, message.confidence);
+                self.trading
+                    .receive(context, &mut self.ownership, from, about);
             }
             About::Lease(about) if context.is_member(from) => {
                 self.ownership.renew(context, from, about);
@@ -247,6 +264,12 @@ impl Controller {
         let is_own = ledger.has_undone(goal);
         let is_reported = ledger.reports.goals().any(|reported| reported == goal);
         is_own || is_reported || self.ownership.knows(goal)
+    }
+
+    /// Number of goals that it has transferred to other controllers.
+    #[must_use]
+    pub fn transfers(&self) -> u32 {
+        self.trading.transfers()
     }
 
     /// Number of goals that it refused because it owned the maximum number.

@@ -17,3 +17,4 @@ mod safety;
 mod survival;
 mod sweep;
 mod team;
+mod trade;

@@ -3,8 +3,8 @@
 
 use crate::network::Weather;
 use crate::team::{STEP_S, Team, goal_id};
-use brain::GoalId;
-use economy::Settings;
+use brain::{About, GoalId, Price, TradeMessage, Transfer};
+use economy::{Settings, Trade};
 use proptest::prelude::*;
 
 /// Number of schedules, unless the environment variable `SCHEDULES` has another.
@@ -19,8 +19,10 @@ const GOALS: u32 = 4;
 #[derive(Debug, Clone, Copy)]
 struct Adversary {
     seed: u64,
-    /// Number of controllers.
+    /// Number of controllers, whether they trade, and whether each owns its goals alone.
     members: u32,
+    trades: bool,
+    is_alone: bool,
     weather: Weather,
     /// Durations of leases: short, so that many end.
     service_lease_s: f64,
@@ -41,10 +43,12 @@ fn adversary() -> impl Strategy<Value = Adversary> {
     });
     let faults = (0.0..0.02_f64, 0.01..0.1_f64, 0.0..0.05_f64);
     let leases = (3.0..8.0_f64, 3.0..8.0_f64);
-    let team = (any::<u64>(), 2..6_u32);
+    let team = (any::<u64>(), 2..6_u32, any::<bool>(), any::<bool>());
     (team, weather, leases, faults).prop_map(|(team, weather, leases, faults)| Adversary {
         seed: team.0,
         members: team.1,
+        trades: team.2,
+        is_alone: team.2 && team.3,
         weather,
         service_lease_s: leases.0,
         owner_lease_s: leases.1,
@@ -60,6 +64,12 @@ fn settings(adversary: &Adversary) -> Settings {
         service_lease_s: adversary.service_lease_s,
         owner_lease_s: adversary.owner_lease_s,
         auction_s: 0.3,
+        // Controllers with a waiting goal are overloaded: they offer it.
+        trade: adversary.trades.then_some(Trade {
+            confidence: 0.0,
+            gain: 0.99,
+        }),
+        max_goals: if adversary.trades { 3 } else { 1000 },
         max_drift: 0.1,
         ..Settings::default()
     }
@@ -90,6 +100,47 @@ fn disturb(team: &mut Team, adversary: &Adversary) {
     }
 }
 
+#[expect(clippy::cast_precision_loss, reason = "few messages")]
+fn number(count: usize) -> f64 {
+    count as f64
+}
+
+/// Sends an old message between controllers again, or one about a goal with numbers of its own.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "random numbers"
+)]
+fn forge(team: &mut Team) {
+    if team.overheard.is_empty() || team.unit() > 0.2 {
+        return;
+    }
+    let index = (team.unit() * number(team.overheard.len())) as usize;
+    let (from, to, mut message) = team.overheard[index];
+    if team.unit() < 0.5 {
+        let bits = (team.unit() * 4e9) as u32;
+        message.about = match message.about {
+            About::Trade(TradeMessage::Price(price)) => TradeMessage::Price(Price {
+                number: bits,
+                cost_s: 0.0,
+                ..price
+            })
+            .into(),
+            About::Trade(TradeMessage::Transfer(transfer)) => TradeMessage::Transfer(Transfer {
+                price: bits,
+                ..transfer
+            })
+            .into(),
+            about => about,
+        };
+    }
+    let now_s = team.now_s;
+    team.network.send(from, to, message, now_s);
+    if team.overheard.len() > 2000 {
+        team.overheard.drain(..1000);
+    }
+}
+
 /// Owners and assignees of a goal at a true time.
 fn counts(team: &Team, goal: GoalId, true_s: f64) -> [usize; 2] {
     let owners = team
@@ -105,7 +156,12 @@ fn counts(team: &Team, goal: GoalId, true_s: f64) -> [usize; 2] {
 
 /// Steps in which each goal had an owner, and in which it had an assignee.
 fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
-    let mut team = Team::new(
+    let new = if adversary.is_alone {
+        Team::alone
+    } else {
+        Team::new
+    };
+    let mut team = new(
         [3, adversary.members],
         &settings(adversary),
         adversary.weather,
@@ -117,6 +173,7 @@ fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
     for step in 0..800 {
         if step > 50 {
             disturb(&mut team, adversary);
+            forge(&mut team);
         }
         team.step();
         for instant in 0..INSTANTS {
@@ -156,6 +213,8 @@ fn the_adversary_does_not_prevent_ownership_and_service() {
     let adversary = Adversary {
         seed: 1,
         members: 3,
+        trades: false,
+        is_alone: false,
         weather: Weather {
             min_delay_s: 0.0,
             loss: 0.3,

@@ -45,6 +45,9 @@ pub(crate) struct Station {
     pub(crate) is_cut_off: bool,
 }
 
+/// Whether a message of one agent reaches another.
+pub(crate) type Reach = dyn Fn(AgentId, AgentId, &Message) -> bool;
+
 /// All agents, and the true time.
 pub(crate) struct Team {
     pub(crate) now_s: f64,
@@ -60,6 +63,10 @@ pub(crate) struct Team {
     /// The calls for bids to all, and their times.
     pub(crate) calls: Vec<(f64, GoalId)>,
     issued: Vec<(usize, Task)>,
+    /// Whether a message of one agent to another arrives, unless the network loses it.
+    pub(crate) reaches: Box<Reach>,
+    /// The messages between controllers, of which an adversary sends some again.
+    pub(crate) overheard: Vec<(AgentId, AgentId, Message)>,
     /// The reports that the operator acknowledges, and the controllers that sent them.
     reported: Vec<(AgentId, GoalId)>,
     /// The goals that any controller has known to be done.
@@ -172,11 +179,28 @@ impl Team {
             to_operator: Vec::new(),
             calls: Vec::new(),
             issued: Vec::new(),
+            reaches: Box::new(|_, _, _| true),
+            overheard: Vec::new(),
             reported: Vec::new(),
             done: BTreeSet::new(),
             brain,
             random_stream,
         }
+    }
+
+    /// The same with controllers that own their goals alone.
+    pub(crate) fn alone(
+        counts: [u32; 2],
+        settings: &Settings,
+        weather: Weather,
+        seed: u64,
+    ) -> Self {
+        let mut team = Self::new(counts, settings, weather, seed);
+        team.settings = Arc::new(settings.clone());
+        for station in &mut team.stations {
+            station.controller = Some(Controller::new(Arc::clone(&team.settings)));
+        }
+        team
     }
 
     /// Issues goals at random places of a square, in turns to the controllers.
@@ -256,6 +280,11 @@ impl Team {
     /// Number of goals that are done.
     pub(crate) fn done(&self) -> usize {
         self.done.len()
+    }
+
+    /// Whether any controller has known a goal to be done.
+    pub(crate) fn is_done(&self, goal: GoalId) -> bool {
+        self.done.contains(&goal)
     }
 
     pub(crate) fn run(&mut self, time_s: f64) {
@@ -377,6 +406,12 @@ impl Team {
             let receivers = receivers.filter(|to| message.to.includes(*to));
             let receivers: Vec<AgentId> = receivers.collect();
             for to in receivers {
+                if !(self.reaches)(from, to, message) {
+                    continue;
+                }
+                if from.is_controller() && to.is_controller() {
+                    self.overheard.push((from, to, *message));
+                }
                 self.network.send(from, to, *message, self.now_s);
             }
         }

@@ -57,6 +57,7 @@ impl ControllerSpec {
             allocation: self.allocation,
             service_lease_s: self.service_lease_s,
             members: self.members(),
+            trade: self.trade,
             owner_lease_s: self.owner_lease_s,
             auction_s: self.auction_s,
             max_goals: self.max_goals,

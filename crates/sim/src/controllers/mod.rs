@@ -8,7 +8,7 @@ use crate::radio::RadioSpec;
 use crate::sensors::SensorSpec;
 use base::placement::Placement;
 use clearance::ClearanceSpec;
-use economy::{Allocation, Settings};
+use economy::{Allocation, Settings, Trade};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -51,6 +51,9 @@ pub struct ControllerSpec {
     /// Which controllers take the goals of a lost one over.
     #[serde(default)]
     pub backup: Backup,
+    /// The terms on which controllers of the kind trade goals with each other: a goal goes to the one that can have it served.
+    /// By default, they do not. A lane's goals are not traded.
+    pub trade: Option<Trade>,
     /// Time for which a controller votes for the owner of a goal without renewal, in seconds.
     #[serde(default = "owner_lease_s")]
     #[schemars(range(min = 0.1, max = 3600.0))]

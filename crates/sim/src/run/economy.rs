@@ -60,6 +60,8 @@ pub struct Controller {
     pub range_m: f64,
     /// Whether it sends and receives: it has not failed, and neither has the robot that carries it.
     pub is_working: bool,
+    /// Number of goals that it has transferred to others of its kind.
+    pub transfers: u32,
     /// Number of goals that it refused.
     pub refused: u32,
     /// The goals that it owns, as far as it knows.
@@ -123,6 +125,7 @@ impl State {
                 aboard,
                 range_m: participant.radio.range_m,
                 is_working: participant.is_working(&self.body_states),
+                transfers: agent.controller.transfers(),
                 refused: agent.controller.refused(),
                 goals: agent.controller.goals().collect(),
                 lost: agent.controller.lost().collect(),

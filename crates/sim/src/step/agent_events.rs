@@ -6,6 +6,7 @@ use crate::run::state::State;
 use crate::scenario::Scenario;
 use brain::{
     About, AgentId, ContractMessage, GoalId, LaneMessage, MarkVerdict, OwnershipMessage, Reason,
+    TradeMessage,
 };
 use economy::LanePicture;
 use std::collections::{BTreeMap, BTreeSet};
@@ -176,6 +177,7 @@ fn sent(state: &State, outgoing: &Outgoing) -> Option<EventKind> {
     let (about, goal) = match &message.about {
         About::Contract(message) => of_contract(message)?,
         About::Ownership(message) => of_ownership(message)?,
+        About::Trade(message) => of_trade(message)?,
         About::Lane(LaneMessage::Mark(_)) => ("mark", None),
         About::Lane(LaneMessage::Statement(_)) => ("statement on a mark", None),
         _ => return None,
@@ -201,6 +203,16 @@ fn of_contract(message: &ContractMessage) -> Option<(&'static str, Option<GoalId
         ContractMessage::Stuck(refusal) => ("failure", refusal.goal),
         ContractMessage::Release(claim) => ("release", claim.goal),
         ContractMessage::Withdraw(claim) => ("withdrawal", claim.goal),
+        _ => return None,
+    };
+    Some((about, Some(goal)))
+}
+
+/// The same for a message about the transfer of a goal.
+fn of_trade(message: &TradeMessage) -> Option<(&'static str, Option<GoalId>)> {
+    let (about, goal) = match message {
+        TradeMessage::Price(price) => ("price", price.goal),
+        TradeMessage::Transfer(transfer) => ("transfer", transfer.goal),
         _ => return None,
     };
     Some((about, Some(goal)))

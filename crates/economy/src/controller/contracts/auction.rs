@@ -90,7 +90,7 @@ impl Contracts {
                 return None;
             }
             let (bidder, task) = (&robots[robot], &goals[goal]);
-            let cost_s = |time_s: f32| cost_s(bidder, task, [time_s.into(), standing.confidence]);
+            let cost_s = |time_s: f32| bidder.cost_s(task, [time_s.into(), standing.confidence]);
             Some(Offer {
                 pair: Pair { goal, robot },
                 cost_s: cost_s(standing.bid.time_s),
@@ -99,6 +99,29 @@ impl Contracts {
                 is_bid: true,
             })
         })
+    }
+
+    /// The lowest cost of the valid bids for a goal; without any, that of a robot that could serve it later; infinity without
+    /// one.
+    pub(crate) fn lowest_cost_s(&self, context: &Context, goal: GoalId) -> f64 {
+        let Some(owned) = context.ledger.get(goal) else {
+            return f64::INFINITY;
+        };
+        let valid = self.bids.iter().filter(|it| it.bid.goal == goal);
+        let costs_s = valid.filter_map(|it| {
+            let bidder = context.robots.get(it.robot)?;
+            Some(bidder.cost_s(&owned.task, [it.bid.time_s.into(), it.confidence]))
+        });
+        let lowest_s = costs_s.fold(f64::INFINITY, f64::min);
+        if lowest_s.is_finite() {
+            return lowest_s;
+        }
+        let robots = context.robots.present();
+        let able = robots.filter(|robot| !owned.is_declined_by(robot.id, context.now_s));
+        let later_s = able.map(|robot| robot.later_cost_s(&owned.task));
+        later_s
+            .filter(|_| owned.unserved(context.now_s).is_none())
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Awards a goal to a robot that has bid for it; one that has not is called alone.
@@ -149,12 +172,6 @@ impl Contracts {
     }
 }
 
-/// Expected time divided by confidence, trust and value.
-fn cost_s(robot: &Robot, task: &Task, [time_s, confidence]: [f64; 2]) -> f64 {
-    let value = f64::from(task.value).max(1e-6);
-    time_s / (confidence * robot.trust.value() * value)
-}
-
 /// Adds the costs of idle robots by distance and speed, where they have neither bid nor declined.
 fn add_estimates(context: &Context, market: &mut Market, goals: &[Task], robots: &[Robot]) {
     let mut has_bid = alloc::vec![false; goals.len() * robots.len()];
@@ -171,7 +188,7 @@ fn add_estimates(context: &Context, market: &mut Market, goals: &[Task], robots:
             let distance_m = bidder.distance_m(&owned.task);
             let time_s = distance_m / bidder.speed_m_s + f64::from(owned.task.service_s);
             if is_new && time_s.is_finite() && !owned.is_declined_by(bidder.id, context.now_s) {
-                let cost_s = cost_s(bidder, &owned.task, [time_s, 1.0]);
+                let cost_s = bidder.cost_s(&owned.task, [time_s, 1.0]);
                 market.offers.push(Offer {
                     pair: Pair { goal, robot },
                     cost_s,

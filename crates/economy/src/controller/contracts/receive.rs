@@ -14,7 +14,7 @@ const DECLINED_S: f64 = 30.0;
 const DECLINED_PER_ROBOT_S: f64 = 2.0;
 
 /// Longest plausible time of a bid, in seconds: of its goal, and of all that the robot serves.
-const MAX_TIME_S: f32 = 1e7;
+pub(crate) const MAX_TIME_S: f32 = 1e7;
 
 impl Contracts {
     pub(crate) fn receive(

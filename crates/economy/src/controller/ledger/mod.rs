@@ -112,7 +112,8 @@ impl Ledger {
     fn majority_until_s(&self, goal: GoalId, needed: usize) -> f64 {
         let mut ends_s: Vec<f64> = self.votes_for(goal).map(|(_, until_s)| until_s).collect();
         ends_s.sort_by(|one, other| other.total_cmp(one));
-        match needed.checked_sub(1) {
+        let has_giver = self.get(goal).is_some_and(|owned| owned.giver.is_some());
+        match needed.max(has_giver.into()).checked_sub(1) {
             None => f64::INFINITY,
             Some(last) => ends_s.get(last).copied().unwrap_or(f64::NEG_INFINITY),
         }

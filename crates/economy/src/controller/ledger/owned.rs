@@ -39,6 +39,11 @@ pub(crate) struct Owned {
     pub(crate) held_until_s: f64,
     /// The owner before this controller.
     pub(crate) origin: Option<AgentId>,
+    /// That owner, if it has transferred the goal and its vote is needed although controllers own goals alone.
+    pub(crate) giver: Option<AgentId>,
+    /// When it is offered to other controllers next, and the cost that their prices have to be below.
+    pub(crate) next_offer_s: f64,
+    pub(crate) limit_s: f64,
     /// Whether it has been reported that no controller owns it.
     pub(crate) is_reported: bool,
     /// From when on it can be awarded.
@@ -104,19 +109,22 @@ pub(crate) struct Rest {
 }
 
 impl Owned {
-    /// A goal that can be awarded a time after the controller owns it.
-    pub(crate) fn new(task: Task, now_s: f64, wait_s: f64) -> Self {
+    /// A goal for which the controller is a candidate.
+    pub(crate) fn new(task: Task, now_s: f64, free_until_s: f64) -> Self {
         Self {
             task,
             due_at_s: now_s + f64::from(task.due_s),
             is_done: false,
             role: Role::Candidate {
                 since_s: now_s,
-                wait_s,
+                free_until_s,
             },
             votes: Vec::new(),
             held_until_s: f64::NEG_INFINITY,
             origin: None,
+            giver: None,
+            next_offer_s: f64::NEG_INFINITY,
+            limit_s: f64::INFINITY,
             is_reported: false,
             ready_s: f64::INFINITY,
             call: 0,
@@ -149,6 +157,18 @@ impl Owned {
         self.ready_s = now_s + wait_s;
         (self.next_call_s, self.called_s) = (self.ready_s, None);
         (self.without_bid_s, self.next_probe_s) = (self.ready_s, self.ready_s);
+    }
+
+    /// Whether the controller is a candidate to which the owner has transferred it.
+    pub(crate) fn is_of_transfer(&self) -> bool {
+        matches!(self.role, Role::Candidate { free_until_s, .. } if free_until_s.is_finite())
+    }
+
+    /// Whether the owner before this controller votes for it, or is to know that it has been served, where controllers own
+    /// goals alone.
+    pub(crate) fn is_traded_with(&self, other: AgentId) -> bool {
+        let is_origin = self.origin == Some(other);
+        is_origin && (self.giver.is_some() || self.is_done)
     }
 
     /// The vote of another controller.

@@ -10,6 +10,8 @@ pub(super) struct Kept {
     pub(super) due_at_s: f64,
     /// The last owner or candidate that it knows of: it may have lost the goal itself.
     pub(super) owner: AgentId,
+    /// The controller that has transferred it to this one, and without which it cannot own it.
+    pub(super) giver: Option<AgentId>,
     /// Whether it has been reported that no controller owns it, as far as this controller knows.
     pub(super) is_reported: bool,
     /// When this controller becomes a candidate; infinity while it votes for another.
@@ -25,6 +27,7 @@ impl Kept {
             task,
             due_at_s,
             owner,
+            giver: None,
             is_reported: false,
             turn_s: f64::INFINITY,
             assignees: Vec::new(),

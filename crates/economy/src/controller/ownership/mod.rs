@@ -3,21 +3,23 @@
 //! [`handover`](super::handover) has the protocol and its states.
 //!
 //! * [`owner`]: the goals that the controller owns, or is a candidate for; [`renewals`]: the leases under which it owns them;
-//! * [`voter`]: the goals of others, and the leases that it grants to their owners.
+//! * [`voter`]: the goals of others, and the leases that it grants to their owners; [`transfer`]: goals that are traded.
 
 mod kept;
 mod owner;
 mod renewals;
+mod transfer;
 mod voter;
 
 pub use renewals::RENEWAL_RETRY_S;
+pub(crate) use transfer::Received;
 
 use super::context::Context;
 use super::contracts::Contracts;
 use super::handover::Role;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
-use brain::{AgentId, GoalId, Grantor, LeaseMessage, OwnershipMessage, Task};
+use brain::{AgentId, Claim, GoalId, Grantor, LeaseMessage, OwnershipMessage, Task};
 use kept::Kept;
 
 /// Longer leases are invalid, in seconds.
@@ -36,6 +38,8 @@ pub(super) struct Ownership {
     granted: Grantor,
     /// Goals of others that have been served, the oldest first.
     ended: Vec<GoalId>,
+    /// Goals that it has transferred and forgotten, where controllers own goals alone, the oldest first.
+    dismissed: Vec<(AgentId, Claim)>,
     next_renewal_s: f64,
 }
 
@@ -45,6 +49,7 @@ impl Default for Ownership {
             kept: Vec::new(),
             granted: Grantor::default(),
             ended: Vec::new(),
+            dismissed: Vec::new(),
             next_renewal_s: f64::NEG_INFINITY,
         }
     }

@@ -7,7 +7,9 @@ use crate::controller::contracts::Contracts;
 use crate::controller::handover::{CANDIDACY_S, RETRY_S, Role};
 use crate::controller::ledger::owned::Owned;
 use alloc::vec::Vec;
-use brain::{AgentId, Award, Claim, Entrust, GoalId, OwnershipMessage, Reason, Refusal, Task};
+use brain::{
+    AgentId, Award, Claim, Entrust, GoalId, OwnershipMessage, Reason, Refusal, Task, TradeMessage,
+};
 
 impl Ownership {
     /// A goal that a person has issued: it is to own it, unless it votes for an owner.
@@ -22,7 +24,7 @@ impl Ownership {
             }
             return;
         }
-        if let Err(reason) = context.own(task, 0.0) {
+        if let Err(reason) = context.own(task) {
             context.ledger.refused += 1;
             let refusal = Refusal {
                 goal: task.id,
@@ -51,7 +53,8 @@ impl Ownership {
             return;
         }
         if let Some(owned) = context.ledger.get_mut(goal) {
-            owned.vote_of(from, now_s).next_s = f64::INFINITY;
+            let is_giver = owned.giver == Some(from);
+            owned.vote_of(from, now_s).next_s = if is_giver { now_s } else { f64::INFINITY };
         }
         context.count_votes_for(goal);
         context.report_assignees(goal);
@@ -73,7 +76,7 @@ impl Ownership {
         let index = all.position(|kept| kept.task.id == goal && kept.assignees.contains(&from));
         if let Some(index) = index {
             let kept = self.kept.remove(index);
-            let mut owned = Owned::new(kept.task, context.now_s, 0.0);
+            let mut owned = Owned::new(kept.task, context.now_s, f64::INFINITY);
             (owned.assignees, owned.is_done) = (kept.assignees, true);
             context.ledger.goals.push(owned);
         }
@@ -100,12 +103,15 @@ impl Ownership {
 
     /// Candidates become owners, and both give up, as the votes are.
     pub(crate) fn settle(&mut self, context: &mut Context, contracts: &mut Contracts) {
-        let now_s = context.now_s;
+        let (now_s, wait_s) = (context.now_s, context.takeover_wait_s());
         let mut given_up = Vec::new();
         for owned in context.ledger.goals.iter_mut().filter(|it| !it.is_done) {
             let has_majority = now_s < owned.held_until_s;
             match owned.role {
-                Role::Candidate { wait_s, .. } if has_majority => owned.win(now_s, wait_s),
+                Role::Candidate { free_until_s, .. } if has_majority => {
+                    let is_free = now_s < free_until_s;
+                    owned.win(now_s, if is_free { 0.0 } else { wait_s });
+                }
                 Role::Candidate { since_s, .. } if now_s >= since_s + CANDIDACY_S => {
                     given_up.push(owned.task.id);
                 }
@@ -123,14 +129,21 @@ impl Ownership {
         let Some(owned) = context.ledger.get(goal) else {
             return;
         };
-        let was_owner = owned.role == Role::Owner;
-        if was_owner || !owned.is_reported {
+        let (was_owner, is_reported, giver) =
+            (owned.role == Role::Owner, owned.is_reported, owned.giver);
+        // The controller that has transferred it to this one in vain keeps it.
+        let is_of_giver = owned.is_of_transfer();
+        self.keep(context, contracts, goal);
+        if is_of_giver && giver.is_some() {
+            self.kept.retain(|kept| kept.task.id != goal);
+            return;
+        }
+        if !is_of_giver && (was_owner || !is_reported) {
             context.report(goal, 0, Reason::OwnershipLost);
         }
-        self.keep(context, contracts, goal);
         let turn_s = context.now_s + CANDIDACY_S;
         if let Some(kept) = self.kept_mut(goal) {
-            (kept.is_reported, kept.turn_s) = (true, turn_s);
+            (kept.is_reported, kept.turn_s) = (!is_of_giver, turn_s);
         }
     }
 
@@ -146,13 +159,15 @@ impl Ownership {
         };
         let mut kept = Kept::new(owned.task, owned.due_at_s, context.own);
         (kept.assignees, kept.is_reported) = (owned.assignees, owned.is_reported);
+        kept.giver = owned.giver;
         self.kept.push(kept);
         contracts.forget(goal);
     }
 
     /// Requests the votes that are missing, and informs voters of goals that have been served.
     pub(super) fn request_votes(context: &mut Context) {
-        if context.votes_needed() == 0 || !context.may_grant() {
+        let is_alone = context.votes_needed() == 0;
+        if is_alone && context.settings.trade.is_none() || !context.may_grant() {
             return;
         }
         let members: Vec<AgentId> = context.peers.members_of(context.own).collect();
@@ -161,6 +176,9 @@ impl Ownership {
             for member in &members {
                 if left == 0 {
                     return;
+                }
+                if is_alone && !context.ledger.goals[index].is_traded_with(*member) {
+                    continue;
                 }
                 if request_vote(context, index, *member) {
                     left -= 1;
@@ -176,13 +194,23 @@ fn request_vote(context: &mut Context, index: usize, member: AgentId) -> bool {
     let again_s = context.settings.owner_lease_s / 2.0;
     let owned = &mut context.ledger.goals[index];
     let (task, is_done) = (owned.task_at(now_s), owned.is_done);
+    let is_dismissed = owned.giver == Some(member) && owned.is_held(now_s);
     let vote = owned.vote_of(member, now_s);
+    let number = vote.number;
     if now_s < vote.next_s {
         return false;
     }
     vote.next_s = now_s + RETRY_S;
     if is_done {
         context.send(member, OwnershipMessage::Ended(task.id));
+        return true;
+    }
+    if is_dismissed {
+        let claim = Claim {
+            goal: task.id,
+            number,
+        };
+        context.send(member, TradeMessage::Dismiss(claim));
         return true;
     }
     // A repeated request has the same number: the answer to any of them counts, from the first.

@@ -35,7 +35,11 @@ impl Ownership {
             None => {}
         }
         let claim = Claim { goal, number };
-        if self.kept.len() >= MAX_KEPT && self.kept_mut(goal).is_none() {
+        let is_kept = self.kept_mut(goal).is_some();
+        if context.votes_needed() == 0 && !is_kept {
+            return self.answer_dismissed(context, from, claim);
+        }
+        if self.kept.len() >= MAX_KEPT && !is_kept {
             return;
         }
         let (now_s, wait_s) = (context.now_s, context.owner_wait_s());
@@ -60,7 +64,7 @@ impl Ownership {
     }
 
     /// Whether it knows that a goal has been served.
-    fn has_ended(&self, context: &Context, goal: GoalId) -> bool {
+    pub(super) fn has_ended(&self, context: &Context, goal: GoalId) -> bool {
         let is_done = context.ledger.get(goal).is_some_and(|owned| owned.is_done);
         is_done || self.ended.contains(&goal)
     }
@@ -169,11 +173,14 @@ impl Ownership {
         if !context.may_grant() {
             return;
         }
-        let (now_s, wait_s) = (context.now_s, context.takeover_wait_s());
+        let now_s = context.now_s;
         let due = self.kept.extract_if(.., |kept| now_s >= kept.turn_s);
         for kept in due {
-            let mut owned = Owned::new(kept.task, now_s, wait_s);
+            let mut owned = Owned::new(kept.task, now_s, f64::NEG_INFINITY);
             (owned.due_at_s, owned.origin) = (kept.due_at_s, Some(kept.owner));
+            if let Some(giver) = kept.giver {
+                (owned.origin, owned.giver) = (Some(giver), Some(giver));
+            }
             (owned.assignees, owned.is_reported) = (kept.assignees, kept.is_reported);
             context.ledger.goals.push(owned);
             context.count_votes_for(kept.task.id);

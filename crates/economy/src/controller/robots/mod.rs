@@ -53,6 +53,19 @@ impl Robot {
             .map_or(f64::INFINITY, |at| at.to(task.at()).length())
     }
 
+    /// The cost of a bid: the expected time divided by confidence, trust and value.
+    pub(super) fn cost_s(&self, task: &Task, [time_s, confidence]: [f64; 2]) -> f64 {
+        let value = f64::from(task.value).max(1e-6);
+        time_s / (confidence * self.trust.value() * value)
+    }
+
+    /// The cost of a goal that it could serve after those that it serves now, as if each of them took as long; infinite if its
+    /// position is unknown.
+    pub(super) fn later_cost_s(&self, task: &Task) -> f64 {
+        let time_s = self.distance_m(task) / self.speed_m_s + f64::from(task.service_s);
+        self.cost_s(task, [time_s * f64::from(self.goals + 1), 1.0])
+    }
+
     /// Takes a position, unless the known one has a higher weight.
     fn place(&mut self, at: Point, weight: f64, now_s: f64) {
         let known = self.weight * libm::exp2((self.at_s - now_s) / HALF_LIFE_S);

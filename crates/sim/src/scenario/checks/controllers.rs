@@ -19,6 +19,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
             let mut errors = of_carriers(kind, spec, &at);
             errors.extend(of_sensors(kind, &at));
             errors.extend(of_radio(&kind.radio, &at.key("radio")));
+            errors.extend(of_trade(kind, &at));
             errors.extend(of_leases(kind, spec, &at));
             errors.extend(of_services(name, spec, &at));
             errors
@@ -87,6 +88,14 @@ fn of_radio(radio: &RadioSpec, at: &Place) -> Vec<InputError> {
         errors.push(at.key("messages_per_step").error(allowed));
     }
     errors
+}
+
+/// Trade with no other controller of the kind.
+fn of_trade(kind: &ControllerSpec, at: &Place) -> Option<InputError> {
+    (kind.trade.is_some() && kind.count == 1).then(|| {
+        let allowed = "omitted for a single controller: it trades with others of its kind";
+        at.key("trade").error(allowed)
+    })
 }
 
 /// A name that is none of these.

@@ -6,15 +6,16 @@ use sim::simulation::Simulation;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Controllers of two kinds and three rovers. Half of the goals are issued when the scenario changes.
+/// Controllers of two kinds and three rovers, and a goal that no robot serves, which controllers trade in vain. Half of the goals are issued when the scenario changes.
 const RUN: &str = r#"
 clock.time_limit_s = 150
 world.size_m = [60, 40]
-robots.bird = { layer = "air", start.at_m = [[30, 20], [31, 20]], brain.behaviours = [] }
+robots.bird = { layer = "air", capabilities = ["wing"], radio.range_m = 9, start.at_m = [[30, 20], [31, 20]], brain.behaviours = [] }
 controllers.base.count = 2
 controllers.base.radio = { range_m = 80, messages_per_step = 20, loss_probability = 0.1 }
 controllers.mast = { start.at_m = [[50, 30]], radio.range_m = 80 }
 goals.spot = { count = 8, owner = "base", every_s = 10 }
+goals.sky = { count = 1, owner = "base", requires = "wing", placement.at_m = [[5, 5]] }
 goals.here = { count = 2, owner = "mast", placement.at_m = [[20, 10], [40, 10], [30, 30]] }
 [robots.rover]
 capabilities = ["arm"]
@@ -62,7 +63,7 @@ fn has_effect(to: Arc<Scenario>) -> bool {
 }
 
 /// Keys with a value that changes the outcome.
-const EFFECTIVE: [(&str, &str, &str); 19] = [
+const EFFECTIVE: [(&str, &str, &str); 20] = [
     ("controllers.base", "count", "3"),
     ("controllers.base", "aboard", "\"bird\""),
     ("controllers.base.radio", "range_m", "5"),
@@ -81,6 +82,7 @@ const EFFECTIVE: [(&str, &str, &str); 19] = [
     ("controllers.base", "service_lease_s", "5"),
     ("controllers.base", "owner_lease_s", "4"),
     ("controllers.base", "backup", "\"none\""),
+    ("controllers.base", "trade", "{}"),
     ("controllers.base", "auction_s", "4"),
     ("controllers.base", "max_goals", "1"),
     ("goals.spot", "count", "4"),

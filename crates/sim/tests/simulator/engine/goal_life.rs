@@ -212,6 +212,11 @@ impl Fuzzed {
                 any(&["\"none\"", "\"majority\"", "\"majority\""]),
             ),
             ("controllers.base.max_goals", any(&["0", "2", "5", "1000"])),
+            // Controllers with few goals at most are overloaded soon, and trade.
+            (
+                "controllers.base.trade",
+                any(&["{ gain = 0.99, confidence = 0 }", "{}"]),
+            ),
             ("controllers.base.owner_lease_s", any(&["4", "6", "30"])),
             ("controllers.base.service_lease_s", any(&["10", "20"])),
             (
@@ -228,7 +233,10 @@ impl Fuzzed {
             ("goals.spot.every_s", any(&["0", "3"])),
         ];
         let values = changes.map(|(key, value)| (key, value.to_owned()));
-        let values = BTreeMap::from(values);
+        let mut values = BTreeMap::from(values);
+        if values["controllers.base.count"] == "1" || random.below(2) == 0 {
+            values.remove("controllers.base.trade");
+        }
         Self {
             simulation: start(&text_of(&values)),
             random,
@@ -254,7 +262,11 @@ impl Fuzzed {
                 "controllers.base.backup",
                 any(&["\"none\"", "\"majority\""]),
             ),
-            ("controllers.base.max_goals", any(&["0", "2", "1000"])),
+            ("controllers.base.max_goals", any(&["0", "2", "5", "1000"])),
+            (
+                "controllers.base.trade",
+                any(&["{ gain = 0.99, confidence = 0 }", "{ gain = 0.1 }"]),
+            ),
             (
                 "controllers.base.radio.loss_probability",
                 any(&["0.9", "0"]),
@@ -279,7 +291,7 @@ impl Fuzzed {
             ),
             ("goals.spot.service_s", any(&["0", "2", "6"])),
         ];
-        let number = self.random.below(13) as usize;
+        let number = self.random.below(14) as usize;
         let (key, value) = changes.into_iter().nth(number).unwrap();
         let mut values = self.values.clone();
         values.insert(key, value);

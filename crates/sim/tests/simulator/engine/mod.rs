@@ -51,4 +51,5 @@ mod robust;
 mod sensors;
 mod state_hashes;
 mod streams;
+mod trade;
 mod waiting;

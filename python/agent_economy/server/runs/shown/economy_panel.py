@@ -7,7 +7,15 @@ from agent_economy.runs.simulation import Simulation
 from agent_economy.server.runs.shown.drawing import chooses
 from agent_economy.server.runs.shown.goals import STATUSES, Goal, Picture, Row
 from agent_economy.server.runs.shown.row_filter import RowFilter
-from agent_economy.server.runs.shown.tables import MAX_ROWS, cell, muted, row, section, table
+from agent_economy.server.runs.shown.tables import (
+    MAX_ROWS,
+    cell,
+    muted,
+    plural,
+    row,
+    section,
+    table,
+)
 from agent_economy.types.page import Cell, Colour, Panel, Section
 from agent_economy.types.page import Row as TableRow
 
@@ -53,8 +61,9 @@ def details_of_controller(of: Row, lost: list[str]) -> str:
     """Return what else is known of a controller."""
     failed = "" if of["working"] else "Failed. "
     aboard = f", aboard {of['aboard']}" if of["aboard"] else ""
+    given = f". Transferred: {plural(of['transfers'], 'goal')}" if of["transfers"] else ""
     names = f". Lost: {', '.join(lost)}" if lost else ""
-    return f"{failed}Radio range {of['range_m']:g} m{aboard}{names}"
+    return f"{failed}Radio range {of['range_m']:g} m{aboard}{given}{names}"
 
 
 def goals(picture: Picture, filtered: RowFilter) -> Section:

@@ -80,7 +80,7 @@ impl LaneWork {
             let issuer = context.own.into();
             let number = context.numbers.draw();
             let goal = GoalId { issuer, number };
-            if context.own(proposal.task(goal), 0.0).is_err() {
+            if context.own(proposal.task(goal)).is_err() {
                 // There is room for it later.
                 break;
             }

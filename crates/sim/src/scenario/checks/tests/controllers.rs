@@ -130,6 +130,37 @@ fn an_ownership_lease_that_a_majority_grants_outlasts_three_round_trips() {
 }
 
 #[test]
+fn trade_needs_another_controller_and_a_gain_below_1() {
+    let errors = errors_of(&format!(
+        "{RADIO}owner_lease_s = 0.1\n[controllers.base.trade]\ngain = 1"
+    ));
+    let paths: Vec<&str> = errors
+        .iter()
+        .filter_map(|it| it.split(": must").next())
+        .collect();
+    let expected = [
+        "controllers.base.trade.gain = 1",
+        "controllers.base.trade = {...}",
+        "controllers.base.owner_lease_s = 0.1",
+    ];
+    assert_eq!(paths, expected);
+    for good in ["gain = 0.01", "confidence = 1", "gain = 0.99"] {
+        let text = format!("{GOOD}\n[controllers.base]\ncount = 2\n{RADIO}trade = {{ {good} }}\n");
+        assert_eq!(errors_in(&text), [""; 0], "{good}");
+    }
+    for bad in [
+        "gain = 0",
+        "gain = 1.0",
+        "confidence = 1.1",
+        "confidence = -1",
+        "price = 3",
+    ] {
+        let text = format!("{GOOD}\n[controllers.base]\ncount = 2\n{RADIO}trade = {{ {bad} }}\n");
+        assert_eq!(errors_in(&text).len(), 1, "{bad}");
+    }
+}
+
+#[test]
 fn the_error_of_a_default_lease_names_the_default() {
     let auction = error_of(&format!("{RADIO}auction_s = 30"));
     let start = "controllers.base.service_lease_s = 20 (default): must be at least 3";
