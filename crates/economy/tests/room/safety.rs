@@ -64,12 +64,12 @@ fn settings(adversary: &Adversary) -> Settings {
         service_lease_s: adversary.service_lease_s,
         owner_lease_s: adversary.owner_lease_s,
         auction_s: 0.3,
-        // Controllers with a waiting goal are overloaded: they offer it.
         trade: adversary.trades.then_some(Trade {
             confidence: 0.0,
             gain: 0.99,
         }),
-        max_goals: if adversary.trades { 3 } else { 1000 },
+        // Those with a few waiting goals offer them.
+        max_goals: if adversary.trades { 5 } else { 1000 },
         max_drift: 0.1,
         ..Settings::default()
     }
@@ -154,8 +154,8 @@ fn counts(team: &Team, goal: GoalId, true_s: f64) -> [usize; 2] {
     [owners.count(), assignees.count()]
 }
 
-/// Steps in which each goal had an owner, and in which it had an assignee.
-fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
+/// Steps in which each goal had an owner, and in which it had an assignee, and the number of transfers.
+fn check(adversary: &Adversary) -> Result<[usize; 3], TestCaseError> {
     let new = if adversary.is_alone {
         Team::alone
     } else {
@@ -167,6 +167,17 @@ fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
         adversary.weather,
         adversary.seed,
     );
+    if adversary.trades {
+        // Two of three robots are in range of every other controller only: the rest have few bids.
+        team.reaches = Box::new(move |from, to, _| {
+            let (robot, station) = if from.is_robot() {
+                (from, to)
+            } else {
+                (to, from)
+            };
+            from.role == to.role || station.index % 2 == 1 || robot.index == 2
+        });
+    }
     // Too far to be served.
     team.issue_random(GOALS, 1e6);
     let mut sums = [0, 0];
@@ -189,7 +200,7 @@ fn check(adversary: &Adversary) -> Result<[usize; 2], TestCaseError> {
             }
         }
     }
-    Ok(sums)
+    Ok([sums[0], sums[1], team.transfers])
 }
 
 fn schedules() -> u32 {
@@ -208,13 +219,13 @@ proptest! {
     }
 }
 
-#[test]
-fn the_adversary_does_not_prevent_ownership_and_service() {
-    let adversary = Adversary {
+/// An adversary that is not severe.
+fn mild(trades: bool, is_alone: bool) -> Adversary {
+    Adversary {
         seed: 1,
         members: 3,
-        trades: false,
-        is_alone: false,
+        trades,
+        is_alone,
         weather: Weather {
             min_delay_s: 0.0,
             loss: 0.3,
@@ -226,8 +237,25 @@ fn the_adversary_does_not_prevent_ownership_and_service() {
         crash: 0.001,
         restart: 0.05,
         change: 0.02,
-    };
-    let [owned, assigned] = check(&adversary).unwrap();
+    }
+}
+
+#[test]
+fn the_adversary_does_not_prevent_trade() {
+    for is_alone in [false, true] {
+        let with_seed = |seed| Adversary {
+            seed,
+            ..mild(true, is_alone)
+        };
+        let transfers = (0..10).map(|seed| check(&with_seed(seed)).unwrap()[2]);
+        let transfers: usize = transfers.sum();
+        assert!(transfers >= 10, "{transfers} {is_alone}");
+    }
+}
+
+#[test]
+fn the_adversary_does_not_prevent_ownership_and_service() {
+    let [owned, assigned, _] = check(&mild(false, false)).unwrap();
     let all = 800 * (GOALS * INSTANTS) as usize;
     assert!(
         owned > all / 4 && assigned > all / 6,

@@ -6,7 +6,7 @@ use base::geometry::Point;
 use base::random::Stream;
 use brain::{
     About, AgentId, Body, Brain, BrainSpec, Command, ContractMessage, GoalId, Message, Other,
-    Percept, Reading, ReceivedMessage, Task, Work,
+    Percept, Reading, ReceivedMessage, Task, TradeMessage, Work,
 };
 use economy::{Controller, Settings};
 use std::collections::BTreeSet;
@@ -58,6 +58,8 @@ pub(crate) struct Team {
     /// The robots that have reported that they served a goal, and the number of messages so far.
     pub(crate) served: BTreeSet<(GoalId, AgentId)>,
     pub(crate) messages: usize,
+    /// Number of transfers that were sent.
+    pub(crate) transfers: usize,
     /// Messages of controllers to the operator.
     pub(crate) to_operator: Vec<Message>,
     /// The calls for bids to all, and their times.
@@ -176,6 +178,7 @@ impl Team {
             settings,
             served: BTreeSet::new(),
             messages: 0,
+            transfers: 0,
             to_operator: Vec::new(),
             calls: Vec::new(),
             issued: Vec::new(),
@@ -390,6 +393,9 @@ impl Team {
             }
             if let About::Contract(ContractMessage::Call { task, .. }) = message.about {
                 self.calls.push((self.now_s, task.id));
+            }
+            if let About::Trade(TradeMessage::Transfer(_)) = message.about {
+                self.transfers += 1;
             }
             if message.to == AgentId::OPERATOR.into() {
                 self.to_operator.push(*message);
