@@ -78,6 +78,87 @@ BAYESIAN, _, HOME, _ = AREA_SEARCH.to_dict()["robots"]["rover"]["brain"]["behavi
 ONE_AREA = SERVE | {"max_goals": 1}
 AWARDED = {BEHAVIOURS: [ONE_AREA, HOME, AVOID]}
 
+TEXT = (ROOT / "scenarios" / "waypoints.toml").read_text(encoding="utf-8")
+SHORT_RADIOS = ae.Scenario.loads(TEXT.partition("[study]")[0], "waypoints.toml")
+"""The waypoints, without a study of a single controller, for which trade is refused."""
+
+BACKUP, TRADE = "controllers.base.backup", "controllers.base.trade"
+ALONE: Changes = {BACKUP: "none"}
+TRADING: Changes = {TRADE: {}}
+
+TEAMS: dict[str, Changes] = {
+    "1": {CONTROLLERS: 1},
+    "2": {CONTROLLERS: 2},
+    "2, trade": {CONTROLLERS: 2, **TRADING},
+    "2 alone, trade": {CONTROLLERS: 2, **ALONE, **TRADING},
+    "3, trade": {CONTROLLERS: 3, **TRADING},
+}
+"""Controllers whose radios, and those of robots, are short."""
+
+HALF = """
+[goals.NAME]
+count = 30
+owner = "OWNER"
+requires = "NAME"
+within_m = 1
+service_s = 5
+placement = { kind = "uniform", within_m = [[FROM, 5], [TO, 95]] }
+
+[robots.NAME]
+count = 4
+capabilities = ["NAME"]
+radius_m = 0.3
+start = { kind = "uniform", within_m = [[START, 40], [END, 60]] }
+drive = { max_speed_m_s = 2, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 120 }
+radio = { range_m = 130, messages_per_step = 20, loss_probability = 0.02 }
+sensors = { gps = { kind = "position" }, compass = { kind = "heading" } }
+brain = { behaviours = [{ kind = "serve" }] }
+
+[controllers.NAME_base]
+count = 0
+start = { kind = "fixed", at_m = [[CENTRE, 50]] }
+radio = { range_m = 400, messages_per_step = 20, loss_probability = 0.02 }
+"""
+"""A half of a field, whose robots reach only the controller in it."""
+
+
+def half(name: str, start_m: int) -> str:
+    """Return a half of the field that begins there."""
+    ends = {"FROM": 5, "TO": 95, "START": 40, "END": 60, "CENTRE": 50}
+    text = HALF.replace("NAME", name).replace("OWNER", "base")
+    for word, along_m in ends.items():
+        text = text.replace(word, str(start_m + along_m))
+    return text
+
+
+FIELD = """
+engine = "metric"
+summary = "Two halves of a field."
+merit = { time = -0.01 }
+clock = { step_s = 0.2, time_limit_s = 600 }
+world = { size_m = [300, 100] }
+
+[controllers.base]
+count = 2
+start = { kind = "fixed", at_m = [[50, 50], [250, 50], [150, 50]] }
+radio = { range_m = 400, messages_per_step = 20, loss_probability = 0.02 }
+"""
+HALVES = ae.Scenario.loads(FIELD + half("west", 0) + half("east", 200), "halves.toml")
+
+DEALS: dict[str, Changes] = {
+    "right deal": {
+        CONTROLLERS: 0,
+        "controllers.west_base.count": 1,
+        "controllers.east_base.count": 1,
+        "goals.west.owner": "west_base",
+        "goals.east.owner": "east_base",
+    },
+    "no trade": {},
+    "trade": TRADING,
+    "trade, alone": {**TRADING, **ALONE},
+}
+"""Goals of two halves of a field that are dealt to the right controller, or to two in turn."""
+
 SEARCHES: dict[str, Changes] = {
     "random": {CONTROLLERS: 0, BEHAVIOURS: [{"kind": "random_bounce"}, HOME, AVOID]},
     "messages": {CONTROLLERS: 0, BEHAVIOURS: [BAYESIAN, HOME, AVOID]},
@@ -103,6 +184,15 @@ A fixed plan is an auction of all goals at the start, with leases that outlast t
 """
 
 
+RULES_OF = {
+    id(WAYPOINTS): RULES,
+    id(AREA_SEARCH): SEARCHES,
+    id(SHORT_RADIOS): TEAMS,
+    id(HALVES): DEALS,
+}
+"""The rows of the tables, by scenario."""
+
+
 @dataclass(frozen=True)
 class Case:
     """A table of the page: a number that varies, by rule."""
@@ -117,8 +207,7 @@ class Case:
 
     def all_changes(self, rule: str, number: float) -> Changes:
         """Return what differs from the scenario for a rule and a number."""
-        rules = RULES if self.scenario is WAYPOINTS else SEARCHES
-        return rules[rule] | self.changes(number)
+        return RULES_OF[id(self.scenario)][rule] | self.changes(number)
 
 
 @dataclass(frozen=True)
@@ -158,6 +247,19 @@ def crowd(robots: int) -> Changes:
     return {ROBOTS: robots, START: {"kind": "uniform"}}
 
 
+def short(range_m: float) -> Changes:
+    """Return robots that only serve, and radios of a range."""
+    ranges = dict.fromkeys(
+        ("robots.rover.radio.range_m", "controllers.base.radio.range_m"), range_m
+    )
+    return {**ONLY_SERVE, **ranges}
+
+
+def dense(goals: int) -> Changes:
+    """Return a number of goals in each half."""
+    return {"goals.west.count": goals, "goals.east.count": goals}
+
+
 TWO = ("messages", "auction", "auction and messages")
 AWARDING = ("auction", "auction and messages")
 LASTING = ("messages", "auction", "fixed plan", "auction and messages")
@@ -173,6 +275,10 @@ CASES = [
     Case(
         "lost_controllers", AWARDING, "controllers", (1, 2, 3), lambda n: {CONTROLLERS: n, **LOST}
     ),
+    Case(
+        "short_radios", tuple(TEAMS), "radio range in m", (130, 160, 200), short, SHORT_RADIOS, 50
+    ),
+    Case("halves", tuple(DEALS), "goals in each half", (20, 30, 50), dense, HALVES, 50),
     Case("crowd", ("messages", "auction"), "robots", (1, 10, 100, 300, 1000), crowd, runs=5),
     Case("search", tuple(SEARCHES), "robots", (1, 2, 4, 8, 16), lambda n: {ROBOTS: n}, AREA_SEARCH),
 ]

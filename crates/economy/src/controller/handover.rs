@@ -48,6 +48,9 @@ pub(crate) const CANDIDACY_S: f64 = 10.0;
 /// higher serial numbers, and the owner.
 pub(crate) const TURN_S: f64 = 3.0;
 
+/// The number of no request.
+pub(crate) const NO_REQUEST: u32 = 0;
+
 /// Whether a controller owns a goal, or requests that.
 #[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) enum Role {
@@ -66,7 +69,7 @@ pub(crate) enum Role {
 #[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Vote {
     pub(crate) voter: AgentId,
-    /// The number of the last request, and when it was sent first; minus infinity without one.
+    /// The number of the last request, and when it was sent first; minus infinity without one, or when its lease has ended.
     pub(crate) number: u32,
     pub(crate) requested_s: f64,
     /// When the next message is due; infinity while the voter votes for this controller, or knows that the goal has been served.
@@ -78,7 +81,7 @@ impl Vote {
     pub(crate) fn new(voter: AgentId, now_s: f64) -> Self {
         Self {
             voter,
-            number: 0,
+            number: NO_REQUEST,
             requested_s: f64::NEG_INFINITY,
             next_s: now_s,
         }

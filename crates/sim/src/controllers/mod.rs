@@ -51,8 +51,8 @@ pub struct ControllerSpec {
     /// Which controllers take the goals of a lost one over.
     #[serde(default)]
     pub backup: Backup,
-    /// The terms on which controllers of the kind trade goals with each other: a goal goes to the one that can have it served.
-    /// By default, they do not. A lane's goals are not traded.
+    /// Trade between the controllers of the kind: goals go to the one that can have them served. Without it, they stay where
+    /// they were issued. Goals of a mined lane are not traded.
     pub trade: Option<Trade>,
     /// Time for which a controller votes for the owner of a goal without renewal, in seconds.
     #[serde(default = "owner_lease_s")]

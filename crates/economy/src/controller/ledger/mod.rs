@@ -3,7 +3,7 @@
 pub(super) mod lapses;
 pub(super) mod owned;
 
-use super::handover::Role;
+use super::handover::{NO_REQUEST, Role};
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 use brain::{AgentId, Claim, GoalId, Holder, OperatorReports, Task};
@@ -86,7 +86,7 @@ impl Ledger {
         for vote in votes.unwrap_or_default() {
             let lease = self.leases_of(vote.voter).release(goal);
             let number = lease.map_or(vote.number, |lease| lease.number);
-            if lease.is_some() || vote.requested_s.is_finite() {
+            if number != NO_REQUEST {
                 released.push((vote.voter, Claim { goal, number }));
             }
         }

@@ -92,7 +92,8 @@ impl Ownership {
             for goal in voter.leases.expire(now_s) {
                 has_ended = true;
                 if let Some(owned) = context.ledger.get_mut(goal) {
-                    owned.vote_of(from, now_s).next_s = now_s;
+                    let vote = owned.vote_of(from, now_s);
+                    (vote.next_s, vote.requested_s) = (now_s, f64::NEG_INFINITY);
                 }
             }
         }
@@ -191,36 +192,40 @@ impl Ownership {
 /// Sends the message about a goal that is due to a member, if any is.
 fn request_vote(context: &mut Context, index: usize, member: AgentId) -> bool {
     let now_s = context.now_s;
-    let again_s = context.settings.owner_lease_s / 2.0;
     let owned = &mut context.ledger.goals[index];
-    let (task, is_done) = (owned.task_at(now_s), owned.is_done);
-    let is_dismissed = owned.giver == Some(member) && owned.is_held(now_s);
     let vote = owned.vote_of(member, now_s);
-    let number = vote.number;
     if now_s < vote.next_s {
         return false;
     }
     vote.next_s = now_s + RETRY_S;
-    if is_done {
-        context.send(member, OwnershipMessage::Ended(task.id));
-        return true;
-    }
-    if is_dismissed {
-        let claim = Claim {
-            goal: task.id,
-            number,
+    let (number, requested_s) = (vote.number, vote.requested_s);
+    let goal = owned.task.id;
+    if owned.is_done {
+        context.send(member, OwnershipMessage::Ended(goal));
+    } else if owned.giver == Some(member) && owned.is_held(now_s) {
+        context.send(member, TradeMessage::Dismiss(Claim { goal, number }));
+    } else {
+        let task = owned.task_at(now_s);
+        // A repeated request has the same number: the answer to any of them counts, from the first.
+        let is_new = now_s >= requested_s + context.settings.owner_lease_s / 2.0;
+        let number = if is_new {
+            draw_request(context, index, member)
+        } else {
+            number
         };
-        context.send(member, TradeMessage::Dismiss(claim));
-        return true;
+        context.send(member, OwnershipMessage::Entrust(Entrust { number, task }));
     }
-    // A repeated request has the same number: the answer to any of them counts, from the first.
-    if now_s >= vote.requested_s + again_s {
-        (vote.number, vote.requested_s) = (context.numbers.draw(), now_s);
-        let number = vote.number;
-        let leases = context.ledger.leases_of(member);
-        leases.request(number, member, Some(task.id), now_s);
-    }
-    let number = context.ledger.goals[index].vote_of(member, now_s).number;
-    context.send(member, OwnershipMessage::Entrust(Entrust { number, task }));
     true
+}
+
+/// The number of a new request for the vote of a member.
+fn draw_request(context: &mut Context, index: usize, member: AgentId) -> u32 {
+    let (number, now_s) = (context.numbers.draw(), context.now_s);
+    let owned = &mut context.ledger.goals[index];
+    let goal = owned.task.id;
+    let vote = owned.vote_of(member, now_s);
+    (vote.number, vote.requested_s) = (number, now_s);
+    let leases = context.ledger.leases_of(member);
+    leases.request(number, member, Some(goal), now_s);
+    number
 }

@@ -3,6 +3,7 @@
 use super::{MAX_KEPT, Ownership};
 use crate::controller::context::Context;
 use crate::controller::contracts::Contracts;
+use crate::controller::handover::NO_REQUEST;
 use crate::controller::ledger::owned::Owned;
 use alloc::vec::Vec;
 use brain::{AgentId, Claim, GoalId, OwnershipMessage, Task, TradeMessage, Transfer};
@@ -26,7 +27,7 @@ impl Ownership {
         (goal, to): (GoalId, AgentId),
         within_s: f64,
     ) -> u32 {
-        let mut lease = 0;
+        let mut lease = NO_REQUEST;
         for (voter, claim) in context.ledger.release(goal) {
             if voter == to {
                 lease = claim.number;
