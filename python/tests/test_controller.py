@@ -116,8 +116,34 @@ def test_a_copy_is_equal_and_independent() -> None:
     assert (len(copy.goals), len(controller.goals)) == (2, 1)
 
 
+def ownership(command: Any, kind: str) -> list[Any]:
+    """Return the messages about ownership of a kind in a command."""
+    messages = [message["about"].get("ownership", {}) for message in command["outbox"]]
+    return [message[kind] for message in messages if kind in message]
+
+
+def from_peer(**ownership: Any) -> dict[str, Any]:
+    """Return a message about ownership of another controller of the kind."""
+    message = {"to": BASE, "about": {"ownership": ownership}, "confidence": 1}
+    return {"from": {**BASE, "index": 1}, "age_s": 0.1, "message": message}
+
+
+def test_one_of_three_controllers_owns_a_goal_when_another_votes_for_it() -> None:
+    controller = ae.Controller({"members": 3, "trade": {"gain": 0.5}})
+    issue = received(OPERATOR, issue=task(0))
+    command = controller.step(percept(0.0, issue, from_peer(present={})))
+    (request,) = ownership(command, "entrust")
+    assert controller.goals == []
+    vote = {"goal": request["task"]["id"], "number": request["number"], "lease_s": 30}
+    controller.step(percept(0.2, from_peer(entrusted=vote)))
+    (goal,) = controller.goals
+    assert goal["votes"] == [{"role": "controller", "kind": 1, "index": 1}]
+    assert goal["owner_lease_s"] == pytest.approx(29.8)
+
+
 def test_all_errors_of_settings_are_reported_with_what_is_allowed() -> None:
     wrong: Any = {"alocation": "auction", "service_lease_s": -1, "max_goals": 1.5}
+    wrong |= {"members": 0, "trade": {"gain": 1}}
     with pytest.raises(ae.InputError) as error:
         ae.Controller(wrong)
     words = str(error.value)
@@ -125,6 +151,8 @@ def test_all_errors_of_settings_are_reported_with_what_is_allowed() -> None:
     assert "did you mean allocation?" in words
     assert "settings.service_lease_s = -1: must be a number from 0.1 to 3600" in words
     assert "settings.max_goals = 1.5: must be" in words
+    assert "settings.members = 0: must be" in words
+    assert "settings.trade.gain = 1: must be a number from 0.01 to 0.99" in words
 
 
 def test_a_lease_shorter_than_the_auction_is_an_error_also_if_it_is_the_default() -> None:

@@ -4,6 +4,7 @@ use super::ready::Scenario;
 use crate::clock::seconds;
 use crate::world::item_number::ItemNumber;
 use crate::world::items::ItemKind;
+use economy::Settings;
 
 /// The number of items of a kind, as text.
 fn number_of(kind: &ItemKind) -> String {
@@ -68,13 +69,7 @@ impl Scenario {
             let delay_s = seconds(kind.radio.delay_steps, self.step_s);
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
             let round_s = kind.settings.answer_s;
-            let lost = match kind.settings.members {
-                1 => "the goals of a lost controller are lost with it".to_owned(),
-                members => format!(
-                    "the loss of any {} of {members} controllers loses no goal",
-                    (members - 1) / 2
-                ),
-            };
+            let lost = of_losses(&kind.settings, kind.count);
             let text = format!(
                 "after an award, the next waits at most {round_s:.2} s for the bids that it has changed; {lost}; \
                  open goals have an owner or are reported, and are offered again, within {within_s:.1} s after a loss \
@@ -83,5 +78,20 @@ impl Scenario {
             (format!("controllers.{}", kind.name), text)
         });
         recoveries.collect()
+    }
+}
+
+/// What the loss of controllers costs, in words.
+fn of_losses(settings: &Settings, count: u32) -> String {
+    match settings.members {
+        1 if count > 1 && settings.clearance.is_some() => {
+            "what a lost controller had planned, the others plan".to_owned()
+        }
+        1 => "the goals of a lost controller are lost with it".to_owned(),
+        2 => "the loss of either controller leaves all goals without an owner".to_owned(),
+        members => format!(
+            "the loss of any {} of {members} controllers loses no goal",
+            (members - 1) / 2
+        ),
     }
 }

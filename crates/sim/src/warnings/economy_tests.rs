@@ -151,7 +151,7 @@ fn controllers_out_of_range_of_a_majority_have_a_warning() {
     );
     let some = with("[[1, 1], [11, 1], [80, 1]]");
     assert!(
-        some.contains("radio.range_m = 20: some controllers do not reach a majority of the 3 of its kind: 1 of them"),
+        some.contains("radio.range_m = 20: 1 of the 3 controllers do not reach a majority of them"),
         "{some}"
     );
 }

@@ -64,12 +64,15 @@ fn of_range(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Option<Wa
         .filter(|near| *near <= places.len() / 2);
     let alone = alone.count();
     (alone > 0).then(|| {
-        let which = if alone == places.len() { "no controller reaches" } else { "some controllers do not reach" };
-        let effect = format!(
-            "{which} a majority of the {} of its kind: {alone} of them own no goals. With backup = \"none\", each owns its goals \
-             alone",
-            places.len()
-        );
+        let all = places.len();
+        let which = if alone == all {
+            format!("no controller reaches a majority of the {all} of the kind: they own no goals")
+        } else {
+            format!(
+                "{alone} of the {all} controllers do not reach a majority of them, and own no goals"
+            )
+        };
+        let effect = format!("{which}. With backup = \"none\", each owns its goals alone");
         at.key("radio").key("range_m").warning(effect)
     })
 }
