@@ -1,7 +1,7 @@
 //! Goals that the controller owns and offers to others.
 //!
-//! It offers a goal without an assignee for which it has had no valid bid for a period of calls, or any of them if more than
-//! half of the maximum number of goals wait. A goal goes to the best price that is at most `gain` times what it has to be below,
+//! It offers a goal without an assignee for which it has had no valid bid for a period of calls, or that a robot has lost, or
+//! any of them if more than half of the maximum number of goals wait. A goal goes to the best price that is at most `gain` times what it has to be below,
 //! and that the peer is trusted to keep: the share of its promises that it has kept, times the probability of its bid, is at
 //! least `confidence`. Each transfer sets the cost that the next price has to be below, so that a goal moves a bounded number
 //! of times.
@@ -17,6 +17,9 @@ use brain::{AgentId, GoalId, Price, TradeMessage, TradeOffer};
 
 /// Maximum number of offers per step.
 const MAX_PER_STEP: usize = 2;
+
+/// More failures count as this number of them.
+const MAX_FAILURES: u16 = 16;
 
 /// A goal is offered again after this time, in seconds.
 const AGAIN_S: f64 = 10.0;
@@ -128,14 +131,16 @@ impl Offers {
             let goals = context.ledger.goals.iter();
             let due = goals.filter(|owned| {
                 now_s >= owned.next_offer_s
-                    && (is_overloaded || lacks_bids(owned, context))
+                    && (is_overloaded || owned.failures > 0 || lacks_bids(owned, context))
                     && is_tradable(owned, context, contracts)
             });
             let next = due.min_by(|one, other| one.next_offer_s.total_cmp(&other.next_offer_s));
-            let Some((goal, limit_s)) = next.map(|owned| (owned.task.id, owned.limit_s)) else {
+            let Some(owned) = next else {
                 return;
             };
-            let cost_s = contracts.lowest_cost_s(context, goal).min(limit_s);
+            let goal = owned.task.id;
+            let own_s = contracts.lowest_cost_s(context, goal) * doubt(owned);
+            let cost_s = own_s.min(owned.limit_s);
             self.open.retain(|offer| offer.goal != goal);
             self.open.push(Offer {
                 goal,
@@ -202,6 +207,11 @@ fn lacks_bids(owned: &Owned, context: &Context) -> bool {
     // Robots that were called alone for it have answered.
     let wait_s = REPEAT_S + 2.0 * context.settings.answer_s;
     owned.unserved(now_s).is_some() || since_s.is_some_and(|since_s| now_s >= since_s + wait_s)
+}
+
+/// The factor of the cost of bids for a goal that robots have lost: its probability halves each time, as for their own bids.
+fn doubt(owned: &Owned) -> f64 {
+    f64::from(1_u32 << owned.failures.min(MAX_FAILURES))
 }
 
 /// Whether more than half of the maximum number of goals wait for a robot.
