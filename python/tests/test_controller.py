@@ -129,7 +129,7 @@ def from_peer(**ownership: Any) -> dict[str, Any]:
 
 
 def test_one_of_three_controllers_owns_a_goal_when_another_votes_for_it() -> None:
-    controller = ae.Controller({"members": 3, "trade": {"gain": 0.5}})
+    controller = ae.Controller({"count": 3, "trade": {"gain": 0.5}})
     issue = received(OPERATOR, issue=task(0))
     command = controller.step(percept(0.0, issue, from_peer(present={})))
     (request,) = ownership(command, "entrust")
@@ -143,7 +143,7 @@ def test_one_of_three_controllers_owns_a_goal_when_another_votes_for_it() -> Non
 
 def test_all_errors_of_settings_are_reported_with_what_is_allowed() -> None:
     wrong: Any = {"alocation": "auction", "service_lease_s": -1, "max_goals": 1.5}
-    wrong |= {"members": 0, "trade": {"gain": 1}}
+    wrong |= {"count": 0, "trade": {"gain": 1}}
     with pytest.raises(ae.InputError) as error:
         ae.Controller(wrong)
     words = str(error.value)
@@ -151,7 +151,7 @@ def test_all_errors_of_settings_are_reported_with_what_is_allowed() -> None:
     assert "did you mean allocation?" in words
     assert "settings.service_lease_s = -1: must be a number from 0.1 to 3600" in words
     assert "settings.max_goals = 1.5: must be" in words
-    assert "settings.members = 0: must be" in words
+    assert "settings.count = 0: must be" in words
     assert "settings.trade.gain = 1: must be a number from 0.01 to 0.99" in words
 
 

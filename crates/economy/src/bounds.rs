@@ -1,6 +1,6 @@
 //! How soon goals have an owner again, and are offered again, after an agent is lost.
 
-use crate::controller::{CALLS_PER_STEP, CANDIDACY_S, REPEAT_S, RETRY_S, TURN_S};
+use crate::controller::{CALLS_PER_STEP, CANDIDACY_S, MAX_MESSAGES, REPEAT_S, RETRY_S, TURN_S};
 use crate::settings::Settings;
 use brain::wait_s;
 
@@ -28,17 +28,20 @@ impl Settings {
         #[expect(clippy::cast_precision_loss, reason = "a few calls")]
         let calls_s = f64::from(goals) * step_s / CALLS_PER_STEP as f64;
         let drifted = 1.0 + 2.0 * self.max_drift;
-        let waits_s = self.candidacies_s() + REPEAT_S + calls_s;
+        let waits_s = self.candidacies_s(goals, step_s) + REPEAT_S + calls_s;
         let by_clock_s = wait_s(leases_s, self.max_drift) + waits_s * drifted;
         by_clock_s * drifted + 4.0 * (step_s + delay_s)
     }
 
     /// The longest time from the end of the last vote for an owner until the next one owns the goal, or has reported that
-    /// no controller does: each has its turn, one gives up, and another is a candidate. Nothing for a single controller.
-    fn candidacies_s(&self) -> f64 {
-        if self.members < 2 {
+    /// no controller does: each has its turn, one gives up, and another is a candidate, whose requests take a step for each few. Nothing for a
+    /// single controller.
+    #[expect(clippy::cast_precision_loss, reason = "a few messages")]
+    fn candidacies_s(&self, goals: u32, step_s: f64) -> f64 {
+        if self.votes_needed() == 0 {
             return 0.0;
         }
-        f64::from(self.members) * TURN_S + 2.0 * CANDIDACY_S + RETRY_S
+        let requests = f64::from(goals * self.count) / MAX_MESSAGES as f64;
+        f64::from(self.count) * TURN_S + 2.0 * CANDIDACY_S + RETRY_S + requests * step_s
     }
 }

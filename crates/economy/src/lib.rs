@@ -28,4 +28,4 @@ pub use clearance::{
 };
 pub use controller::{Controller, LaneConclusion, OwnedGoal, RENEWAL_RETRY_S};
 pub use passage::{MineEffect, Passage, PassageGrid, PlannedPassage};
-pub use settings::{Settings, Trade};
+pub use settings::{Backup, Settings, Trade};

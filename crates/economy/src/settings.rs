@@ -16,10 +16,11 @@ pub struct Settings {
     /// Time for which a robot may serve a goal without renewal.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub service_lease_s: f64,
-    /// Number of controllers of the kind, whether they work or not: a majority of them votes for the owner of each goal. With 1,
-    /// each owns its goals alone.
+    /// Number of controllers of the kind, whether they work or not.
     #[schemars(range(min = 1, max = 1_000_000))]
-    pub members: u32,
+    pub count: u32,
+    /// Which of them take the goals of a lost one over.
+    pub backup: Backup,
     /// Time for which a controller votes for the owner of a goal without renewal.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub owner_lease_s: f64,
@@ -49,6 +50,18 @@ pub struct Settings {
     pub is_called_off: bool,
 }
 
+/// Which controllers of a kind take the goals of a lost one over.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Backup {
+    /// A majority of the kind: a controller owns a goal only while more than half of all controllers of the kind, itself
+    /// included, vote for it. n controllers survive the loss of (n - 1) / 2 of them, rounded down, without losing a goal.
+    #[default]
+    Majority,
+    /// None: each owns its goals alone, and they are lost with it.
+    None,
+}
+
 /// The terms on which controllers of a kind trade goals with each other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -72,6 +85,15 @@ impl Default for Trade {
 }
 
 impl Settings {
+    /// Number of votes of other controllers with which one owns a goal.
+    #[must_use]
+    pub fn votes_needed(&self) -> u32 {
+        match self.backup {
+            Backup::Majority => self.count / 2,
+            Backup::None => 0,
+        }
+    }
+
     /// Time from the first call for bids to the award.
     pub(crate) fn auction_wait_s(&self) -> f64 {
         self.auction_s.max(self.answer_s)
@@ -96,7 +118,8 @@ impl Default for Settings {
         Self {
             allocation: Allocation::default(),
             service_lease_s: 20.0,
-            members: 1,
+            count: 1,
+            backup: Backup::default(),
             owner_lease_s: 30.0,
             trade: None,
             auction_s: 1.0,

@@ -25,8 +25,9 @@ class ControllerSettings(TypedDict, total=False):
     Attributes:
         allocation: The rule by which it allocates its goals to robots; "auction" by default.
         service_lease_s: Time for which a robot may serve a goal without renewal; 20 by default.
-        members: Number of controllers of its kind, of which a majority has to vote for the owner of
-            each goal; 1 by default: it owns its goals alone.
+        count: Number of controllers of its kind; 1 by default.
+        backup: Whether a majority of them has to vote for the owner of each goal, or each owns its
+            goals alone; "majority" by default.
         owner_lease_s: Time for which it votes for an owner without renewal; 30 by default.
         trade: The terms on which it trades goals with others of its kind; None by default: it does
             not.
@@ -39,7 +40,8 @@ class ControllerSettings(TypedDict, total=False):
 
     allocation: Literal["none", "nearest", "auction", "auction_last", "optimal"]
     service_lease_s: float
-    members: int
+    count: int
+    backup: Literal["majority", "none"]
     owner_lease_s: float
     trade: "TradeSettings | None"
     auction_s: float

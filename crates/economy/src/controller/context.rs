@@ -64,20 +64,39 @@ impl Context {
         }
     }
 
-    /// Takes other settings. With more members, a majority has to vote for it as the owner of each goal again.
-    pub(super) fn set(&mut self, settings: Arc<Settings>) {
+    /// Takes other settings; returns whether the controllers that vote are the same. Otherwise, a majority has to vote for it as
+    /// the owner of each goal again, and others may have owned its goals before.
+    pub(super) fn set(&mut self, settings: Arc<Settings>) -> bool {
         self.longest_wait_s = self.takeover_wait_s();
-        self.settings = settings;
-        self.count_votes();
         let now_s = self.now_s;
+        let goals = self.ledger.goals.iter_mut();
+        for lost in goals.filter(|it| it.role == Role::Owner && !it.is_held(now_s)) {
+            lost.held_until_s = f64::NEG_INFINITY;
+            lost.role = Role::candidate(now_s);
+        }
+        let was = core::mem::replace(&mut self.settings, settings);
+        let is_same =
+            [was.count, was.votes_needed()] == [self.settings.count, self.settings.votes_needed()];
+        self.count_votes();
+        if is_same {
+            return true;
+        }
+        let has_voters = self.votes_needed() > 0;
         for owned in &mut self.ledger.goals {
-            if owned.role == Role::Owner && !owned.is_held(now_s) {
-                owned.role = Role::Candidate {
-                    since_s: now_s,
-                    free_until_s: f64::NEG_INFINITY,
-                };
+            if has_voters {
+                owned.giver = None;
+            }
+            if !owned.is_held(now_s) {
+                owned.role = Role::candidate(now_s);
             }
         }
+        self.count_votes();
+        false
+    }
+
+    /// Waits as long as another controller after a takeover.
+    pub(super) fn wait_as(&mut self, other: &Self) {
+        self.longest_wait_s = self.longest_wait_s.max(other.takeover_wait_s());
     }
 
     /// Notes until when it owns its goals.
@@ -93,7 +112,7 @@ impl Context {
     }
 
     /// Forgets controllers that a person has removed: their votes do not count any more.
-    pub(super) fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
+    pub(super) fn forget_peers(&mut self, is_removed: &impl Fn(AgentId) -> bool) {
         self.peers.list.retain(|peer| !is_removed(peer.id));
         self.ledger.voters.retain(|voter| !is_removed(voter.id));
         for owned in &mut self.ledger.goals {
@@ -112,7 +131,7 @@ impl Context {
         self.step_s = (now_s - self.now_s).min(1.0);
         (self.now_s, self.own) = (now_s, percept.id);
         self.numbers.step(percept);
-        let longest_s = self.service_wait_s().max(self.owner_wait_s());
+        let longest_s = self.takeover_wait_s().max(self.owner_wait_s());
         self.silent_until_s.get_or_insert(now_s + longest_s);
         self.robots.expire(now_s);
         self.peers.expire(now_s);
@@ -200,15 +219,14 @@ impl Context {
         }
     }
 
-    /// Whether another controller may vote for the owners of its goals, or trade with it.
+    /// Whether another controller is of its kind.
     pub(super) fn is_member(&self, other: AgentId) -> bool {
-        let has_messages = self.votes_needed() > 0 || self.settings.trade.is_some();
-        has_messages && other.kind == self.own.kind
+        other.kind == self.own.kind
     }
 
     /// Number of votes of other controllers with which it owns a goal.
     pub(super) fn votes_needed(&self) -> usize {
-        self.settings.members as usize / 2
+        self.settings.votes_needed() as usize
     }
 
     /// The time for which the next award of a goal waits, by the durations that messages have.

@@ -65,6 +65,16 @@ pub(crate) enum Role {
     Owner,
 }
 
+impl Role {
+    /// A candidate for a goal that others may have owned before.
+    pub(crate) fn candidate(now_s: f64) -> Self {
+        Self::Candidate {
+            since_s: now_s,
+            free_until_s: f64::NEG_INFINITY,
+        }
+    }
+}
+
 /// The vote of another controller for the owner of a goal, or for a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Hashed)]
 pub(crate) struct Vote {

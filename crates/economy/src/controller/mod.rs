@@ -21,6 +21,7 @@ mod trade;
 pub(crate) use contracts::{CALLS_PER_STEP, REPEAT_S};
 pub(crate) use handover::{CANDIDACY_S, RETRY_S, TURN_S};
 pub use missions::lane::LaneConclusion;
+pub(crate) use ownership::MAX_MESSAGES;
 pub use ownership::RENEWAL_RETRY_S;
 
 use crate::clearance::{LanePicture, LaneStatement};
@@ -99,7 +100,10 @@ impl Controller {
         let is_same_lane = self.context.settings.clearance == settings.clearance;
         let mut changed = self.clone();
         let had_members = changed.context.votes_needed() > 0;
-        changed.context.set(settings.clone());
+        let is_same_kind = changed.context.set(settings.clone());
+        if !is_same_kind {
+            changed.trading.void_prices();
+        }
         if had_members && changed.context.votes_needed() == 0 {
             let (context, contracts) = (&mut changed.context, &mut changed.contracts);
             changed.ownership.own_alone(context, contracts);
@@ -110,9 +114,16 @@ impl Controller {
         changed
     }
 
+    /// Waits as long as another one after a takeover: it joins during a mission, in which leases may have been longer.
+    pub fn join(&mut self, others: &Self) {
+        self.context.wait_as(&others.context);
+    }
+
     /// Forgets controllers that a person has removed: they own no goal, and their votes do not count.
     pub fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
-        self.context.forget_peers(is_removed);
+        self.ownership.forget_peers(&mut self.context, &is_removed);
+        self.context.forget_peers(&is_removed);
+        self.trading.forget_peers(is_removed);
     }
 
     /// The command for a percept, of which it uses time, id, position, neighbours and inbox.
@@ -173,10 +184,11 @@ impl Controller {
                 if let ContractMessage::Done(claim) = about {
                     self.ownership.restore_done(context, from, claim.goal);
                 }
-                self.trading
-                    .take_answer(context, from, (&about, message.confidence));
-                self.contracts
-                    .receive(context, from, about, message.confidence);
+                let answer = (&about, message.confidence);
+                if !self.trading.take_answer(context, from, answer) {
+                    self.contracts
+                        .receive(context, from, about, message.confidence);
+                }
             }
             About::Lease(about) => self.contracts.renew(context, from, about),
             About::Lane(about) => self.lane.receive(from, &about),

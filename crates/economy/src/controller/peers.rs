@@ -55,7 +55,7 @@ impl Peers {
     }
 
     /// Those of the same kind: they vote for each other, and share a lane.
-    pub(super) fn members_of(&self, own: AgentId) -> impl Iterator<Item = AgentId> + Clone {
+    pub(super) fn members_of(&self, own: AgentId) -> impl Iterator<Item = AgentId> {
         let same = self
             .list
             .iter()

@@ -345,7 +345,7 @@ fn a_controller_that_restarts_votes_for_no_controller_for_the_longest_lease() {
     let mut voter = member(MEMBER, 3);
     voter.agent = Controller::restarted(Arc::new(Settings {
         max_drift: 0.0,
-        members: 3,
+        count: 3,
         ..Settings::default()
     }));
     voter.wait(1.0);

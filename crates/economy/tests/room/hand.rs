@@ -116,7 +116,7 @@ pub(crate) fn controller(id: AgentId) -> Hand<Controller> {
 pub(crate) fn member(id: AgentId, members: u32) -> Hand<Controller> {
     let settings = Settings {
         max_drift: 0.0,
-        members,
+        count: members,
         ..Settings::default()
     };
     Hand {

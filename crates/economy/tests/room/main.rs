@@ -18,3 +18,4 @@ mod survival;
 mod sweep;
 mod team;
 mod trade;
+mod trade_changes;

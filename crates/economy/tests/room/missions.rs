@@ -3,7 +3,8 @@
 use crate::network::Weather;
 use crate::team::{Team, brain, goal_id, task};
 use brain::{About, ContractMessage, Message, Reason, Task};
-use economy::{Allocation, Settings};
+use economy::{Allocation, Controller, Settings};
+use std::sync::Arc;
 
 fn settings() -> Settings {
     Settings {
@@ -202,4 +203,63 @@ fn a_full_controller_refuses_goals() {
     team.run(1.0);
     assert_eq!(team.controller(0).refused(), 2);
     assert_eq!(team.controller(0).goals().count(), 3);
+}
+
+#[test]
+fn controllers_that_join_wait_as_long_as_leases_under_earlier_settings() {
+    let before = Settings {
+        max_drift: 0.0,
+        service_lease_s: 60.0,
+        ..Settings::default()
+    };
+    let mut team = Team::new([2, 3], &before, Weather::default(), 5);
+    team.stations[0].controller = Some(Controller::new(Arc::new(before)));
+    team.crash_station(1);
+    team.crash_station(2);
+    team.issue(0, task(0, [1e6, 0.0]));
+    // One robot reaches the first controller only, the other one the others.
+    team.reaches =
+        Box::new(|from, to, _| from.role == to.role || (from.index == 0) == (to.index == 0));
+    team.run(5.0);
+    let serves =
+        |team: &Team, robot: usize| Team::serves(&team.robots[robot], goal_id(0), team.now_s);
+    assert!(serves(&team, 0));
+    let after = Arc::new(Settings {
+        max_drift: 0.0,
+        count: 3,
+        service_lease_s: 2.0,
+        owner_lease_s: 3.0,
+        ..Settings::default()
+    });
+    let mut first = team.stations[0].controller.take().unwrap();
+    first = first.with_settings_of(&Controller::new(Arc::clone(&after)));
+    for station in [1, 2] {
+        let mut joined = Controller::new(Arc::clone(&after));
+        joined.join(&first);
+        team.stations[station].controller = Some(joined);
+    }
+    team.stations[0].controller = Some(first);
+    team.run(5.0);
+    team.crash_station(0);
+    for _ in 0..900 {
+        team.step();
+        assert!(!(serves(&team, 0) && serves(&team, 1)), "{}", team.now_s);
+    }
+    assert!(serves(&team, 1));
+}
+
+#[test]
+fn many_goals_have_an_owner_or_a_candidate_and_are_not_reported_as_lost() {
+    let mut team = Team::new([0, 5], &settings(), Weather::default(), 3);
+    team.issue_random(600, 100.0);
+    team.run(40.0);
+    team.crash_station(0);
+    team.run(100.0);
+    let owned = (1..5).map(|station| team.controller(station).goals().count());
+    assert_eq!(owned.sum::<usize>(), 600);
+    let is_lost = |message: &Message| {
+        matches!(message.about, About::Contract(ContractMessage::Stuck(report))
+            if report.reason == Reason::OwnershipLost)
+    };
+    assert_eq!(team.to_operator.iter().filter(|it| is_lost(it)).count(), 0);
 }

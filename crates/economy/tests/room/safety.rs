@@ -61,6 +61,7 @@ fn adversary() -> impl Strategy<Value = Adversary> {
 /// Clocks drift much.
 fn settings(adversary: &Adversary) -> Settings {
     Settings {
+        max_goals: if adversary.trades { 3 } else { 1000 },
         service_lease_s: adversary.service_lease_s,
         owner_lease_s: adversary.owner_lease_s,
         auction_s: 0.3,
@@ -68,8 +69,6 @@ fn settings(adversary: &Adversary) -> Settings {
             confidence: 0.0,
             gain: 0.99,
         }),
-        // Those with a few waiting goals offer them.
-        max_goals: if adversary.trades { 5 } else { 1000 },
         max_drift: 0.1,
         ..Settings::default()
     }

@@ -21,7 +21,7 @@ fn runs() -> u32 {
 /// numbers of controllers that are left and of goals with an owner.
 fn survivors(members: u32, seed: u64) -> (u32, u32) {
     let settings = Settings {
-        members,
+        count: members,
         service_lease_s: 8.0,
         owner_lease_s: 10.0,
         max_drift: 0.01,

@@ -8,7 +8,7 @@ use brain::{
     About, AgentId, Body, Brain, BrainSpec, Command, ContractMessage, GoalId, Message, Other,
     Percept, Reading, ReceivedMessage, Task, TradeMessage, Work,
 };
-use economy::{Controller, Settings};
+use economy::{Backup, Controller, Settings};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -147,7 +147,7 @@ impl Team {
         };
         let clocks: Vec<Clock> = (0..robots + stations).map(|_| clock()).collect();
         let settings = Arc::new(Settings {
-            members: stations,
+            count: stations,
             ..settings.clone()
         });
         let brain = brain(&[], "");
@@ -199,7 +199,10 @@ impl Team {
         seed: u64,
     ) -> Self {
         let mut team = Self::new(counts, settings, weather, seed);
-        team.settings = Arc::new(settings.clone());
+        team.settings = Arc::new(Settings {
+            backup: Backup::None,
+            ..Settings::clone(&team.settings)
+        });
         for station in &mut team.stations {
             station.controller = Some(Controller::new(Arc::clone(&team.settings)));
         }

@@ -10,7 +10,7 @@ use crate::sensors::Sensor;
 use base::geometry::Point;
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
-use economy::Settings;
+use economy::{Backup, Settings};
 use std::sync::Arc;
 
 /// What all controllers of a kind have in common.
@@ -50,13 +50,19 @@ impl ControllerSpec {
         robots_s.fold(step_s, f64::max) + self.radio.trip_s(step_s)
     }
 
+    /// Whether another controller of the kind has to vote for the owner of a goal.
+    pub(crate) fn has_voters(&self) -> bool {
+        self.backup == Backup::Majority && self.count > 1
+    }
+
     /// Its settings in a scenario.
     pub(crate) fn settings(&self, scenario: &ScenarioSpec) -> Settings {
         let max_drift = scenario.clock.max_drift;
         Settings {
             allocation: self.allocation,
             service_lease_s: self.service_lease_s,
-            members: self.members(),
+            count: self.count.max(1),
+            backup: self.backup,
             trade: self.trade,
             owner_lease_s: self.owner_lease_s,
             auction_s: self.auction_s,

@@ -8,7 +8,7 @@ use crate::radio::RadioSpec;
 use crate::sensors::SensorSpec;
 use base::placement::Placement;
 use clearance::ClearanceSpec;
-use economy::{Allocation, Settings, Trade};
+use economy::{Allocation, Backup, Settings, Trade};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -68,28 +68,6 @@ pub struct ControllerSpec {
     pub max_goals: u32,
     /// A mined lane that they are to clear. Only one kind of controllers can have one.
     pub clearance: Option<ClearanceSpec>,
-}
-
-/// Which controllers of a kind take the goals of a lost one over.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Backup {
-    /// A majority of the kind: a controller owns a goal only while more than half of all controllers of the kind, itself
-    /// included, vote for it. n controllers survive the loss of (n - 1) / 2 of them, rounded down, without losing a goal.
-    #[default]
-    Majority,
-    /// None: each owns its goals alone, and they are lost with it.
-    None,
-}
-
-impl ControllerSpec {
-    /// Number of controllers of which a majority has to vote for the owner of a goal.
-    pub(crate) fn members(&self) -> u32 {
-        match self.backup {
-            Backup::Majority => self.count.max(1),
-            Backup::None => 1,
-        }
-    }
 }
 
 fn service_lease_s() -> f64 {

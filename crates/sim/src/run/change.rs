@@ -90,11 +90,16 @@ impl State {
         let has_same_ids = has_same_ids(ids);
         let is_removed = |id: AgentId| id.is_controller() && !ids.contains_key(&id);
         for (agent, was) in self.controllers.iter_mut().zip(old) {
-            if let Some(was) = was {
+            if let Some(was) = was.map(|was| &before.controllers[was]) {
                 let settings = &to.controller_kind_of(agent.participant.id).settings;
-                agent.take_over(&before.controllers[*was], settings, has_same_ids);
+                // One that is switched off does not know how long.
+                let knows = has_same_ids && was.participant.is_working(&before.body_states);
+                agent.take_over(was, settings, knows);
                 agent.controller.forget_peers(is_removed);
                 agent.participant.renumber(ids);
+            }
+            for other in &before.controllers {
+                agent.controller.join(&other.controller);
             }
         }
     }

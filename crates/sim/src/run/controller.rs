@@ -30,14 +30,14 @@ impl ControllerAgent {
     }
 
     /// Takes over memory, messages and place of a controller; radio and settings stay its own. Its memory names
-    /// others by their ids: when these have changed, it restarts.
+    /// others by their ids: when these have changed, it restarts, and so does one that was switched off.
     pub(super) fn take_over(
         &mut self,
         before: &Self,
         settings: &Arc<Settings>,
-        has_same_ids: bool,
+        is_remembered: bool,
     ) {
-        self.controller = if has_same_ids {
+        self.controller = if is_remembered {
             before.controller.with_settings_of(&self.controller)
         } else {
             Controller::restarted(settings.clone())

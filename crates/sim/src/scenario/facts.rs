@@ -69,7 +69,7 @@ impl Scenario {
             let delay_s = seconds(kind.radio.delay_steps, self.step_s);
             let within_s = kind.settings.recovery_s(goals, self.step_s, delay_s);
             let round_s = kind.settings.answer_s;
-            let lost = of_losses(&kind.settings, kind.count);
+            let lost = of_losses(&kind.settings);
             let text = format!(
                 "after an award, the next waits at most {round_s:.2} s for the bids that it has changed; {lost}; \
                  open goals have an owner or are reported, and are offered again, within {within_s:.1} s after a loss \
@@ -82,16 +82,16 @@ impl Scenario {
 }
 
 /// What the loss of controllers costs, in words.
-fn of_losses(settings: &Settings, count: u32) -> String {
-    match settings.members {
-        1 if count > 1 && settings.clearance.is_some() => {
+fn of_losses(settings: &Settings) -> String {
+    match (settings.votes_needed(), settings.count) {
+        (0, 2..) if settings.clearance.is_some() => {
             "what a lost controller had planned, the others plan".to_owned()
         }
-        1 => "the goals of a lost controller are lost with it".to_owned(),
-        2 => "the loss of either controller leaves all goals without an owner".to_owned(),
-        members => format!(
-            "the loss of any {} of {members} controllers loses no goal",
-            (members - 1) / 2
+        (0, _) => "the goals of a lost controller are lost with it".to_owned(),
+        (_, 2) => "the loss of either controller leaves all goals without an owner".to_owned(),
+        (_, count) => format!(
+            "the loss of any {} of {count} controllers loses no goal",
+            (count - 1) / 2
         ),
     }
 }

@@ -10,7 +10,7 @@ use base::warning::Warning;
 
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let spec = &checked.spec;
-    let kinds = owners(spec).filter(|(_, kind)| kind.members() > 1);
+    let kinds = owners(spec).filter(|(_, kind)| kind.has_voters());
     let found = kinds.flat_map(|(name, kind)| {
         let at = at.key("controllers").key(name);
         let found = [

@@ -13,7 +13,7 @@ pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let kinds = spec
         .controllers
         .iter()
-        .filter(|(_, kind)| kind.members() > 1);
+        .filter(|(_, kind)| kind.has_voters());
     let found = kinds.filter_map(|(name, kind)| {
         let at = at.key("controllers").key(name);
         of_controllers((name, kind), spec, &at)

@@ -21,6 +21,9 @@ It exceeds the pause after which a controller offers a goal for the second time,
 
 MOVING = ("approaching", "receding")
 
+FAILOVER_S, TURN_S = 22.0, 3.0
+"""Two candidacies and a repeated request, and the turn of each controller: a lost owner has one after its lease."""
+
 DEFAULTS_S = {"auction_s": 1.0, "owner_lease_s": 30.0, "service_lease_s": 20.0}
 """Defaults of keys of controllers."""
 
@@ -129,15 +132,17 @@ def awarded_to(simulation: Simulation, robots: Iterable[str]) -> AwardedGoals:
 def quiet_time_s(controllers: Sequence[Mapping[str, Any]]) -> float:
     """Return how long no goal may be awarded although one will be.
 
-    That is a pause, two auctions, and, if there are backups, the leases of an owner and of a
-    robot that are lost.
+    That is a pause, two auctions, and, if controllers take the goals of a lost one over, the leases
+    of an owner and of a robot that are lost, and the turns of those that take them over.
     """
     auction_s, owner_s, service_s = (
         max((float(each.get(key, default)) for each in controllers), default=0.0)
         for key, default in DEFAULTS_S.items()
     )
-    has_backups = sum(each["count"] for each in controllers) > 1
-    return QUIET_S + 2 * auction_s + (owner_s + service_s if has_backups else 0.0)
+    voters = [each["count"] for each in controllers if each.get("backup") != "none"]
+    most = max(voters, default=0)
+    failover_s = owner_s + service_s + FAILOVER_S + TURN_S * most if most > 1 else 0.0
+    return QUIET_S + 2 * auction_s + failover_s
 
 
 def serves(scenario: Mapping[str, Any], robot: str) -> bool:

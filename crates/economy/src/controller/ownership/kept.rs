@@ -12,6 +12,8 @@ pub(super) struct Kept {
     pub(super) owner: AgentId,
     /// The controller that has transferred it to this one, and without which it cannot own it.
     pub(super) giver: Option<AgentId>,
+    /// The cost that the price of another controller has to be below, if this one had the goal by trade.
+    pub(super) limit_s: f64,
     /// Whether it has been reported that no controller owns it, as far as this controller knows.
     pub(super) is_reported: bool,
     /// When this controller becomes a candidate; infinity while it votes for another.
@@ -28,6 +30,7 @@ impl Kept {
             due_at_s,
             owner,
             giver: None,
+            limit_s: f64::INFINITY,
             is_reported: false,
             turn_s: f64::INFINITY,
             assignees: Vec::new(),

@@ -16,7 +16,7 @@ pub(crate) use transfer::Received;
 
 use super::context::Context;
 use super::contracts::Contracts;
-use super::handover::Role;
+use super::ledger::owned::Owned;
 use alloc::vec::Vec;
 use base::hashed::Hashed;
 use brain::{AgentId, Claim, GoalId, Grantor, LeaseMessage, OwnershipMessage, Task};
@@ -29,7 +29,7 @@ const MAX_LEASE_S: f32 = 3600.0;
 const MAX_KEPT: usize = 10_000;
 
 /// Maximum number of messages about handovers per step.
-const MAX_MESSAGES: usize = 8;
+pub(crate) const MAX_MESSAGES: usize = 8;
 
 #[derive(Debug, Clone, Hashed)]
 pub(super) struct Ownership {
@@ -71,16 +71,33 @@ impl Ownership {
     /// It owns goals alone from now on, and forgets those that it does not own.
     pub(super) fn own_alone(&mut self, context: &mut Context, contracts: &mut Contracts) {
         *self = Self::default();
+        let now_s = context.now_s;
         let ledger = &mut context.ledger;
         ledger.voters.clear();
-        let others = ledger
-            .goals
-            .extract_if(.., |it| it.role != Role::Owner && !it.is_done);
+        let is_other = |it: &mut Owned| !it.is_held(now_s) && !it.is_done;
+        let others = ledger.goals.extract_if(.., is_other);
         others.for_each(|other| contracts.forget(other.task.id));
         ledger
             .goals
             .iter_mut()
             .for_each(|owned| owned.votes.clear());
+    }
+
+    /// Goals that controllers have transferred to it that a person has removed. Those that it owns are its own; others may have
+    /// been transferred to another one since, and are forgotten.
+    pub(super) fn forget_peers(
+        &mut self,
+        context: &mut Context,
+        is_removed: &impl Fn(AgentId) -> bool,
+    ) {
+        let now_s = context.now_s;
+        let is_left = |giver: Option<AgentId>| giver.is_some_and(is_removed);
+        self.kept.retain(|kept| !is_left(kept.giver));
+        let goals = &mut context.ledger.goals;
+        goals.retain(|owned| owned.is_done || owned.is_held(now_s) || !is_left(owned.giver));
+        for owned in goals.iter_mut().filter(|owned| is_left(owned.giver)) {
+            owned.giver = None;
+        }
     }
 
     /// Takes a message of another controller of its kind.

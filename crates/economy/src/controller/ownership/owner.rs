@@ -160,31 +160,43 @@ impl Ownership {
         };
         let mut kept = Kept::new(owned.task, owned.due_at_s, context.own);
         (kept.assignees, kept.is_reported) = (owned.assignees, owned.is_reported);
-        kept.giver = owned.giver;
+        (kept.giver, kept.limit_s) = (owned.giver, owned.limit_s);
         self.kept.push(kept);
         contracts.forget(goal);
     }
 
-    /// Requests the votes that are missing, and informs voters of goals that have been served.
+    /// Requests the votes that are missing, of goals without a majority first, and informs voters of goals that have been
+    /// served. The time of a candidate counts from its first request.
     pub(super) fn request_votes(context: &mut Context) {
-        let is_alone = context.votes_needed() == 0;
-        if is_alone && context.settings.trade.is_none() || !context.may_grant() {
+        if !context.may_grant() {
             return;
         }
         let members: Vec<AgentId> = context.peers.members_of(context.own).collect();
         let mut left = MAX_MESSAGES;
-        for index in 0..context.ledger.goals.len() {
-            for member in &members {
-                if left == 0 {
-                    return;
-                }
-                if is_alone && !context.ledger.goals[index].is_traded_with(*member) {
-                    continue;
-                }
-                if request_vote(context, index, *member) {
-                    left -= 1;
+        for is_held in [false, true] {
+            for index in 0..context.ledger.goals.len() {
+                if context.ledger.goals[index].is_held(context.now_s) == is_held {
+                    request_votes_for(context, index, &members, &mut left);
                 }
             }
+        }
+    }
+}
+
+fn request_votes_for(context: &mut Context, index: usize, members: &[AgentId], left: &mut usize) {
+    let now_s = context.now_s;
+    let is_alone = context.votes_needed() == 0;
+    for member in members {
+        let owned = &mut context.ledger.goals[index];
+        if is_alone && !owned.is_traded_with(*member) {
+            continue;
+        }
+        if *left > 0 {
+            *left -= usize::from(request_vote(context, index, *member));
+        } else if let Role::Candidate { since_s, .. } = &mut owned.role
+            && owned.votes.is_empty()
+        {
+            *since_s = now_s;
         }
     }
 }

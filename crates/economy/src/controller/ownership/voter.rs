@@ -177,10 +177,9 @@ impl Ownership {
         let due = self.kept.extract_if(.., |kept| now_s >= kept.turn_s);
         for kept in due {
             let mut owned = Owned::new(kept.task, now_s, f64::NEG_INFINITY);
-            (owned.due_at_s, owned.origin) = (kept.due_at_s, Some(kept.owner));
-            if let Some(giver) = kept.giver {
-                (owned.origin, owned.giver) = (Some(giver), Some(giver));
-            }
+            (owned.due_at_s, owned.limit_s) = (kept.due_at_s, kept.limit_s);
+            owned.giver = kept.giver.filter(|_| context.votes_needed() == 0);
+            owned.origin = owned.giver.or(Some(kept.owner));
             (owned.assignees, owned.is_reported) = (kept.assignees, kept.is_reported);
             context.ledger.goals.push(owned);
             context.count_votes_for(kept.task.id);

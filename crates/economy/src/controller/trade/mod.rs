@@ -44,16 +44,27 @@ impl Trading {
         contracts: &mut Contracts,
         ownership: &mut Ownership,
     ) {
+        self.promises.step(context, ownership);
+        self.tenders.step(context);
         if context.settings.trade.is_none() {
             return;
         }
-        self.promises.step(context, ownership);
-        self.tenders.step(context);
         for accepted in self.offers.conclude(context, contracts, &self.promises) {
             self.promises
                 .transfer(context, contracts, ownership, accepted);
         }
         self.offers.make(context, contracts, &self.promises);
+    }
+
+    /// The controllers of the kind, or whether they vote, have changed: earlier prices count no more.
+    pub(super) fn void_prices(&mut self) {
+        self.tenders = Tenders::default();
+        self.offers = Offers::default();
+    }
+
+    /// Forgets what controllers have promised that a person has removed.
+    pub(super) fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
+        self.promises.forget_peers(is_removed);
     }
 
     /// Takes a message of another controller of its kind.
@@ -77,17 +88,17 @@ impl Trading {
         }
     }
 
-    /// Takes the answer of a robot to a call for a goal of another controller.
+    /// Takes the answer of a robot to a request of an estimate; returns whether the message is one.
     pub(super) fn take_answer(
         &mut self,
-        context: &mut Context,
+        context: &Context,
         from: AgentId,
         (message, confidence): (&ContractMessage, f64),
-    ) {
+    ) -> bool {
         match message {
             ContractMessage::Bid(bid) => self.tenders.take_bid(context, from, (*bid, confidence)),
             ContractMessage::Refuse(refusal) => self.tenders.take_refusal(context, from, refusal),
-            _ => {}
+            _ => false,
         }
     }
 

@@ -89,7 +89,6 @@ impl Offers {
         let is_over =
             |offer: &mut Offer| offer.awaited.is_empty() || context.now_s >= offer.until_s;
         let over: Vec<Offer> = self.open.extract_if(.., is_over).collect();
-        let others = context.peers.members_of(context.own).count();
         let mut accepted: Vec<Accepted> = Vec::new();
         for offer in over {
             let is_tradable = context
@@ -100,7 +99,7 @@ impl Offers {
                 context,
                 |peer| {
                     let granted = accepted.iter().filter(|other| other.peer == peer).count();
-                    promises.may_promise(peer, granted, others)
+                    promises.may_promise(peer, granted, context)
                 },
                 promises,
             );
@@ -118,9 +117,8 @@ impl Offers {
     ) {
         let now_s = context.now_s;
         let members = context.peers.members_of(context.own);
-        let others = members.clone().count();
         let peers = members.filter(|peer| {
-            promises.may_promise(*peer, 0, others) && !promises.is_resting(*peer, now_s)
+            promises.may_promise(*peer, 0, context) && !promises.is_resting(*peer, now_s)
         });
         let peers: Vec<AgentId> = peers.collect();
         if peers.is_empty() || !context.may_grant() {

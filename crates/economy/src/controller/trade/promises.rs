@@ -8,9 +8,10 @@
 //! ```
 //!
 //! (Jøsang and Ismail, *The beta reputation system*, 2002). A controller may hold goals that it has not served: 5 at the start,
-//! divided by the number of other controllers in range, at least 1; each kept promise doubles that, and each broken one halves
-//! it. So one that promises everything and serves nothing gets at most five goals, of up to five others together. One that does
-//! not take a goal, or returns it, gets none for a time, each time for longer.
+//! divided by the number of other controllers, at least 1. Each promise that it keeps doubles that, and each that it breaks takes
+//! one doubling back. So one that promises everything and serves nothing gets at most five goals of up to five others together,
+//! and one of each of more. One that does not take a goal, or returns it, gets none for a time, each time for longer. A broken
+//! promise is forgiven after a time, and a goal whose deadline has passed is held no longer.
 
 use super::terms::{Accepted, MIN_COST_S, PRICE_LIFE_S};
 use crate::controller::context::{Context, short};
@@ -36,6 +37,9 @@ const LATE_S: f64 = 120.0;
 const MIN_REST_S: f64 = 20.0;
 const MAX_REST_S: f64 = 320.0;
 
+/// A broken promise is forgiven after this time, in seconds, one after the other.
+const FORGIVEN_S: f64 = 300.0;
+
 /// A transfer that has had no effect is repeated after this time, in seconds.
 const RETRY_S: f64 = 1.0;
 
@@ -55,6 +59,8 @@ struct Record {
     broken: u32,
     rest_s: f64,
     until_s: f64,
+    /// When the next broken promise is forgiven.
+    forgiven_s: f64,
 }
 
 /// A goal that has been transferred.
@@ -63,8 +69,9 @@ struct Promise {
     peer: AgentId,
     transfer: Transfer,
     made_s: f64,
-    /// Until when it is to be kept, and whether it is broken.
+    /// Until when it is to be kept, and whether it is broken; and the deadline of the goal.
     until_s: f64,
+    due_at_s: f64,
     is_broken: bool,
     /// When the transfer is sent again; infinity once the peer is a candidate.
     next_s: f64,
@@ -77,8 +84,9 @@ impl Promises {
         (PRIOR_WEIGHT * INITIAL + kept) / (PRIOR_WEIGHT + kept + broken)
     }
 
-    /// Whether a controller may promise another goal, with a number of further ones, among this number of others.
-    pub(super) fn may_promise(&self, peer: AgentId, further: usize, others: usize) -> bool {
+    /// Whether a controller may promise another goal, with a number of further ones.
+    pub(super) fn may_promise(&self, peer: AgentId, further: usize, context: &Context) -> bool {
+        let others = context.settings.count.saturating_sub(1) as usize;
         let held = self.open.iter().filter(|promise| promise.peer == peer);
         let [kept, broken] = self.counts(peer).map(|count| count as usize);
         let unproven = (UNPROVEN / others.max(1)).max(1);
@@ -98,6 +106,12 @@ impl Promises {
         record.map_or([0, 0], |record| [record.kept, record.broken])
     }
 
+    /// Forgets controllers that a person has removed.
+    pub(super) fn forget_peers(&mut self, is_removed: impl Fn(AgentId) -> bool) {
+        self.open.retain(|promise| !is_removed(promise.peer));
+        self.records.retain(|record| !is_removed(record.peer));
+    }
+
     /// Transfers a goal for the price that is accepted.
     pub(super) fn transfer(
         &mut self,
@@ -108,6 +122,10 @@ impl Promises {
     ) {
         let (goal, now_s) = (price.goal, context.now_s);
         let cost_s = f64::from(price.cost_s).max(MIN_COST_S);
+        let due_at_s = context
+            .ledger
+            .get(goal)
+            .map_or(f64::INFINITY, |it| it.due_at_s);
         let lease = ownership.transfer(context, contracts, (goal, peer), PRICE_LIFE_S);
         let transfer = Transfer {
             goal,
@@ -122,6 +140,7 @@ impl Promises {
             transfer,
             made_s: now_s,
             until_s: now_s + LATE_S + LATE_FACTOR * cost_s,
+            due_at_s,
             is_broken: false,
             next_s: now_s + RETRY_S,
         });
@@ -153,10 +172,18 @@ impl Promises {
                 promise.next_s = now_s + RETRY_S;
                 context.send(peer, TradeMessage::Transfer(promise.transfer));
             }
-            if now_s >= promise.until_s && !promise.is_broken {
+            if now_s >= promise.until_s.min(promise.due_at_s) && !promise.is_broken {
                 promise.is_broken = true;
-                self.record(peer).broken += 1;
+                let record = self.record(peer);
+                record.broken += 1;
+                record.forgiven_s = now_s + FORGIVEN_S;
             }
+        }
+        self.open.retain(|promise| now_s < promise.due_at_s);
+        let due = self.records.iter_mut();
+        for record in due.filter(|it| it.broken > 0 && now_s >= it.forgiven_s) {
+            record.broken -= 1;
+            record.forgiven_s = now_s + FORGIVEN_S;
         }
     }
 
@@ -168,7 +195,7 @@ impl Promises {
             return;
         };
         let record = self.record(promise.peer);
-        record.broken -= u32::from(promise.is_broken);
+        record.broken = record.broken.saturating_sub(promise.is_broken.into());
         if promise.peer == from {
             (record.kept, record.rest_s) = (record.kept + 1, 0.0);
         }
@@ -191,6 +218,7 @@ impl Promises {
                 broken: 0,
                 rest_s: 0.0,
                 until_s: f64::NEG_INFINITY,
+                forgiven_s: f64::INFINITY,
             });
             self.records.len() - 1
         });

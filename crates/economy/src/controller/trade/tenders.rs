@@ -53,8 +53,9 @@ impl Tenders {
         self.list
             .retain(|tender| tender.task.id != goal || tender.owner != owner);
         let is_known = self.list.iter().any(|tender| tender.task.id == goal);
-        let is_full = self.list.len() >= MAX_TENDERS || is_loaded(context);
-        let robots = if is_known || is_full {
+        let priced = self.list.iter().filter(|it| it.price.is_some()).count();
+        let has_room = self.list.len() < MAX_TENDERS && !is_loaded(context, priced);
+        let robots = if is_known || !has_room {
             Vec::new()
         } else {
             nearest(context, &task)
@@ -83,22 +84,28 @@ impl Tenders {
         context: &Context,
         robot: AgentId,
         (bid, confidence): (Bid, f64),
-    ) {
+    ) -> bool {
         let is_possible = confidence > 0.0 && confidence <= 1.0;
         let is_valid = is_possible && (0.0..=MAX_TIME_S).contains(&bid.time_s);
         let Some(tender) = self.awaiting(robot, bid.goal).filter(|_| is_valid) else {
-            return;
+            return false;
         };
         if let Some(bidder) = context.robots.get(robot) {
             let cost_s = bidder.cost_s(&tender.task, [bid.time_s.into(), confidence]);
             tender.take_cost(robot, [cost_s, confidence]);
         }
+        true
     }
 
     /// A robot does not bid. One that is full could serve the goal later.
-    pub(super) fn take_refusal(&mut self, context: &Context, robot: AgentId, refusal: &Refusal) {
+    pub(super) fn take_refusal(
+        &mut self,
+        context: &Context,
+        robot: AgentId,
+        refusal: &Refusal,
+    ) -> bool {
         let Some(tender) = self.awaiting(robot, refusal.goal) else {
-            return;
+            return false;
         };
         let later = context
             .robots
@@ -106,6 +113,7 @@ impl Tenders {
             .filter(|_| refusal.reason == Reason::Full);
         let cost_s = later.map_or(f64::INFINITY, |robot| robot.later_cost_s(&tender.task));
         tender.take_cost(robot, [cost_s, 1.0]);
+        true
     }
 
     fn awaiting(&mut self, robot: AgentId, goal: GoalId) -> Option<&mut Tender> {
@@ -138,16 +146,23 @@ impl Tenders {
     ) {
         let now_s = context.now_s;
         let mut list = self.list.iter();
-        let tender = list.find(|tender| tender.task.id == transfer.goal && tender.owner == from);
-        let priced = tender.and_then(|tender| Some((tender.task, tender.price?)));
-        let Some((task, (number, sent_s))) = priced else {
+        let is_priced = |tender: &Tender| {
+            let number = tender.price.map(|(number, _)| number);
+            tender.owner == from && number == Some(transfer.price)
+        };
+        let index = list.position(|tender| tender.task.id == transfer.goal && is_priced(tender));
+        // A price is for one transfer: a repeated one has no effect.
+        let Some(tender) = index.map(|index| self.list.remove(index)) else {
             return;
         };
-        if number == transfer.price && now_s < sent_s + PRICE_LIFE_S {
+        let Some((_, sent_s)) = tender.price.filter(|_| !is_full(context)) else {
+            return;
+        };
+        if now_s < sent_s + PRICE_LIFE_S {
             ownership.take_transfer(
                 context,
                 Received {
-                    task,
+                    task: tender.task,
                     transfer,
                     from,
                     priced_s: sent_s,
@@ -205,7 +220,12 @@ fn nearest(context: &Context, task: &Task) -> Vec<AgentId> {
     robots.into_iter().map(|(.., robot)| robot).collect()
 }
 
-/// Whether it would have to offer goals itself.
-fn is_loaded(context: &Context) -> bool {
-    2 * context.ledger.open(context.now_s) >= context.settings.max_goals as usize
+/// Whether it would have to offer goals itself, with those that it has a price for.
+fn is_loaded(context: &Context, priced: usize) -> bool {
+    2 * (context.ledger.open(context.now_s) + priced) >= context.settings.max_goals as usize
+}
+
+/// Whether it owns the maximum number of goals.
+fn is_full(context: &Context) -> bool {
+    context.ledger.open(context.now_s) >= context.settings.max_goals as usize
 }

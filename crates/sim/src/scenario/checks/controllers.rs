@@ -152,7 +152,7 @@ fn of_leases(kind: &ControllerSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
 
 /// Round trips that an ownership lease outlasts: a vote is renewed when two thirds of it are left, and twice later.
 fn trips(kind: &ControllerSpec) -> u32 {
-    if kind.members() > 1 { 3 } else { 1 }
+    if kind.has_voters() { 3 } else { 1 }
 }
 
 /// Why a lease is longer than by exact clocks, in words; empty if clocks do not drift.
