@@ -31,9 +31,9 @@
 //! By [trade](super::trade), an owner transfers a goal without an assignee: it is the first voter for the next one. Where
 //! controllers own goals alone (`backup = "none"`), a majority is the next owner and the previous one, until that is dismissed.
 //!
-//! A controller that restarts does not know for which controllers it has voted: it votes for no controller for the longest lease. So a goal whose
-//! owner is lost is owned by the working controller in range with the highest serial number (Miller 1990) that a majority
-//! votes for. n controllers survive the loss of (n - 1) / 2 of them, rounded down.
+//! A goal whose owner is lost is owned by the working controller in range with the highest serial number (Miller 1990), its
+//! index in the kind, that a majority votes for. A controller that restarts does not know for which one it has voted: it votes
+//! for none for the longest lease. n controllers survive the loss of (n - 1) / 2 of them, rounded down.
 
 use base::hashed::Hashed;
 use brain::AgentId;

@@ -184,7 +184,7 @@ fn goals_are_served_once_if_trade_ends_in_a_transfer() {
 }
 
 #[test]
-fn a_majority_that_begins_in_a_transfer_dismisses_nobody() {
+fn a_majority_that_begins_in_a_transfer_sends_no_dismissal() {
     for steps in 0..8 {
         let mut team = transferring(&settings());
         (0..steps).for_each(|_| team.step());

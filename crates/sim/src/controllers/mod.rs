@@ -62,7 +62,8 @@ pub struct ControllerSpec {
     #[serde(default = "auction_s")]
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub auction_s: f64,
-    /// Maximum number of goals that one controller owns; more are refused.
+    /// Maximum number of goals that are issued or transferred to one controller; more are refused. It takes those of lost
+    /// controllers over beyond it.
     #[serde(default = "max_goals")]
     #[schemars(range(max = 10_000))]
     pub max_goals: u32,

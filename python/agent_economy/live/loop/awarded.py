@@ -22,7 +22,7 @@ It exceeds the pause after which a controller offers a goal for the second time,
 MOVING = ("approaching", "receding")
 
 FAILOVER_S, TURN_S = 22.0, 3.0
-"""Two candidacies and a repeated request, and the turn of each controller: a lost owner has one after its lease."""
+"""Two candidacies and a repeated request, and the turn of each controller, in seconds."""
 
 DEFAULTS_S = {"auction_s": 1.0, "owner_lease_s": 30.0, "service_lease_s": 20.0}
 """Defaults of keys of controllers."""
