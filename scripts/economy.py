@@ -38,6 +38,7 @@ BANDWIDTH = ("robots.rover.radio.messages_per_step", "controllers.base.radio.mes
 FAILURES = "robots.rover.mean_time_between_failures_s"
 CONTROLLER_FAILURES = "controllers.base.mean_time_between_failures_s"
 LOST = {CONTROLLER_FAILURES: MISSION_S}
+SELDOM_LOST = {CONTROLLER_FAILURES: 5 * MISSION_S}
 LEASE = "controllers.base.service_lease_s"
 START = "robots.rover.start"
 
@@ -274,6 +275,14 @@ CASES = [
     Case("controllers", AWARDING, "controllers", (1, 2, 3), lambda n: {CONTROLLERS: n}),
     Case(
         "lost_controllers", AWARDING, "controllers", (1, 2, 3), lambda n: {CONTROLLERS: n, **LOST}
+    ),
+    Case(
+        "seldom_lost",
+        ("auction",),
+        "controllers",
+        (1, 2, 3),
+        lambda n: {CONTROLLERS: n, **SELDOM_LOST},
+        runs=400,
     ),
     Case(
         "short_radios", tuple(TEAMS), "radio range in m", (130, 160, 200), short, SHORT_RADIOS, 50

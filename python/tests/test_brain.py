@@ -126,7 +126,8 @@ RECEIVED = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         (
             {"inbox": [RECEIVED | {"message": {"about": {}}}]},
             "must be a dict with item, a dict with sender, a dict with goal, a dict with order, "
-            "a dict with contract, a dict with lease, a dict with ownership or a dict with lane",
+            "a dict with contract, a dict with lease, a dict with ownership, a dict with lane or "
+            "a dict with trade",
         ),
         ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
         ({"touch": {"value": 3, "age_s": 0.0}}, "percept.touch.value = 3: must be True or False"),

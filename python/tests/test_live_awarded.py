@@ -10,7 +10,14 @@ from conftest import ROOT
 from live_bench import Drive, driving, emulated, fleet_text
 
 import agent_economy as ae
-from agent_economy.live.loop.awarded import DEFAULTS_S, QUIET_S, AwardedGoals, awarded_to
+from agent_economy.live.loop.awarded import (
+    DEFAULTS_S,
+    FAILOVER_S,
+    QUIET_S,
+    TURN_S,
+    AwardedGoals,
+    awarded_to,
+)
 from agent_economy.live.replay import replay
 from agent_economy.live.warden.sentences import sentence
 
@@ -107,11 +114,11 @@ def test_a_long_auction_and_a_lost_owner_are_waited_for(tmp_path: Path) -> None:
     slow = path.read_text().replace(
         "[controllers.base]", "[controllers.base]\nauction_s = 40\nservice_lease_s = 60"
     )
-    path.write_text(slow.replace("count = 1\nstart", "count = 2\nstart"))
-    path.write_text(path.read_text().replace("[[2, 2]]", "[[2, 2], [3, 3]]"))
+    path.write_text(slow.replace("count = 1\nstart", "count = 3\nstart"))
+    path.write_text(path.read_text().replace("[[2, 2]]", "[[2, 2], [3, 3], [4, 4]]"))
     watch = Watch(path)
-    assert watch.goals.quiet_s == QUIET_S + 2 * 40 + 30 + 60
-    watch.step(20)  # the backup of each goal knows it
+    assert watch.goals.quiet_s == QUIET_S + 2 * 40 + 30 + 60 + FAILOVER_S + 3 * TURN_S
+    watch.step(20)  # the voters for the owner of each goal know it
     watch.simulation.fail("base/0")
     verdicts = [verdict for _ in range(300) for verdict, _ in watch.step(1).values()]
     assert verdicts[-3:] == ["complete"] * 3
