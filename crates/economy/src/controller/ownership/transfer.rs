@@ -11,6 +11,8 @@ use brain::{AgentId, Claim, GoalId, OwnershipMessage, Task, TradeMessage, Transf
 /// A goal that another controller transfers to this one.
 pub(crate) struct Received {
     pub(crate) task: Task,
+    /// Its deadline on this controller's clock.
+    pub(crate) due_at_s: f64,
     pub(crate) transfer: Transfer,
     pub(crate) from: AgentId,
     /// When this controller has sent its price: the sender has owned the goal after that.
@@ -51,6 +53,7 @@ impl Ownership {
         context: &mut Context,
         Received {
             task,
+            due_at_s,
             transfer,
             from,
             priced_s,
@@ -70,7 +73,7 @@ impl Ownership {
         self.dismissed.retain(|(_, claim)| claim.goal != goal);
         let free_until_s = priced_s + context.settings.owner_lease_s / 2.0;
         let mut owned = Owned::new(task, now_s, free_until_s);
-        owned.origin = Some(from);
+        (owned.origin, owned.due_at_s) = (Some(from), due_at_s);
         owned.giver = (context.votes_needed() == 0).then_some(from);
         owned.limit_s = transfer.limit_s.into();
         context.ledger.goals.push(owned);

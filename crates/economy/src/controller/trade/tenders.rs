@@ -26,6 +26,8 @@ pub(super) struct Tenders {
 #[derive(Debug, Clone, Hashed)]
 struct Tender {
     task: Task,
+    /// Its deadline on the controller's clock.
+    due_at_s: f64,
     owner: AgentId,
     /// What a price has to be below by a factor.
     cost_s: f64,
@@ -69,6 +71,7 @@ impl Tenders {
         }
         self.list.push(Tender {
             task,
+            due_at_s: context.now_s + f64::from(task.due_s),
             owner,
             cost_s: cost_s.into(),
             awaited: robots,
@@ -163,6 +166,7 @@ impl Tenders {
                 context,
                 Received {
                     task: tender.task,
+                    due_at_s: tender.due_at_s,
                     transfer,
                     from,
                     priced_s: sent_s,
