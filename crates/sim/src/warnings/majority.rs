@@ -10,7 +10,11 @@ use base::warning::Warning;
 
 pub(super) fn warnings(checked: &Checked, at: &Place) -> Vec<Warning> {
     let spec = &checked.spec;
-    let kinds = owners(spec).filter(|(_, kind)| kind.has_voters());
+    let has_goals = |name: &String| owners(spec).any(|(owner, _)| owner == name);
+    let kinds = spec
+        .controllers
+        .iter()
+        .filter(|(name, kind)| kind.has_voters() && (kind.clearance.is_some() || has_goals(name)));
     let found = kinds.flat_map(|(name, kind)| {
         let at = at.key("controllers").key(name);
         let found = [
