@@ -6,7 +6,7 @@ use super::bidding::{Bidder, Estimate};
 use super::offers::{NO_CALL, Offer};
 use super::schedule::StandingBid;
 use crate::io::contract::ContractMessage;
-use crate::io::message::{About, Message};
+use crate::io::message::Message;
 use crate::io::reason::Reason;
 use alloc::vec::Vec;
 
@@ -77,10 +77,7 @@ impl Assignee {
         match estimate {
             Ok(estimate) => {
                 let number = self.numbers.draw();
-                self.outbox.push(Message {
-                    confidence: estimate.confidence,
-                    ..Message::to(to, ContractMessage::Bid(estimate.bid(number)))
-                });
+                self.push_bid(&estimate, number);
             }
             Err(reason) => self.refuse(to, goal, NO_CALL.into(), reason),
         }
@@ -93,11 +90,7 @@ impl Assignee {
         let number = self.numbers.draw();
         self.holder
             .request(number, owner, Some(task.id), self.now_s);
-        self.outbox.push(Message {
-            to: owner.into(),
-            about: About::Contract(ContractMessage::Bid(estimate.bid(number))),
-            confidence: estimate.confidence,
-        });
+        self.push_bid(estimate, number);
         let bid = StandingBid {
             goal: task.id,
             call,
@@ -105,5 +98,15 @@ impl Assignee {
             jobs: self.jobs.version,
         };
         self.schedule.set_bid(owner, bid);
+    }
+
+    fn push_bid(&mut self, estimate: &Estimate, number: u32) {
+        self.outbox.push(Message {
+            confidence: estimate.confidence,
+            ..Message::to(
+                estimate.offer.owner,
+                ContractMessage::Bid(estimate.bid(number)),
+            )
+        });
     }
 }

@@ -77,21 +77,15 @@ impl Context {
         let was = core::mem::replace(&mut self.settings, settings);
         let is_same =
             [was.count, was.votes_needed()] == [self.settings.count, self.settings.votes_needed()];
-        self.count_votes();
-        if is_same {
-            return true;
-        }
-        let has_voters = self.votes_needed() > 0;
-        for owned in &mut self.ledger.goals {
-            if has_voters {
-                owned.giver = None;
-            }
-            if !owned.is_held(now_s) {
-                owned.role = Role::candidate(now_s);
-            }
+        if self.votes_needed() > 0 {
+            self.ledger.goals.iter_mut().for_each(|it| it.giver = None);
         }
         self.count_votes();
-        false
+        let goals = self.ledger.goals.iter_mut();
+        for owned in goals.filter(|owned| !is_same && !owned.is_held(now_s)) {
+            owned.role = Role::candidate(now_s);
+        }
+        is_same
     }
 
     /// Waits as long as another controller after a takeover.
@@ -169,13 +163,18 @@ impl Context {
         if !task.is_valid() {
             return Err(Reason::Invalid);
         }
-        if self.ledger.open(self.now_s) >= self.settings.max_goals as usize {
+        if self.is_full() {
             return Err(Reason::Full);
         }
         let owned = Owned::new(task, self.now_s, f64::INFINITY);
         self.ledger.goals.push(owned);
         self.count_votes_for(task.id);
         Ok(())
+    }
+
+    /// Whether it owns the maximum number of goals.
+    pub(super) fn is_full(&self) -> bool {
+        self.ledger.open(self.now_s) >= self.settings.max_goals as usize
     }
 
     /// A goal is no longer on offer, except to the robot whose bid has a number, if any has.

@@ -15,7 +15,7 @@ mod round;
 mod unserved;
 
 pub(crate) use calls::{CALLS_PER_STEP, REPEAT_S};
-pub(crate) use receive::MAX_TIME_S;
+pub(crate) use receive::is_plausible;
 
 use super::context::Context;
 use base::hashed::Hashed;

@@ -14,7 +14,7 @@ const DECLINED_S: f64 = 30.0;
 const DECLINED_PER_ROBOT_S: f64 = 2.0;
 
 /// Longest plausible time of a bid, in seconds: of its goal, and of all that the robot serves.
-pub(crate) const MAX_TIME_S: f32 = 1e7;
+const MAX_TIME_S: f32 = 1e7;
 
 impl Contracts {
     pub(crate) fn receive(
@@ -70,13 +70,7 @@ impl Contracts {
     /// A bid counts if its goal is on offer under the number of the bid. If it is not, the robot is to
     /// know that.
     fn take_bid(&mut self, context: &mut Context, from: AgentId, bid: Bid, confidence: f64) {
-        let is_possible = confidence > 0.0 && confidence <= 1.0;
-        let times_s = [bid.time_s, bid.total_s];
-        if !is_possible
-            || !times_s
-                .iter()
-                .all(|time_s| (0.0..=MAX_TIME_S).contains(time_s))
-        {
+        if !is_plausible(&bid, confidence) {
             return;
         }
         note_robot(context, from);
@@ -207,6 +201,13 @@ impl Contracts {
         };
         context.send(from, answer);
     }
+}
+
+/// Whether the numbers of a bid are possible.
+pub(crate) fn is_plausible(bid: &Bid, confidence: f64) -> bool {
+    let mut times_s = [bid.time_s, bid.total_s].into_iter();
+    let is_possible = confidence > 0.0 && confidence <= 1.0;
+    is_possible && times_s.all(|time_s| (0.0..=MAX_TIME_S).contains(&time_s))
 }
 
 /// A robot that was not present is a reason to try goals again that no robot could serve.

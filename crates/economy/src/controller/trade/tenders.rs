@@ -2,7 +2,7 @@
 
 use super::terms::PRICE_LIFE_S;
 use crate::controller::context::{Context, short};
-use crate::controller::contracts::MAX_TIME_S;
+use crate::controller::contracts::is_plausible;
 use crate::controller::ownership::{Ownership, Received};
 use alloc::vec::Vec;
 use base::hashed::Hashed;
@@ -88,8 +88,7 @@ impl Tenders {
         robot: AgentId,
         (bid, confidence): (Bid, f64),
     ) -> bool {
-        let is_possible = confidence > 0.0 && confidence <= 1.0;
-        let is_valid = is_possible && (0.0..=MAX_TIME_S).contains(&bid.time_s);
+        let is_valid = is_plausible(&bid, confidence);
         let Some(tender) = self.awaiting(robot, bid.goal).filter(|_| is_valid) else {
             return false;
         };
@@ -158,7 +157,7 @@ impl Tenders {
         let Some(tender) = index.map(|index| self.list.remove(index)) else {
             return;
         };
-        let Some((_, sent_s)) = tender.price.filter(|_| !is_full(context)) else {
+        let Some((_, sent_s)) = tender.price.filter(|_| !context.is_full()) else {
             return;
         };
         if now_s < sent_s + PRICE_LIFE_S {
@@ -227,9 +226,4 @@ fn nearest(context: &Context, task: &Task) -> Vec<AgentId> {
 /// Whether it would have to offer goals itself, with those that it has a price for.
 fn is_loaded(context: &Context, priced: usize) -> bool {
     2 * (context.ledger.open(context.now_s) + priced) >= context.settings.max_goals as usize
-}
-
-/// Whether it owns the maximum number of goals.
-fn is_full(context: &Context) -> bool {
-    context.ledger.open(context.now_s) >= context.settings.max_goals as usize
 }
