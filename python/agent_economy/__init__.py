@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from agent_economy.runs.brain import Brain
     from agent_economy.runs.classic_simulation import ClassicSimulation
     from agent_economy.runs.controller import Controller
+    from agent_economy.runs.external import ExternalBody
     from agent_economy.runs.outcome import Outcome
     from agent_economy.runs.simulation import Simulation
     from agent_economy.scenario import Scenario
@@ -29,6 +30,7 @@ __all__ = [
     "Brain",
     "ClassicSimulation",
     "Controller",
+    "ExternalBody",
     "InputError",
     "Outcome",
     "Recording",
@@ -48,6 +50,7 @@ _HOMES = {
     "Brain": "agent_economy.runs.brain",
     "ClassicSimulation": "agent_economy.runs.classic_simulation",
     "Controller": "agent_economy.runs.controller",
+    "ExternalBody": "agent_economy.runs.external",
     "InputError": "agent_economy._core",
     "Outcome": "agent_economy.runs.outcome",
     "Recording": "agent_economy.recording",

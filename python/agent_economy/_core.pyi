@@ -307,7 +307,7 @@ class Simulation(CompiledRun):
         seed: int,
         run: int,
         threads: int | None,
-        external: Sequence[str],
+        external: dict[str, Any],
     ) -> Simulation: ...
     @property
     def robots(self) -> list[str]: ...
@@ -327,7 +327,9 @@ class Simulation(CompiledRun):
     def decision_hash(self) -> int | None: ...
     def hash_decisions(self, start: int) -> None: ...
     def step_with(
-        self, percepts: dict[str, Any], commands: dict[str, Any], brains: Sequence[_PythonBrain]
+        self,
+        inputs: tuple[dict[str, Any], dict[str, Any], dict[str, Any]],
+        brains: Sequence[_PythonBrain],
     ) -> dict[str, dict[str, Any]]: ...
     @property
     def decided(self) -> dict[str, dict[str, Any]]: ...

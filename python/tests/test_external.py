@@ -50,7 +50,7 @@ def test_an_external_body_has_the_pose_of_its_percepts() -> None:
 
 def test_a_declared_body_stands_where_it_starts_until_its_first_percept() -> None:
     simulation = Simulation("search", seed=2, external=["rover/1"])
-    assert simulation.declared_external == ("rover/1",)
+    assert list(simulation.declared_external) == ["rover/1"]
     assert simulation.external.tolist() == [False, True, False, False]
     assert simulation.hash != Simulation("search", seed=2).hash
     start = simulation.poses

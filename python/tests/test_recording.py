@@ -137,7 +137,7 @@ def test_declared_external_bodies_are_replayed(mcap: Path) -> None:
         recording.step(5)
     assert ae.replay(mcap).agrees
     identity, recorded = read(mcap)
-    assert identity.external == recorded.external == ("rover/0", "rover/1")
+    assert identity.external == recorded.external == simulation.declared_external
     timeline = Timeline(identity.scenario, identity.seed, identity.run, None, recorded)
     timeline.seek(12, 60.0)
     assert timeline.simulation.hash == simulation.hash

@@ -1,13 +1,10 @@
 //! Checks of arguments of Python functions: all errors of a call in one exception.
 
 use crate::error::input_error;
-use crate::metric_scenario::robot_of;
 use base::error::{InputError, InputErrors};
-use brain::AgentId;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
-use sim::scenario::Scenario;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
@@ -65,22 +62,6 @@ impl Arguments {
     /// The number of a run. Tables store it as a signed 64-bit integer.
     pub(crate) fn run(&self, name: &str, given: &Bound<PyAny>) -> Option<u64> {
         self.integer(name, given, 0..=i64::MAX.cast_unsigned() - MAX_RUNS)
-    }
-
-    /// The ids of robots of a scenario, by their names.
-    pub(crate) fn robots_of(
-        &self,
-        scenario: &Scenario,
-        name: &str,
-        given: &[String],
-    ) -> Option<Vec<AgentId>> {
-        let robots = given.iter().map(|each| {
-            let id = robot_of(scenario, name, each);
-            id.map_err(|error| self.errors.borrow_mut().push(error))
-                .ok()
-        });
-        let robots: Vec<Option<AgentId>> = robots.collect();
-        robots.into_iter().collect()
     }
 
     /// Number of threads; `Some(None)` for one per processor.

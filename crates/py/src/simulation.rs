@@ -57,7 +57,6 @@ pub(crate) struct Simulation {
 impl Simulation {
     #[new]
     #[pyo3(signature = (scenario, *, seed, run, threads, external))]
-    #[expect(clippy::needless_pass_by_value, reason = "PyO3 passes an owned list")]
     #[expect(clippy::too_many_arguments, reason = "PyO3 passes the interpreter too")]
     fn new(
         py: Python,
@@ -65,7 +64,7 @@ impl Simulation {
         seed: &Bound<PyAny>,
         run: &Bound<PyAny>,
         threads: &Bound<PyAny>,
-        external: Vec<String>,
+        external: &Bound<PyDict>,
     ) -> PyResult<Self> {
         let check = Arguments::default();
         let (seed, run, threads) = (
@@ -74,12 +73,13 @@ impl Simulation {
             check.threads(threads),
         );
         let scenario = &scenario.get().0;
-        let external = check.robots_of(scenario, "external", &external);
-        let all = (|| Some((seed?, run?, threads?, external?)))();
-        let (seed, run, threads, external) = check.or_errors(all)?;
+        let all = (|| Some((seed?, run?, threads?)))();
+        let (seed, run, threads) = check.or_errors(all)?;
+        let external = external::bodies(scenario, external);
+        let external = external.map_err(|errors| input_error(&errors, ""))?;
         let begun = py.detach(|| Run::new(Arc::clone(scenario), seed, run));
         let begun = begun.map_err(|why| no_room(scenario, why))?;
-        let begun = begun.with_external(&external);
+        let begun = begun.with_external(external);
         let begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(Self {
             run: Mutex::new(begun),
@@ -120,19 +120,16 @@ impl Simulation {
     fn step_with<'py>(
         &self,
         py: Python<'py>,
-        percepts: &Bound<'py, PyDict>,
-        commands: &Bound<'py, PyDict>,
+        inputs: [Bound<'py, PyDict>; 3],
         brains: Vec<PythonBrain<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut run = self.locked(py)?;
         let kinds = brains.iter().filter_map(|brain| brain.kind(run.scenario()));
         let kinds: Vec<u8> = kinds.collect();
-        let read = external::read(&run, percepts, commands, &kinds);
-        let (percepts, commands) = read.map_err(|errors| input_error(&errors, ""))?;
+        let read = external::read(&run, &inputs, &kinds);
+        let inputs = read.map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run);
-        let begun = self.advance(py, &mut run, work, |run, _| {
-            run.begin_step(percepts, commands, &kinds)
-        })?;
+        let begun = self.advance(py, &mut run, work, |run, _| run.begin_step(inputs, &kinds))?;
         let mut begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         self.run_brains(run.scenario(), &brains, &mut begun)?;
         let answers = self.advance(py, &mut run, work, |run, _| run.finish_step(begun))?;

@@ -52,7 +52,11 @@ class BrainTopics:
             # Also after Ctrl-C: a completed step cannot be replayed without its inputs.
             if simulation.tick > tick:
                 decided = {**simulation.decided, **(inputs.commands or {})}
-                written = {"percepts": inputs.percepts or {}, "commands": decided}
+                written = {
+                    "percepts": inputs.percepts or {},
+                    "observed": inputs.observed or {},
+                    "commands": decided,
+                }
                 if any(written.values()):
                     self._file.write_json("/input", strict({"tick": tick, **written}), time_ns)
                 if perceived:

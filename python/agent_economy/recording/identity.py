@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from agent_economy import _core
@@ -10,6 +10,7 @@ from agent_economy._core import InputError
 from agent_economy.build import Build, own_build
 from agent_economy.recording.fields import Entries, hash_text
 from agent_economy.recording.file import File, strict
+from agent_economy.runs.external import ExternalBody, external_body, plain
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Override, Scenario, Source, validation
 
@@ -31,14 +32,14 @@ class Identity:
         seed: Seed of all random numbers.
         run: Run number.
         build: The build that recorded it.
-        external: Names of the robots that had external bodies from the start.
+        external: The bodies that were external from the start, by robot name.
     """
 
     scenario: Scenario
     seed: int
     run: int
     build: Build
-    external: tuple[str, ...] = ()
+    external: Mapping[str, ExternalBody] = field(default_factory=dict)
 
 
 def write_identity(file: File, simulation: Stepped) -> None:
@@ -58,7 +59,7 @@ def write_identity(file: File, simulation: Stepped) -> None:
             "seed": str(simulation.seed),
             "run": str(simulation.run),
         }
-        | ({"external": json.dumps(external)} if external else {}),
+        | ({"external": json.dumps(plain(external))} if external else {}),
     )
     file.attach(f"scenario/{name}", "application/toml", source.text.encode())
 
@@ -137,12 +138,17 @@ def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> I
     return Identity(scenario, seed, number, read_build(run), external)
 
 
-def read_external(run: Entries) -> tuple[str, ...]:
-    """Return the names of the robots that had external bodies from the start."""
-    names = run.json("external") if "external" in run else []
-    if not (isinstance(names, list) and all(map(validation.is_text, names))):
-        run.refuse("external bodies that are not a list of names")
-    return tuple(names)
+def read_external(run: Entries) -> dict[str, ExternalBody]:
+    """Return the bodies that were external from the start; old recordings have their names only."""
+    given = run.json("external") if "external" in run else {}
+    if isinstance(given, list) and all(map(validation.is_text, given)):
+        given = {name: {} for name in given}
+    if not isinstance(given, dict):
+        run.refuse("external bodies that are neither names nor described by name")
+    try:
+        return {name: external_body(values) for name, values in sorted(given.items())}
+    except (AttributeError, TypeError, ValueError):
+        run.refuse("external bodies that are not described as they should be")
 
 
 def read_overrides(run: Entries) -> tuple[Override, ...]:

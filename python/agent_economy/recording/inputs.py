@@ -10,4 +10,5 @@ class ExternalInputs(NamedTuple):
     """The arguments of `Simulation.step`, by robot name; None if they are not given."""
 
     percepts: Mapping[str, Percept] | None = None
+    observed: Mapping[str, Percept] | None = None
     commands: Mapping[str, Command] | None = None

@@ -26,6 +26,7 @@ from agent_economy.recording.identity import (
 from agent_economy.recording.records import stream_records
 from agent_economy.recording.stops import Stops
 from agent_economy.regular_file import open_regular
+from agent_economy.runs.external import ExternalBody
 from agent_economy.runs.stepped import Change
 from agent_economy.whole_file import is_being_written
 
@@ -113,9 +114,9 @@ class Recorded:
                 self._add_message(self._topics.get(record.channel_id, ""), record.data)
 
     @property
-    def external(self) -> tuple[str, ...]:
-        """Names of the robots that had external bodies from the start."""
-        return () if self._run is None else read_external(read_run(self._run))
+    def external(self) -> dict[str, ExternalBody]:
+        """The bodies that were external from the start, by robot name."""
+        return {} if self._run is None else read_external(read_run(self._run))
 
     def identity(self) -> Identity:
         """Return the identity of the run.
@@ -168,6 +169,8 @@ class Recorded:
 
     def _add_input(self, entries: Entries) -> None:
         each = {name: entries.by_name(name) for name in ("percepts", "commands")}
+        if "observed" in entries:
+            each["observed"] = entries.by_name("observed")
         self.inputs[entries.whole("tick")] = each
 
 

@@ -93,6 +93,7 @@ class Recording:
         steps: int = 1,
         *,
         percepts: Mapping[str, Percept] | None = None,
+        observed: Mapping[str, Percept] | None = None,
         commands: Mapping[str, Command] | None = None,
     ) -> dict[str, Command]:
         """Advance as `step` of the simulation does, and record the steps.
@@ -104,8 +105,9 @@ class Recording:
             RecordingError: If the file cannot be written. The recording is then closed.
         """
         self._check_simulation()
-        if percepts is not None or commands is not None:
-            return self._step(steps, ExternalInputs(percepts, commands))
+        inputs = ExternalInputs(percepts, observed, commands)
+        if any(each is not None for each in inputs):
+            return self._step(steps, inputs)
         validation.whole("steps", steps, 0)
         for _ in range(steps):
             tick = self.simulation.tick

@@ -1,7 +1,7 @@
 """Replays a recorded run and verifies that it is reproduced."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -11,6 +11,7 @@ from agent_economy.recording.fields import hash_text
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Point, Recorded, named, read
 from agent_economy.runs import factory
+from agent_economy.runs.external import ExternalBody
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Scenario, validation
@@ -44,7 +45,7 @@ class Replay:
             "decisions and state"; of a drive also "percepts or setpoints", if the recorded lines do
             not give them. None if nothing differs.
         outcome: The outcome of the replay.
-        external: Names of the robots that had external bodies from the start.
+        external: The bodies that were external from the start, by robot name.
         lines: Number of lines of robots from which the percepts were made again; None if the
             recording is not of a drive.
         damaged_tick: Tick from which on the file is damaged; None if it is not. Nothing after it
@@ -62,7 +63,7 @@ class Replay:
     mismatch_tick: int | None
     mismatch: str | None
     outcome: Outcome
-    external: tuple[str, ...] = ()
+    external: Mapping[str, ExternalBody] = field(default_factory=dict)
     lines: int | None = None
     damaged_tick: int | None = None
 

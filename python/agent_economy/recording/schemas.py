@@ -229,6 +229,10 @@ INPUT = of_object(
     {
         "tick": INTEGER | {"description": "Number of steps taken."},
         "percepts": {"type": "object", "description": "Percepts of external bodies."},
+        "observed": {
+            "type": "object",
+            "description": "Percepts of external bodies whose brains do not step.",
+        },
         "commands": {
             "type": "object",
             "description": "Commands that replace the decisions of brains.",

@@ -1,8 +1,9 @@
 """Creates the stepped run of a scenario, for any engine."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from agent_economy.runs.classic_simulation import ClassicSimulation
+from agent_economy.runs.external import External
 from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Scenario
@@ -13,14 +14,14 @@ ENGINES: dict[str, Callable[[Scenario, int, int], Stepped]] = {
 }
 
 
-def create(scenario: Scenario, seed: int, run: int, external: Sequence[str] = ()) -> Stepped:
+def create(scenario: Scenario, seed: int, run: int, external: External = ()) -> Stepped:
     """Create a run of a scenario's engine, at its first step.
 
     Args:
         scenario: The scenario.
         seed: Seed of all random numbers.
         run: Run number.
-        external: Names of robots that have external bodies from the start; of the metric engine.
+        external: Robots that have external bodies from the start; of the metric engine.
 
     Raises:
         InputError: If an argument is out of range, or the world has no room for the team or the

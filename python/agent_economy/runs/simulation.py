@@ -1,6 +1,6 @@
 """An interactive run of the metric engine."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from numbers import Integral
 from pathlib import Path
 from typing import Any, NamedTuple, cast
@@ -18,6 +18,7 @@ from agent_economy.runs.brain import (
     Inspection,
     Percept,
 )
+from agent_economy.runs.external import External, external_bodies, plain
 from agent_economy.runs.lane import BelievedLane, believed_lane
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.passage import Vehicle, vehicle
@@ -64,7 +65,7 @@ class Simulation(Stepped):
         scenario: The scenario, with all changes made during the run.
         seed: Seed of all random numbers.
         run: Run number.
-        declared_external: Names of the robots that had external bodies from the start, sorted.
+        declared_external: The bodies that were external from the start, by robot name, sorted.
     """
 
     _run: _core.Simulation
@@ -79,7 +80,7 @@ class Simulation(Stepped):
         brains: Brains | None = None,
         *,
         controllers: Controllers | None = None,
-        external: Iterable[str] = (),
+        external: External = (),
     ) -> None:
         """Create a run at its first step.
 
@@ -98,18 +99,19 @@ class Simulation(Stepped):
                 `step(percept)` that returns a command, as `Controller` has. It decides instead of
                 the scenario's controller.
             external: Names of robots that have external bodies from the start: see `step`. Until
-                its first percept, such a body is stationary where it starts.
+                its first percept, such a body is stationary where it starts. A mapping from names
+                to `ExternalBody` also states which of its sensors are virtual.
 
         Raises:
             InputError: If the scenario has errors or is of another engine, an argument is out of
                 range, or the world has no room for the team or the items. It lists all errors of
                 `brains` and `controllers`.
         """
-        super().__init__(as_scenario(scenario), seed, run, sorted_names(external))
-        metric, names = self.scenario.metric(), self.declared_external
+        super().__init__(as_scenario(scenario), seed, run, external_bodies(external))
+        metric, names = self.scenario.metric(), list(self.declared_external)
         numbers = {"seed": self.seed, "run": self.run}
         numbers["threads"] = validation.plain_value("threads", threads)
-        self._run = _core.Simulation(metric, **numbers, external=names)
+        self._run = _core.Simulation(metric, **numbers, external=plain(self.declared_external))
         self._brains = python_brains(brains, controllers, self.scenario)
         in_python = [name for name in names if self._is_in_python(name)]
         allowed = "robots with the brain of the scenario: step the brains in `brains` yourself"
@@ -121,6 +123,7 @@ class Simulation(Stepped):
         steps: int = 1,
         *,
         percepts: Mapping[str, Percept] | None = None,
+        observed: Mapping[str, Percept] | None = None,
         commands: Mapping[str, Command] | None = None,
     ) -> dict[str, Command]:
         """Advance by `steps`, also after the end of the run. Ctrl-C stops between two steps.
@@ -135,6 +138,8 @@ class Simulation(Stepped):
         Args:
             steps: Number of steps, 0 or more; 1 with percepts or commands.
             percepts: Percepts of external bodies, by robot name.
+            observed: Percepts of other external bodies, which only state where these are: their
+                brains do not step, as while a person drives the robot.
             commands: Commands for other robots and for controllers, by name. A command replaces the
                 decision of the robot's brain in this step, and holds until the brain steps again.
                 It replaces the step of a controller, which then misses the messages of this step.
@@ -148,13 +153,17 @@ class Simulation(Stepped):
                 not advance either.
         """
         steps = validation.plain_value("steps", steps)
-        if percepts is None and commands is None:
+        if percepts is None and observed is None and commands is None:
             self._step(steps)
             return {}
         is_one = isinstance(steps, Integral) and steps == 1
         validation.check(is_one, "steps", steps, "1 with percepts or commands")
-        both = as_dict("percepts", percepts), as_dict("commands", commands)
-        return cast("dict[str, Command]", self._run.step_with(*both, self._brains))
+        inputs = (
+            as_dict("percepts", percepts),
+            as_dict("observed", observed),
+            as_dict("commands", commands),
+        )
+        return cast("dict[str, Command]", self._run.step_with(inputs, self._brains))
 
     def _step(self, steps: int) -> None:
         if not self._brains:
@@ -162,7 +171,7 @@ class Simulation(Stepped):
             return
         validation.whole("steps", steps, 0)
         for _ in range(steps):
-            self._run.step_with({}, {}, self._brains)
+            self._run.step_with(({}, {}, {}), self._brains)
 
     @property
     def decided(self) -> dict[str, Command]:
@@ -554,18 +563,6 @@ class Simulation(Stepped):
     def vehicles(self) -> list[Vehicle]:
         """The vehicles that pass the lane, in their order; none before it is declared clear."""
         return [vehicle(each) for each in _core.vehicles(self._run)]
-
-
-def sorted_names(external: Iterable[str]) -> tuple[str, ...]:
-    """Return the names of declared external bodies, sorted.
-
-    Raises:
-        InputError: If they are not names, or one occurs twice.
-    """
-    names = validation.texts("external", external, "a list of robot names")
-    repeated = [name for place, name in enumerate(names) if name in names[:place]]
-    validation.check(not repeated, "external", repeated, "different robots, each named once")
-    return tuple(sorted(names))
 
 
 def as_dict(name: str, mapping: Mapping[str, Any] | None) -> dict[str, Any]:

@@ -1,11 +1,13 @@
 """The common base of interactive runs of both engines: they step and take changes."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from threading import RLock
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from agent_economy._core import InputError
+from agent_economy.runs.external import ExternalBody
 from agent_economy.runs.outcome import Outcome, Status, outcome_of
 from agent_economy.scenario import Scenario, TomlValue, validation
 from agent_economy.types.brain import BeliefState
@@ -41,7 +43,7 @@ class Snapshot:
     seed: int
     run: int
     changes: tuple[Change, ...]
-    _external: tuple[str, ...] = field(repr=False)
+    _external: Mapping[str, ExternalBody] = field(repr=False)
     _initial: Scenario = field(repr=False)
     _state: Any = field(repr=False)
 
@@ -60,24 +62,28 @@ class Stepped(ABC):
         scenario: The scenario, with all changes made during the run.
         seed: Seed of all random numbers.
         run: Run number.
-        declared_external: Names of the robots that had external bodies from the start, sorted.
+        declared_external: The bodies that were external from the start, by robot name, sorted.
     """
 
     scenario: Scenario
     seed: int
     run: int
-    declared_external: tuple[str, ...]
+    declared_external: Mapping[str, ExternalBody]
     _run: "_core.CompiledRun"
     _state_type: ClassVar[type]
 
     def __init__(
-        self, scenario: Scenario, seed: int, run: int, external: tuple[str, ...] = ()
+        self,
+        scenario: Scenario,
+        seed: int,
+        run: int,
+        external: Mapping[str, ExternalBody] | None = None,
     ) -> None:
         """Create a run without changes."""
         self.scenario = scenario
         self.seed = validation.plain_value("seed", seed)
         self.run = validation.plain_value("run", run)
-        self.declared_external = external
+        self.declared_external = {} if external is None else external
         self._initial = scenario
         self._changes: tuple[Change, ...] = ()
         self._lock = RLock()
@@ -193,9 +199,11 @@ class Stepped(ABC):
         return self._run.hash
 
 
-def begun(scenario: Scenario, seed: int, run: int, external: tuple[str, ...]) -> str:
+def begun(scenario: Scenario, seed: int, run: int, external: Mapping[str, ExternalBody]) -> str:
     """Return how a run began, in words."""
-    declared = f", external={external!r}" if external else ""
+    is_plain = all(body == ExternalBody() for body in external.values())
+    shown = tuple(external) if is_plain else external
+    declared = f", external={shown!r}" if external else ""
     return f"{scenario.name!r}, seed={seed}, run={run}{declared}"
 
 

@@ -1,11 +1,12 @@
 //! What changes of a body in a run, besides its pose.
 
+use super::external::ExternalBody;
 use super::kind::Kind;
 use super::source::BodySource;
 use brain::Motion;
 
 /// The state of a body, besides its pose.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct BodyState {
     pub(crate) speed_m_s: f64,
     pub(crate) turn_rate_rad_s: f64,
@@ -33,7 +34,23 @@ impl BodyState {
     }
 
     pub(crate) fn is_external(&self) -> bool {
-        self.source == BodySource::External
+        matches!(self.source, BodySource::External(_))
+    }
+
+    /// What is known of it, if it is external.
+    pub(crate) fn external(&self) -> Option<&ExternalBody> {
+        match &self.source {
+            BodySource::Simulated => None,
+            BodySource::External(external) => Some(external),
+        }
+    }
+
+    /// The same, to change it.
+    pub(crate) fn external_mut(&mut self) -> Option<&mut ExternalBody> {
+        match &mut self.source {
+            BodySource::Simulated => None,
+            BodySource::External(external) => Some(external),
+        }
     }
 
     /// Remaining fraction of its battery, 0 to 1; `None` if it never runs empty.

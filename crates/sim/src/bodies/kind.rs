@@ -246,6 +246,13 @@ impl Kind {
         radio_w + on.map(|(_, sensor)| sensor.power_w).sum::<f64>()
     }
 
+    /// The numbers of its range sensors among its sensors, in the order of the scans of percepts.
+    pub(crate) fn ring_sensors(&self) -> impl Iterator<Item = usize> {
+        let sensors = self.sensors.iter().enumerate();
+        let rings = sensors.filter(|(_, sensor)| matches!(sensor.measure, Measure::Range(_)));
+        rings.map(|(number, _)| number)
+    }
+
     /// Maximum distance from its centre at the start of a step at which it can touch something in
     /// that step, where it drives at its maximum speed for `longest_s`.
     pub(crate) fn touch_m(&self, longest_s: f64) -> f64 {

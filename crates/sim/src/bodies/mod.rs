@@ -5,7 +5,7 @@ pub(crate) mod body_state;
 pub mod collision;
 pub(crate) mod contact;
 pub mod drive;
-pub(crate) mod external;
+pub mod external;
 pub(crate) mod kind;
 pub mod models;
 pub(crate) mod path;

@@ -3,7 +3,6 @@
 use super::acting::Acting;
 use super::participant::{Participant, Place};
 use crate::bodies::drive::delay::SetpointQueue;
-use crate::bodies::external::ExternalBody;
 use crate::bodies::kind::Kind;
 use crate::sensors::backlog::Backlog;
 use base::noise::Noise;
@@ -21,8 +20,6 @@ pub(crate) struct Agent {
     /// A bit for each sensor that is switched off.
     pub(crate) sensors_off: u32,
     pub(crate) inputs: Inputs,
-    /// Where its body is, if something outside of the simulation moves it.
-    pub(crate) external: Option<Box<ExternalBody>>,
 }
 
 /// What reaches the brain of a robot later than it is measured or sent. Most kinds of robots have
@@ -59,7 +56,6 @@ impl Agent {
                 participant: kind.radio.map(participant),
                 acting: Acting::new(kind),
             },
-            external: None,
         }
     }
 

@@ -54,7 +54,7 @@ pub(super) fn removed(
     let keys = before.ids.iter().map(|id| from.kind_of(*id).key);
     let body_states = keys.zip(&before.body_states).zip(stays);
     body_states
-        .filter_map(|((key, body_state), stays)| (!stays).then_some((key, *body_state)))
+        .filter_map(|((key, body_state), stays)| (!stays).then_some((key, body_state.clone())))
         .collect()
 }
 

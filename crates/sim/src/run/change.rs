@@ -124,9 +124,6 @@ impl State {
             self.discs[robot].centre = before.discs[was].centre;
             self.orientations[robot] = before.orientations[was];
             self.agents[robot].take_over_queue(&before.agents[was], kind);
-            self.agents[robot]
-                .external
-                .clone_from(&before.agents[was].external);
             self.body_states[robot] = kept_body_state(&before.body_states[was], kind, to);
             if has_same_agent(old_kind, kind) {
                 self.agents[robot].take_over(&before.agents[was]);
@@ -243,12 +240,16 @@ fn kept_body_state(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodySt
     };
     let drive = &kind.drive;
     let motion = drive.executable(body_state.motion(), to.max_speed_factor());
-    BodyState {
+    let mut kept = BodyState {
         speed_m_s: motion.speed_m_s,
         turn_rate_rad_s: motion.turn_rate_rad_s,
         status,
-        ..*body_state
+        ..body_state.clone()
+    };
+    if let Some(external) = kept.external_mut() {
+        external.number_sensors(kind);
     }
+    kept
 }
 
 /// Whether robots keep their agents, and only what their brains know about others changes.

@@ -19,14 +19,12 @@ impl State {
         percept: Option<&Percept>,
     ) -> f64 {
         let body = scenario.kind_of(self.ids[robot]).brain.body();
-        let Some(external) = &mut self.agents[robot].external else {
+        let body_state = &mut self.body_states[robot];
+        let Some(external) = body_state.external_mut() else {
             return 0.0;
         };
-        match percept {
-            Some(percept) => external.observe(percept, body),
-            None => external.wait(scenario.step_s),
-        }
-        let (at, heading_rad) = match (external.pose(body), percept) {
+        external.observe(percept, scenario.step_s, body);
+        let (at, heading_rad) = match (external.pose, percept) {
             (Some(pose), _) => (Some(pose.at), Some(pose.heading_rad)),
             (None, Some(percept)) => (
                 percept.position.map(|reading| reading.value),
@@ -34,7 +32,7 @@ impl State {
             ),
             (None, None) => (None, None),
         };
-        self.body_states[robot].speed_m_s = external.speed_m_s(body);
+        body_state.speed_m_s = external.speed_m_s(body);
         if let Some(heading_rad) = heading_rad.filter(|rad| rad.abs() < MAX_HEADING_RAD) {
             self.orientations[robot] = Orientation::new(heading_rad);
         }

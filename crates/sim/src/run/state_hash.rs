@@ -60,7 +60,7 @@ impl State {
             body_state.turn_rate_rad_s.add_to(hash);
             queue.add_to(hash);
         }
-        if let Some(external) = &self.agents[robot].external {
+        if let Some(external) = self.body_states[robot].external() {
             external.add_to(hash);
         }
         if let Some(acting) = &self.agents[robot].inputs.acting {

@@ -110,6 +110,14 @@ impl Sensor {
         self.is_immediate() || (self.latency_steps == 0 && self.detects())
     }
 
+    /// Whether it can measure for a body that the simulation does not move: not what states where that body is.
+    pub(crate) fn can_be_virtual(&self) -> bool {
+        !matches!(
+            self.measure,
+            Measure::Position { .. } | Measure::Heading { .. }
+        )
+    }
+
     /// Whether it detects things, instead of measuring values that the next measurement replaces.
     fn detects(&self) -> bool {
         matches!(self.measure, Measure::Items(_) | Measure::Robots(_))

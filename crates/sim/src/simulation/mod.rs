@@ -1,6 +1,7 @@
 //! One run, stepped by its caller.
 
 mod collision_warnings;
+mod external_errors;
 mod footprints;
 mod hashes;
 mod inspect;
@@ -11,7 +12,8 @@ pub use footprints::{Footprint, Sensors};
 pub use inspect::Inspected;
 pub use links::Link;
 
-use crate::bodies::body_state::Status;
+use crate::bodies::body_state::{BodyState, Status};
+use crate::bodies::external::{ExternalBody, ExternalSpec};
 use crate::bodies::source::BodySource;
 use crate::clock::seconds;
 use crate::judge::Outcome;
@@ -37,7 +39,7 @@ use std::sync::Arc;
 /// A body can be external, from the start ([`Simulation::with_external`]) or from the first percept that
 /// [`Simulation::step_with`] gets for a robot: its pose comes from its percepts, and the commands of its
 /// brain are returned instead of executed. In a step without a percept it is stationary, and its brain does
-/// not step. A percept that is not later than the one before is ignored: the last motion is returned
+/// not step; nor does it with a percept that is only observed. A percept that is not later than the one before is ignored: the last motion is returned
 /// again. Its damage and battery are not simulated: it neither breaks nor runs empty, and uses no energy.
 #[derive(Debug, Clone)]
 pub struct Simulation {
@@ -47,6 +49,18 @@ pub struct Simulation {
     probe: Probe,
     /// Whether any body is external.
     has_external: bool,
+}
+
+/// What comes from outside of a run for one step.
+#[derive(Debug, Clone, Default)]
+pub struct StepInputs {
+    /// Percepts of external bodies, from which their brains decide.
+    pub percepts: BTreeMap<AgentId, Percept>,
+    /// Percepts of external bodies whose brains do not step, as while a person drives one: they state where
+    /// it is.
+    pub observed: BTreeMap<AgentId, Percept>,
+    /// Commands that replace the decisions of other brains and of controllers.
+    pub commands: BTreeMap<AgentId, Command>,
 }
 
 /// There is no such robot or controller in the run.
@@ -76,10 +90,13 @@ impl Simulation {
     ///
     /// # Errors
     /// If there is no such robot.
-    pub fn with_external(mut self, robots: &[AgentId]) -> Result<Self, NoRobot> {
-        for id in robots {
-            let robot = self.number(*id)?;
-            self.make_external(robot);
+    pub fn with_external(
+        mut self,
+        bodies: impl IntoIterator<Item = (AgentId, ExternalSpec)>,
+    ) -> Result<Self, NoRobot> {
+        for (id, spec) in bodies {
+            let robot = self.number(id)?;
+            self.make_external(robot, &Arc::new(spec));
         }
         Ok(self)
     }
@@ -87,7 +104,7 @@ impl Simulation {
     /// Takes one step, also after the run is over.
     pub fn step(&mut self) {
         self.record_decision();
-        self.place_external(&BTreeMap::new());
+        self.place_external(&ExternalInputs::default());
         self.scratch.step(&self.scenario, &mut self.state);
     }
 
@@ -101,7 +118,11 @@ impl Simulation {
         percepts: BTreeMap<AgentId, Percept>,
         commands: BTreeMap<AgentId, Command>,
     ) -> Result<BTreeMap<AgentId, Command>, NoRobot> {
-        let external = self.external_inputs(percepts, commands)?;
+        let external = self.external_inputs(StepInputs {
+            percepts,
+            commands,
+            ..StepInputs::default()
+        })?;
         Ok(self.finish_step(external))
     }
 
@@ -114,11 +135,10 @@ impl Simulation {
     /// If there is no such robot.
     pub fn begin_step(
         &mut self,
-        percepts: BTreeMap<AgentId, Percept>,
-        commands: BTreeMap<AgentId, Command>,
+        inputs: StepInputs,
         kinds: &[u8],
     ) -> Result<ExternalInputs, NoRobot> {
-        let mut external = self.external_inputs(percepts, commands)?;
+        let mut external = self.external_inputs(inputs)?;
         self.scratch
             .request_decisions(&self.scenario, &mut self.state, kinds, &mut external);
         Ok(external)
@@ -138,7 +158,7 @@ impl Simulation {
             .scratch
             .external_commands()
             .inspect(|(robot, command)| {
-                if let Some(external) = &mut self.state.agents[*robot].external {
+                if let Some(external) = self.state.body_states[*robot].external_mut() {
                     external.command(command.motion);
                 }
             });
@@ -218,11 +238,7 @@ impl Simulation {
     /// Returns to a state that was copied from this run.
     pub fn restore(&mut self, state: State) {
         self.state = state;
-        self.has_external = self
-            .state
-            .agents
-            .iter()
-            .any(|agent| agent.external.is_some());
+        self.has_external = self.state.body_states.iter().any(BodyState::is_external);
         self.scratch.invalidate();
         self.scratch
             .events
@@ -270,45 +286,47 @@ impl Simulation {
     }
 
     /// The external inputs of a step; moves external bodies to the poses of their percepts.
-    fn external_inputs(
-        &mut self,
-        percepts: BTreeMap<AgentId, Percept>,
-        commands: BTreeMap<AgentId, Command>,
-    ) -> Result<ExternalInputs, NoRobot> {
+    fn external_inputs(&mut self, inputs: StepInputs) -> Result<ExternalInputs, NoRobot> {
         let mut external = ExternalInputs {
-            percepts: numbered(percepts, |id| self.number(id))?,
-            commands: numbered(commands, |id| self.participant(id))?,
+            percepts: numbered(inputs.percepts, |id| self.number(id))?,
+            observed: numbered(inputs.observed, |id| self.number(id))?,
+            commands: numbered(inputs.commands, |id| self.participant(id))?,
             ..ExternalInputs::default()
         };
-        for robot in external.percepts.keys() {
-            self.make_external(*robot);
+        let plain = Arc::default();
+        for robot in external.percepts.keys().chain(external.observed.keys()) {
+            if !self.state.body_states[*robot].is_external() {
+                self.make_external(*robot, &plain);
+            }
         }
         let agents = &self.state.agents;
         external.keep_later(|robot, percept| agents[robot].brain.is_later(percept));
-        self.place_external(&external.percepts);
+        self.place_external(&external);
         Ok(external)
     }
 
-    fn make_external(&mut self, robot: usize) {
+    fn make_external(&mut self, robot: usize, spec: &Arc<ExternalSpec>) {
         self.has_external = true;
-        self.state.body_states[robot].source = BodySource::External;
-        self.state.agents[robot].external.get_or_insert_default();
+        let kind = self.scenario.kind_of(self.state.ids[robot]);
+        let external = ExternalBody::new(spec.clone(), kind);
+        self.state.body_states[robot].source = BodySource::External(Box::new(external));
     }
 
     /// Moves external bodies to where they are now, by their percepts of this step and, without one, by
     /// their commands.
-    fn place_external(&mut self, percepts: &BTreeMap<usize, Percept>) {
+    fn place_external(&mut self, inputs: &ExternalInputs) {
         if !self.has_external {
             return;
         }
         let mut external = mem::take(&mut self.scratch.external);
         external.clear();
-        let agents = self.state.agents.iter().enumerate();
-        let is_external = |(robot, agent): (usize, &Agent)| agent.external.as_ref().map(|_| robot);
-        external.extend(agents.filter_map(is_external));
+        let bodies = self.state.body_states.iter().enumerate();
+        let bodies = bodies.filter(|(_, body_state)| body_state.is_external());
+        external.extend(bodies.map(|(robot, _)| robot));
         let mut farthest_m: f64 = 0.0;
         for robot in external.iter().copied() {
-            let percept = percepts.get(&robot);
+            let percept = inputs.percepts.get(&robot);
+            let percept = percept.or_else(|| inputs.observed.get(&robot));
             farthest_m = farthest_m.max(self.state.place_external(&self.scenario, robot, percept));
         }
         self.scratch.note_placed(external, farthest_m);

@@ -47,10 +47,11 @@ impl State {
         acting: &mut Acting,
         events: &EventLog,
     ) -> bool {
-        let body_state = self.body_states[robot];
-        if !is_able(&body_state) {
+        let body_state = &self.body_states[robot];
+        if !is_able(body_state) {
             acting.command(&[]);
         }
+        let stands = body_state.speed_m_s.abs() < STANDS_M_S;
         let begun = acting.work.take();
         let mut is_counted = false;
         for act in std::mem::take(&mut acting.acts) {
@@ -60,7 +61,7 @@ impl State {
             };
             if tool.duration_steps > 0 {
                 // One at a time: the first.
-                if acting.work.is_none() && body_state.speed_m_s.abs() < STANDS_M_S {
+                if acting.work.is_none() && stands {
                     acting.work = Some(continued(begun, act, &tool, self.tick));
                 }
                 let work = acting.work.filter(|work| work.act == act);

@@ -1,11 +1,10 @@
 //! Sense and decide, robot by robot: each from the same view, so that order never matters.
 
+use super::decision::{Decision, DecisionInputs};
 use super::decision_hash::{decision_hash, motion_hash};
-use super::external::ExternalInputs;
-use super::flocks::Flocks;
+use super::mixed_percept::add_virtual;
 use super::sense::{SensingScratch, sense, sense_between_steps};
 use super::view::View;
-use crate::bodies::body_state::Status;
 use crate::bodies::kind::Kind;
 use crate::radio::Radio;
 use crate::radio::channel::Outgoing;
@@ -16,20 +15,13 @@ use base::geometry::Point;
 use base::trig::sin_cos;
 use brain::{About, Command, ContractMessage, Motion, Percept, Reading, Scan};
 
-/// What all robots decide from in one step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct StepInputs<'a> {
-    pub(crate) view: &'a View<'a>,
-    pub(crate) external: Option<&'a ExternalInputs>,
-    pub(crate) flocks: &'a Flocks,
-    pub(crate) hashes_decisions: bool,
-}
-
 /// Buffers of one thread that lets robots decide, and the results. They are reused in each step, so
 /// that nothing is allocated.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WorkerScratch {
     pub(crate) percept: Percept,
+    /// What virtual sensors of an external body add to its percept.
+    virtual_percept: Percept,
     /// Scans that the percept of the last robot did not need.
     scans: Vec<Scan>,
     pub(crate) command: Command,
@@ -57,19 +49,47 @@ impl WorkerScratch {
 
     /// Lets one robot sense, and decide if its brain steps now.
     #[inline]
-    pub(crate) fn serve(&mut self, inputs: &StepInputs, robot: usize, agent: &mut Agent) {
-        let body_state = &inputs.view.body_states[robot];
-        if body_state.status != Status::Active {
-            agent.setpoint = Motion::default();
-        } else if let Some(external) = inputs.external {
-            self.serve_with_inputs(inputs, robot, agent, external);
-        } else if !body_state.is_external() {
-            self.serve_simulated(inputs, robot, agent);
+    pub(crate) fn serve(&mut self, inputs: &DecisionInputs, robot: usize, agent: &mut Agent) {
+        let view = inputs.view;
+        let decision = inputs.decision(robot);
+        let perceived = match decision {
+            Decision::Still => {
+                agent.setpoint = Motion::default();
+                return;
+            }
+            Decision::Nothing => {
+                sense_between_steps(view, robot, agent, &mut self.sensing);
+                return;
+            }
+            Decision::Brain => return self.serve_simulated(inputs, robot, agent),
+            Decision::BrainOf(percept) => {
+                self.perceive_outside(view, robot, agent, percept);
+                agent.brain.step_into(&self.percept, &mut self.command);
+                self.external_commands.push((robot, self.command.clone()));
+                Some(&self.percept)
+            }
+            Decision::Command(command) => {
+                let is_due = self.perceive(view, robot, agent);
+                if is_due {
+                    agent.brain.skip(&self.percept);
+                }
+                take(&mut self.command, command);
+                is_due.then_some(&self.percept)
+            }
+            Decision::Elsewhere(decision) => {
+                take(&mut self.command, &decision.command);
+                Some(&decision.percept)
+            }
+        };
+        if inputs.hashes_decisions {
+            let hash = decision_hash(robot, perceived, &self.command);
+            self.decisions.push(hash);
         }
+        self.obey(robot, agent);
     }
 
     #[inline]
-    fn serve_simulated(&mut self, inputs: &StepInputs, robot: usize, agent: &mut Agent) {
+    fn serve_simulated(&mut self, inputs: &DecisionInputs, robot: usize, agent: &mut Agent) {
         let view = inputs.view;
         if let Some(motion) = inputs.flocks.motion(view, robot, agent) {
             agent.setpoint = motion;
@@ -86,55 +106,31 @@ impl WorkerScratch {
         }
     }
 
-    /// The same in a step with external inputs.
-    fn serve_with_inputs(
-        &mut self,
-        inputs: &StepInputs,
-        robot: usize,
-        agent: &mut Agent,
-        external: &ExternalInputs,
-    ) {
-        let view = inputs.view;
-        let percept = if let Some(decision) = external.decisions.decided(robot) {
-            self.take(&decision.command);
-            Some(&decision.percept)
-        } else if let Some(percept) = external.percepts.get(&robot) {
-            self.percept.clone_from(percept);
-            agent
-                .inputs
-                .deliver_messages(view.tick, view.scenario.step_s, &mut self.percept);
-            self.recognise(view, robot);
-            agent.brain.step_into(&self.percept, &mut self.command);
-            self.external_commands.push((robot, self.command.clone()));
-            Some(&self.percept)
-        } else if view.body_states[robot].is_external() {
+    /// Fills the percept of an external body: what was read outside of the simulation, and what its virtual
+    /// sensors measure.
+    fn perceive_outside(&mut self, view: &View, robot: usize, agent: &mut Agent, read: &Percept) {
+        let Some(external) = view.body_states[robot].external() else {
             return;
-        } else {
-            let Some(command) = external.commands.get(&robot) else {
-                self.serve_simulated(inputs, robot, agent);
-                return;
-            };
-            let is_due = self.perceive(view, robot, agent);
-            if is_due {
-                agent.brain.skip(&self.percept);
-            }
-            self.take(command);
-            is_due.then_some(&self.percept)
         };
-        if inputs.hashes_decisions {
-            let hash = decision_hash(robot, percept, &self.command);
-            self.decisions.push(hash);
+        if external.virtual_sensors != 0 {
+            self.clear_percept(view.kind(robot));
+            sense(view, robot, agent, &mut self.sensing, &mut self.percept);
+            std::mem::swap(&mut self.percept, &mut self.virtual_percept);
         }
-        self.obey(robot, agent);
-    }
-
-    /// Takes over a decision that was made elsewhere.
-    fn take(&mut self, command: &Command) {
-        self.command.motion = command.motion;
-        self.command.heading_rad = command.heading_rad;
-        self.command.requests.clone_from(&command.requests);
-        self.command.outbox.clone_from(&command.outbox);
-        self.command.acts.clone_from(&command.acts);
+        self.percept.clone_from(read);
+        self.recognise(view, robot);
+        if external.virtual_sensors != 0 {
+            add_virtual(
+                &mut self.percept,
+                &mut self.virtual_percept,
+                external,
+                view.kind(robot),
+            );
+        }
+        let (now, step_s) = (view.tick, view.scenario.step_s);
+        agent
+            .inputs
+            .deliver_messages(now, step_s, &mut self.percept);
     }
 
     /// Notes the items of external contacts: the nearest item of the kind, if it is near.
@@ -164,6 +160,10 @@ impl WorkerScratch {
         };
         self.clear_percept(kind);
         sense(view, robot, agent, &mut self.sensing, &mut self.percept);
+        let (now, step_s) = (view.tick, view.scenario.step_s);
+        agent
+            .inputs
+            .deliver_messages(now, step_s, &mut self.percept);
         self.add_own_state(view, robot, brain_step);
         if let Some(acting) = &mut agent.inputs.acting {
             acting.deliver(&mut self.percept);
@@ -229,6 +229,15 @@ impl WorkerScratch {
             self.unsent_done.extend(unsent.filter(is_done_of_contract));
         }
     }
+}
+
+/// Takes over a decision that was made elsewhere.
+fn take(own: &mut Command, command: &Command) {
+    own.motion = command.motion;
+    own.heading_rad = command.heading_rad;
+    own.requests.clone_from(&command.requests);
+    own.outbox.clone_from(&command.outbox);
+    own.acts.clone_from(&command.acts);
 }
 
 /// Adds the messages of a participant to those that are sent, up to the maximum of its radio; returns the number of the

@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 pub struct ExternalInputs {
     /// By the number of the robot.
     pub(crate) percepts: BTreeMap<usize, Percept>,
+    /// Percepts that state where external bodies are whose brains do not step, by the number of the robot.
+    pub(crate) observed: BTreeMap<usize, Percept>,
     /// External bodies whose percept is not later than the one before: their last motion is repeated.
     pub(crate) repeated: Vec<usize>,
     /// By the number of the participant: robots first, then controllers.
@@ -47,7 +49,7 @@ mod tests {
     use super::*;
     use crate::scenario::ScenarioSpec;
     use crate::sensors::pending::MAX_PENDING;
-    use crate::simulation::Simulation;
+    use crate::simulation::{Simulation, StepInputs};
     use base::document::Document;
     use base::geometry::Point;
     use brain::{About, AgentId, Message, Provenance, Receiver};
@@ -158,8 +160,12 @@ radio = { range_m = 5 }
         let mut simulation = start();
         let still = BTreeMap::from([(HERE, Command::default())]);
         let mut are_valid_at = |x: f64| {
-            let percepts = [(OUT, at(x))].into();
-            let external = simulation.begin_step(percepts, still.clone(), &[]).unwrap();
+            let inputs = StepInputs {
+                percepts: [(OUT, at(x))].into(),
+                commands: still.clone(),
+                ..StepInputs::default()
+            };
+            let external = simulation.begin_step(inputs, &[]).unwrap();
             let are_valid = simulation.neighbours().are_valid();
             simulation.finish_step(external);
             are_valid

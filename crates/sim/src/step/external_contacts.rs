@@ -16,11 +16,11 @@ impl StepScratch {
         let mut collisions = 0;
         for robot in self.external.iter().copied() {
             let touches = self.touches(scenario, state, robot);
-            let Some(external) = &mut state.agents[robot].external else {
+            let body_state = &mut state.body_states[robot];
+            let Some(external) = body_state.external_mut() else {
                 continue;
             };
             let was_in_contact = std::mem::replace(&mut external.is_in_contact, touches);
-            let body_state = &mut state.body_states[robot];
             body_state.is_pressed |= touches;
             if touches && !was_in_contact {
                 body_state.collide(scenario.kind_of(state.ids[robot]), state.tick);
@@ -34,7 +34,7 @@ impl StepScratch {
     /// positions are known.
     fn touches(&self, scenario: &Scenario, state: &State, robot: usize) -> bool {
         let kind = scenario.kind_of(state.ids[robot]);
-        let external = state.agents[robot].external.as_deref();
+        let external = state.body_states[robot].external();
         let is_in_contact = external.is_some_and(|external| external.is_in_contact);
         let deviations = if is_in_contact {
             -DEVIATIONS
@@ -66,10 +66,7 @@ impl StepScratch {
 
 /// The standard deviation of the position of a body; 0 for one that is simulated.
 fn deviation_m(scenario: &Scenario, state: &State, robot: usize) -> f64 {
-    let Some(external) = &state.agents[robot].external else {
-        return 0.0;
-    };
     let body = scenario.kind_of(state.ids[robot]).brain.body();
-    let pose = external.pose(body);
-    pose.map_or(body.position_error_m(), |pose| pose.deviation_m)
+    let external = state.body_states[robot].external();
+    external.map_or(0.0, |external| external.uncertainty_m(body))
 }

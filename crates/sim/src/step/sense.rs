@@ -43,9 +43,6 @@ pub(crate) fn sense(
     if let Some(backlog) = &mut agent.inputs.backlog {
         deliver(view, robot, backlog, scratch, percept);
     }
-    agent
-        .inputs
-        .deliver_messages(view.tick, view.scenario.step_s, percept);
 }
 
 /// Takes the measurements of a robot between two steps of its brain; they wait in its backlog.
@@ -73,6 +70,7 @@ fn due<'a>(
     robot: usize,
     sensors_off: u32,
 ) -> impl Iterator<Item = Measurement<'a>> {
+    let sensors_off = sensors_off | view.unmeasured(robot);
     numbered(&view.kind(robot).sensors).filter_map(move |(number, ring, sensor)| {
         let measurement = sensor.schedule.due(view.tick)?;
         is_on(sensors_off, number).then(|| Measurement {

@@ -6,7 +6,8 @@ use super::agent_events::{self, AgentEvents};
 use super::clearance;
 use super::communicate;
 use super::convoy;
-use super::decide::{StepInputs, WorkerScratch};
+use super::decide::WorkerScratch;
+use super::decision::DecisionInputs;
 use super::decision_hash::{add_decisions, add_setpoints};
 use super::direct::ControllerScratch;
 use super::external::ExternalInputs;
@@ -176,7 +177,7 @@ impl StepScratch {
         let hashes_decisions = state.decisions.is_some();
         let (view, agents) = state.view(scenario, &self.neighbours);
         self.flocks.compute(&view, is_shared);
-        let inputs = StepInputs {
+        let inputs = DecisionInputs {
             view: &view,
             external: (!external.is_empty()).then_some(external),
             flocks: &self.flocks,

@@ -59,6 +59,13 @@ impl<'a> View<'a> {
         }
     }
 
+    /// A bit for each sensor of a robot that the simulation does not measure.
+    #[inline]
+    pub(crate) fn unmeasured(&self, robot: usize) -> u32 {
+        let external = self.body_states[robot].external();
+        external.map_or(0, |external| !external.virtual_sensors)
+    }
+
     /// Whether its body is simulated, and can still move.
     pub(crate) fn is_simulated(&self, robot: usize) -> bool {
         let body_state = &self.body_states[robot];

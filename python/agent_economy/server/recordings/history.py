@@ -1,8 +1,10 @@
 """Everything that is needed to replay a run."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from agent_economy.recording.replayer import InputsByTick
+from agent_economy.runs.external import ExternalBody
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario
 
@@ -18,7 +20,7 @@ class RunHistory:
         log: Changes of the scenario, in order.
         inputs: External percepts and commands by tick, as keyword arguments of `Simulation.step`.
         latest_tick: The last tick that was reached.
-        external: Names of the robots that had external bodies from the start.
+        external: The bodies that were external from the start, by robot name.
     """
 
     scenario: Scenario
@@ -27,4 +29,4 @@ class RunHistory:
     log: tuple[Change, ...]
     inputs: InputsByTick
     latest_tick: int
-    external: tuple[str, ...] = ()
+    external: Mapping[str, ExternalBody] = field(default_factory=dict)

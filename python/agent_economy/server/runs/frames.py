@@ -49,7 +49,7 @@ def setting(run: Run, generation: int) -> Setting:
         "document": _core.read_filled(simulation.scenario.source),
         "parameters": parameters(simulation.scenario),
         "robots": simulation.robots,
-        "external": simulation.declared_external,
+        "external": list(simulation.declared_external),
         "changes": simulation.changes,
         "log": None if run.is_recorded else log,
         "versions": [version_view(version) for version in run.versions.all.values()],

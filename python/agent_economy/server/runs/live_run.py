@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from agent_economy.recording.stops import Stop, event_of
+from agent_economy.runs.external import External
 from agent_economy.runs.simulation import Simulation
 from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario, validation
@@ -31,13 +32,13 @@ class LiveRun:
     simulation: Simulation
     versions: Versions
 
-    def __init__(self, scenario: Scenario, seed: int = 0, external: Iterable[str] = ()) -> None:
+    def __init__(self, scenario: Scenario, seed: int = 0, external: External = ()) -> None:
         """Begin a run without inputs.
 
         Args:
             scenario: The scenario of the run.
             seed: Its seed.
-            external: Names of the robots with external bodies.
+            external: The robots with external bodies.
 
         Raises:
             InputError: As `Simulation`.

@@ -7,7 +7,7 @@ use base::geometry::Point;
 use brain::{AgentId, Brain, Command, Percept, Reading, SensorRequest};
 use rayon::ThreadPoolBuilder;
 use sim::scenario::Scenario;
-use sim::simulation::Simulation;
+use sim::simulation::{Simulation, StepInputs};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -182,7 +182,7 @@ fn a_decision_made_elsewhere_has_the_hash_of_the_same_decision_of_the_brain() {
         simulation.hash_decisions(0);
     }
     for _ in 0..20 {
-        let begun = elsewhere.begin_step(BTreeMap::new(), BTreeMap::new(), &[0]);
+        let begun = elsewhere.begin_step(StepInputs::default(), &[0]);
         let mut begun = begun.unwrap();
         let mut commands = BTreeMap::new();
         for robot in begun.decisions() {

@@ -3,7 +3,7 @@
 use crate::common::{go, id, robots, scenario, start, step_with, with};
 use sim::judge::events::{Event, EventKind, EventReader};
 use sim::run::{Item, Status};
-use sim::simulation::Simulation;
+use sim::simulation::{Simulation, StepInputs};
 use std::collections::BTreeMap;
 
 /// Robots of two kinds that collide, break, run empty and find items.
@@ -110,7 +110,7 @@ fn of_robots_that_detect_an_item_in_the_same_step_the_first_found_it_wherever_th
     for outside in [&[][..], &[0], &[1], &[0, 1]] {
         let mut simulation = start(PAIR);
         let reader = simulation.event_reader();
-        let begun = simulation.begin_step(BTreeMap::new(), BTreeMap::new(), outside);
+        let begun = simulation.begin_step(StepInputs::default(), outside);
         simulation.finish_step(begun.unwrap());
         let (item, by) = ((0, 0), id(0, 0));
         let kind = EventKind::Detected { item, by };

@@ -3,8 +3,9 @@
 use crate::common::{Random, go, id, robots, scenario, start};
 use base::geometry::Point;
 use brain::{AgentId, Contact, Neighbour, Percept, Reading, Scan};
+use sim::bodies::external::ExternalSpec;
 use sim::run::Status;
-use sim::simulation::{NoRobot, Simulation};
+use sim::simulation::{NoRobot, Simulation, StepInputs};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -42,6 +43,11 @@ fn scans(range_m: f64) -> Vec<Scan> {
         age_s: Some(0.0),
         ranges_m: vec![range_m; 8],
     }]
+}
+
+/// External bodies of robots whose readings all come with their percepts.
+fn plain<const N: usize>(robots: [AgentId; N]) -> [(AgentId, ExternalSpec); N] {
+    robots.map(|robot| (robot, ExternalSpec::default()))
 }
 
 fn with(simulation: &mut Simulation, percept: Percept) -> BTreeMap<AgentId, brain::Command> {
@@ -212,7 +218,7 @@ fn simulated_collisions_and_energy_do_not_stop_an_external_body() {
 
 #[test]
 fn a_declared_body_stands_where_it_starts_until_its_first_percept() {
-    let declared = start(FIELD).with_external(&[OUT]).unwrap();
+    let declared = start(FIELD).with_external(plain([OUT])).unwrap();
     let mut simulation = declared.clone();
     assert_ne!(simulation.state().hash(), start(FIELD).state().hash());
     let there = robots(&simulation)[0].at;
@@ -231,7 +237,7 @@ fn a_declared_body_stands_where_it_starts_until_its_first_percept() {
 #[test]
 fn a_body_that_is_declared_external_acts_like_one_that_becomes_external() {
     let mut becomes = start(FIELD);
-    let mut declared = start(FIELD).with_external(&[OUT]).unwrap();
+    let mut declared = start(FIELD).with_external(plain([OUT])).unwrap();
     for step in 0..50 {
         let percept = at(2.0 + f64::from(step) / 10.0, 6.5);
         assert_eq!(
@@ -244,7 +250,7 @@ fn a_body_that_is_declared_external_acts_like_one_that_becomes_external() {
 
 #[test]
 fn an_unknown_robot_cannot_be_declared_external() {
-    let refused = start(FIELD).with_external(&[OUT, id(0, 3)]);
+    let refused = start(FIELD).with_external(plain([OUT, id(0, 3)]));
     assert_eq!(refused.unwrap_err(), NoRobot(id(0, 3)));
 }
 
@@ -305,7 +311,11 @@ fn a_percept_of_a_step_that_was_not_finished_can_be_given_again() {
         };
         BTreeMap::from([(OUT, percept)])
     };
-    let begun = simulation.begin_step(percepts(), BTreeMap::new(), &[]);
+    let inputs = StepInputs {
+        percepts: percepts(),
+        ..StepInputs::default()
+    };
+    let begun = simulation.begin_step(inputs, &[]);
     drop(begun.unwrap());
     let mut at_once = start(FIELD);
     let command = at_once.step_with(percepts(), BTreeMap::new()).unwrap();
@@ -318,7 +328,7 @@ fn a_percept_of_a_step_that_was_not_finished_can_be_given_again() {
 
 #[test]
 fn a_change_keeps_external_bodies() {
-    let mut simulation = start(FIELD).with_external(&[OUT]).unwrap();
+    let mut simulation = start(FIELD).with_external(plain([OUT])).unwrap();
     simulation.step();
     let before = simulation.state().clone();
     simulation

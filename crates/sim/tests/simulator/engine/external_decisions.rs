@@ -2,7 +2,7 @@
 
 use crate::common::{go, scenario, start};
 use brain::{AgentId, Brain, Percept};
-use sim::simulation::Simulation;
+use sim::simulation::{Simulation, StepInputs};
 use std::collections::BTreeMap;
 
 /// Everything that is kept for a brain's next step: late scans and detections, messages.
@@ -22,8 +22,7 @@ sensors.eye = { kind = "items", range_m = 2, latency_s = 0.5, detection_probabil
 "#;
 
 fn requests(simulation: &mut Simulation) -> Vec<(AgentId, Percept)> {
-    let none = (BTreeMap::new(), BTreeMap::new());
-    let mut requested = simulation.begin_step(none.0, none.1, &[0]).unwrap();
+    let mut requested = simulation.begin_step(StepInputs::default(), &[0]).unwrap();
     let requested = requested.decisions().iter();
     requested
         .map(|each| (each.robot, each.percept.clone()))
@@ -36,7 +35,7 @@ fn external_decisions_equal_to_the_brains_give_the_same_run() {
     let brain = scenario(LATE).brain(0).cloned().unwrap();
     let mut brains: BTreeMap<AgentId, Brain> = BTreeMap::new();
     for _ in 0..600 {
-        let begun = requested.begin_step(BTreeMap::new(), BTreeMap::new(), &[0]);
+        let begun = requested.begin_step(StepInputs::default(), &[0]);
         let mut begun = begun.unwrap();
         for robot in begun.decisions() {
             let own = brains.entry(robot.robot).or_insert_with(|| brain.clone());
@@ -77,10 +76,11 @@ fn requests_cover_robots_whose_brains_step_and_that_have_no_command() {
         })
         .collect();
     assert_eq!(counts, [4, 0, 0, 4, 0]);
-    let commanded = BTreeMap::from([(AgentId::robot(0, 1), go(0.0, 0.0))]);
-    let mut begun = simulation
-        .begin_step(BTreeMap::new(), commanded, &[0, 1])
-        .unwrap();
+    let commanded = StepInputs {
+        commands: BTreeMap::from([(AgentId::robot(0, 1), go(0.0, 0.0))]),
+        ..StepInputs::default()
+    };
+    let mut begun = simulation.begin_step(commanded, &[0, 1]).unwrap();
     let robots: Vec<AgentId> = begun.decisions().iter().map(|each| each.robot).collect();
     let ids = [(0, 0), (0, 2), (0, 3), (1, 0), (1, 1)];
     assert_eq!(robots, ids.map(|(kind, index)| AgentId::robot(kind, index)));
