@@ -73,7 +73,7 @@ impl SensorKind for RobotsSpec {
 /// A detector, converted for measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RobotDetector {
-    pub(crate) sector: Sector,
+    sector: Sector,
     detection_probability: Detection,
     noise_m: f64,
     course_noise_rad: Option<f64>,

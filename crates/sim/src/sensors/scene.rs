@@ -1,4 +1,4 @@
-//! What a sensor can ask of the world.
+//! What a sensor can query in the world.
 
 use super::rays::Near;
 use crate::world::items::Items;
@@ -33,7 +33,7 @@ pub(crate) trait Scene {
     /// Another robot or controller.
     fn other(&self, number: u32) -> Other<'_>;
 
-    /// The true heading of another; asked only if the other is detected.
+    /// The true heading of another; called only if the other is detected.
     fn heading_rad_of(&self, number: u32) -> f64;
 }
 

@@ -9,7 +9,7 @@ use base::document::Place;
 use base::error::InputError;
 use brain::{Body, Detector, Percept};
 
-/// What sensors provide: checks ask for this instead of naming kinds.
+/// What sensors provide: checks require these, and name no kinds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Provides {
     /// Distances along rays.
@@ -74,7 +74,8 @@ pub(crate) trait Instrument {
     /// Whether it detects things: entries that all count.
     const DETECTS: bool = false;
 
-    /// Whether it is one of the range rings that the brain knows: it then has a scan in percepts.
+    /// Whether it is a range ring: [`SensorKind::extend_body`] adds one to the body, and it has a
+    /// scan in percepts.
     const IS_RING: bool = false;
 
     /// Takes a measurement. Called in each step in which one is due, unless it is dropped.

@@ -1,4 +1,4 @@
-//! What the sensors of a robot can ask of the world.
+//! What the sensors of a robot can query in the world.
 
 use super::view::View;
 use crate::clock::seconds;
