@@ -40,8 +40,9 @@ pub(crate) trait SensorKind {
     /// has found none.
     fn instrument(&self, context: &SensorContext) -> Self::Instrument;
 
-    /// Maximum range; `None` if it measures only the robot itself. Called when a scenario is read:
-    /// neighbour lists, indices and the minimum size of a periodic world follow from it.
+    /// Maximum range, of the key `range_m`; `None` if it measures only the robot itself. Called
+    /// when a scenario is read: neighbour lists, indices and the minimum size of a periodic world
+    /// follow from it.
     fn range_m(&self) -> Option<f64> {
         None
     }
