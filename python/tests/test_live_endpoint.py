@@ -3,6 +3,7 @@
 import asyncio
 import itertools
 import json
+import math
 import socket
 import threading
 import time
@@ -386,6 +387,23 @@ def test_each_reading_of_a_state_names_its_port(served: Served) -> None:
     # East of north by 187.5 and 14.5 degrees of declination, anticlockwise from east.
     assert heading["world_deg"] == pytest.approx(90 - 187.5 - 14.5 + 360)
     assert state["ranges"]["port"] == "sonar"
+
+
+def test_a_position_far_from_the_world_is_shown_without_latitude_and_longitude(
+    served: Served,
+) -> None:
+    robot = served.warden.robots["bender/0"]
+    for values, shown in (
+        ((9e6, 2.0), {"x_m": 9e6, "y_m": 2.0, "latitude_deg": None, "longitude_deg": None}),
+        ((0.0, 0.0), {"latitude_deg": pytest.approx(36.595267), "x_m": 0.0}),
+    ):
+        robot.readings["gps"] = (Reading(Quantity.POSITION, values), now_s())
+        [state] = served.ask("/state", client="a", since=0)[1]["robots"]
+        assert {key: state["position"][key] for key in shown} == shown
+    robot.readings["gps"] = (Reading(Quantity.POSITION, (math.nan, math.nan)), now_s())
+    robot.readings["compass"] = (Reading(Quantity.HEADING, (math.nan,)), now_s())
+    [state] = served.ask("/state", client="a", since=0)[1]["robots"]
+    assert (state["position"], state["heading"]) == (None, None)
 
 
 def test_only_the_value_of_a_doubted_port_is_confirmed_by_hand(served: Served) -> None:
