@@ -184,7 +184,7 @@ CASES = (
     at(
         faults.JUMP,
         "compass",
-        alters("compass", lambda true: ((true[0] + 120.0) % 360.0,)),
+        alters("compass", lambda true: (math.remainder(true[0] + math.radians(120.0), math.tau),)),
         line_of("compass"),
     ),
     at(faults.JUMP, "gps", alters("gps", lambda true: (true[0] + 9.0, true[1])), line_of("gps")),

@@ -29,7 +29,7 @@ ROBOT = "rover/0"
 DRIVE = Motion(0.5, 0.3)
 STEP_S = 0.02
 LEAP_S = 0.25
-NOISE = {"compass": 0.5, "gps": 0.1, "sonar": 0.02, "battery": 0.0}
+NOISE = {"compass": math.radians(0.5), "gps": 0.1, "sonar": 0.02, "battery": 0.0}
 PERIODS_S = {"compass": 0.1, "gps": 1.0, "sonar": 0.2, "battery": 1.0}
 SIZE_M = (400.0, 400.0)
 START_M = (200.0, 200.0)
@@ -45,7 +45,7 @@ PLAN = FleetPlan(
             ports={"motors": 1, "compass": 2, "gps": 3, "sonar": 4, "battery": 5},
             settings={},
             inputs=(
-                InputPlan("compass", Quantity.HEADING, 1.0, NOISE["compass"], (0.0, 360.0)),
+                InputPlan("compass", Quantity.HEADING, 1.0, NOISE["compass"]),
                 InputPlan("gps", Quantity.POSITION, 3.0, NOISE["gps"]),
                 InputPlan("sonar", Quantity.RANGES, 0.5, NOISE["sonar"], (0.0, 10.0)),
                 InputPlan("battery", Quantity.BATTERY, 5.0, NOISE["battery"], (0.0, 1.0)),
@@ -230,7 +230,7 @@ class Story:
         noise = self.random.gauss
         match port:
             case "compass":
-                return ((90.0 - math.degrees(heading) + noise(0.0, NOISE[port])) % 360.0,)
+                return (math.remainder(heading + noise(0.0, NOISE[port]), math.tau),)
             case "gps":
                 return (x + noise(0.0, NOISE[port]), y + noise(0.0, NOISE[port]))
             case "sonar":

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from agent_economy.live import fleet
+from agent_economy.live.line_readings import LineReadings
 from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.live.loop.team import Team
 from agent_economy.runs.simulation import Simulation
@@ -19,10 +20,10 @@ def made(options: LogOptions | Path, steps: int = 60, start_s: float = 100.0) ->
     loaded = fleet.load("bender")
     simulation = Simulation(loaded.scenario, external=[ROBOT])
     team = Team(loaded.plan, simulation, loaded.waypoints_m, seed=0, start_s=start_s)
-    log = Log(simulation, options, loaded, start_s)
+    log, lines = Log(simulation, options, loaded, start_s), LineReadings(loaded.plan)
     for tick in range(steps):
         at_s = start_s + (tick + 1) * STEP_S
-        for message in messages(tick, at_s):
+        for message in messages(tick, at_s, lines):
             team.add(message)
             log.add(message)
         log.tick(tick, at_s, 0.0)
@@ -31,7 +32,7 @@ def made(options: LogOptions | Path, steps: int = 60, start_s: float = 100.0) ->
     return log.path
 
 
-def messages(tick: int, at_s: float) -> list[dict[str, Any]]:
+def messages(tick: int, at_s: float, readings: LineReadings) -> list[dict[str, Any]]:
     """Return what the warden sends before a step."""
     lines = {"compass": f"{10 + tick % 30}.0", "sonar": "9,9,9,9,9,9"}
     if tick % 10 == 0:
@@ -39,8 +40,8 @@ def messages(tick: int, at_s: float) -> list[dict[str, Any]]:
     event = {"type": "event", "t": at_s, "robot": ROBOT, "action": "move", "is_armed": True}
     faults: dict[str, Any] = {"mode": "auto", "is_confirmed": False, "reasons": {}}
     faults |= {name: [] for name in ("faults", "latched", "blockers", "warnings")}
-    read = [
-        {"type": "line", "robot": ROBOT, "port": port, "t": at_s, "line": line}
-        for port, line in lines.items()
-    ]
+    read = []
+    for port, line in lines.items():
+        message = {"type": "line", "robot": ROBOT, "port": port, "t": at_s, "line": line}
+        read += [each for each in (message, readings.of(message)) if each is not None]
     return read if tick else [event | faults, *read]

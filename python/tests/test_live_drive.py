@@ -66,16 +66,21 @@ def test_a_robot_reaches_two_waypoints_around_a_wall_and_stops(driven: Driven) -
     assert driven.pose["speed_m_s"] == 0.0
 
 
-def test_a_replay_makes_the_recorded_percepts_and_setpoints_of_the_lines(driven: Driven) -> None:
+def test_a_replay_makes_the_recorded_readings_percepts_and_setpoints(driven: Driven) -> None:
     replayed = ae.replay(driven.drive.record)
     assert replayed.mismatch_tick is None
     assert replayed.lines is not None
-    assert replayed.lines > 100
+    assert replayed.readings is not None
+    assert replayed.lines >= replayed.readings > 100
 
 
 def later_line(message: dict[str, Any]) -> dict[str, Any]:
     # One line alone would not do: of two between two steps, only the second is read.
     return message | {"line": message["line"].replace(".", ".1")}
+
+
+def farther_reading(message: dict[str, Any]) -> dict[str, Any]:
+    return message | {"values": [value + 1e-9 for value in message["values"]]}
 
 
 def faster_setpoint(message: dict[str, Any]) -> dict[str, Any]:
@@ -102,15 +107,20 @@ def test_a_replay_finds_setpoints_that_are_missing_before_the_end(
 
 
 @pytest.mark.parametrize(
-    ("topic", "change"),
+    ("topic", "change", "mismatch"),
     [
-        ("/wire/bender/0/gps", later_line),
-        ("/live/setpoints", faster_setpoint),
-        ("/input", older_percept),
+        ("/wire/bender/0/gps", later_line, "readings"),
+        ("/reading/bender/0/gps", farther_reading, "readings"),
+        ("/live/setpoints", faster_setpoint, "setpoints"),
+        ("/input", older_percept, "percepts"),
     ],
 )
 def test_a_replay_finds_what_was_changed_in_a_recording(
-    driven: Driven, topic: str, change: Callable[[dict[str, Any]], dict[str, Any]], tmp_path: Path
+    driven: Driven,
+    topic: str,
+    change: Callable[[dict[str, Any]], dict[str, Any]],
+    mismatch: str,
+    tmp_path: Path,
 ) -> None:
     records = records_of(driven.drive.record)
     channel = next(each.id for each in records if isinstance(each, Channel) and each.topic == topic)
@@ -121,4 +131,4 @@ def test_a_replay_finds_what_was_changed_in_a_recording(
             changed.append(replace(each, data=data))
         else:
             changed.append(each)
-    assert ae.replay(written(tmp_path / "changed.mcap", changed)).mismatch_tick is not None
+    assert ae.replay(written(tmp_path / "changed.mcap", changed)).mismatch == mismatch

@@ -1,5 +1,6 @@
 """Drivers of real robots: the lines that they read and write."""
 
+import json
 import math
 from typing import Any
 
@@ -9,9 +10,13 @@ from hypothesis import strategies as st
 
 from agent_economy.live.drivers import DRIVERS, LineSplitter
 from agent_economy.live.drivers.lines import MAX_LINE_BYTES
-from agent_economy.live.readings import STOP, Motion, Quantity, Reading
+from agent_economy.live.frame import frame_of
+from agent_economy.live.plan import Origin
+from agent_economy.live.readings import STOP, Motion, Quantity, Reading, reading_of
 
 BENDER = DRIVERS["bender"]
+ORIGIN = Origin(36.6, -121.9, rotation_deg=20.0, declination_deg=14.5)
+FRAME = frame_of(ORIGIN)
 DEFAULTS = {key: setting.default for key, setting in BENDER.settings.items()}
 
 
@@ -22,7 +27,14 @@ def settings(**changes: Any) -> dict[str, Any]:
 
 def read(port: str, line: bytes, **changes: Any) -> Reading | None:
     """Return the reading of a line."""
-    return BENDER.parse(port, line, settings(**changes))
+    return BENDER.parse(port, line, settings(**changes), FRAME)
+
+
+def heading_deg(line: bytes, **changes: Any) -> float:
+    """Return the magnetic bearing of a compass line, without the mounting offset."""
+    (heading_rad,) = values("compass", line, **changes)
+    assert heading_rad is not None
+    return FRAME.magnetic_bearing_deg(heading_rad)
 
 
 def values(port: str, line: bytes, **changes: Any) -> tuple[float | None, ...]:
@@ -89,7 +101,7 @@ def test_a_robot_that_sends_no_line_ends_takes_no_memory() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "heading_deg"),
+    ("line", "bearing_deg"),
     [
         (b"0", 350.0),
         (b"5", 355.0),
@@ -101,13 +113,27 @@ def test_a_robot_that_sends_no_line_ends_takes_no_memory() -> None:
         (b".5", 350.5),
     ],
 )
-def test_a_heading_is_read_without_the_mounting_offset(line: bytes, heading_deg: float) -> None:
+def test_a_heading_is_read_without_the_mounting_offset(line: bytes, bearing_deg: float) -> None:
     reading = read("compass", line)
     assert reading is not None
     assert reading.quantity is Quantity.HEADING
-    assert reading.values == pytest.approx((heading_deg,))
-    raw = values("compass", line, compass_offset_deg=0.0)
-    assert raw == pytest.approx(((heading_deg + 10) % 360,))
+    assert math.cos(math.radians(heading_deg(line) - bearing_deg)) == pytest.approx(1.0)
+    raw_deg = heading_deg(line, compass_offset_deg=0.0)
+    assert math.cos(math.radians(raw_deg - bearing_deg - 10)) == pytest.approx(1.0)
+
+
+def test_a_heading_is_in_radians_anticlockwise_from_the_x_axis_of_the_world() -> None:
+    # The y axis has the true bearing 20, magnetic north 14.5, and the compass is off by 10.
+    for turned_deg in (-170, -90, 0, 30, 90, 180):
+        line = b"%.1f" % ((90 + 20 - 14.5 + 10 - turned_deg) % 360)
+        assert values("compass", line) == pytest.approx((math.radians(turned_deg),))
+
+
+@pytest.mark.parametrize("line", [b"NaN", b"inf", b"-inf", b"1e999", b"721", b"-361", b"1e30"])
+def test_a_bearing_far_outside_the_scale_is_no_heading(line: bytes) -> None:
+    (heading_rad,) = values("compass", line)
+    assert heading_rad is not None
+    assert math.isnan(heading_rad)
 
 
 @pytest.mark.parametrize(
@@ -125,17 +151,49 @@ def test_a_heading_is_read_without_the_mounting_offset(line: bytes, heading_deg:
 def test_a_position_is_read_in_all_quadrants(
     line: bytes, latitude: float, longitude: float
 ) -> None:
-    reading = read("gps", line)
+    frame = frame_of(Origin(latitude, longitude))
+    reading = BENDER.parse("gps", line, settings(), frame)
     assert reading is not None
     assert reading.quantity is Quantity.POSITION
-    assert reading.values == pytest.approx((latitude, longitude), abs=1e-7)
+    assert reading.values == pytest.approx((0.0, 0.0), abs=0.01)
+
+
+def test_a_position_is_in_metres_of_the_world() -> None:
+    x_m, y_m = values("gps", b"36,36.6,N,121,54.0,W")  # 0.6 minutes to the north
+    assert x_m is not None
+    assert y_m is not None
+    assert math.hypot(x_m, y_m) == pytest.approx(1109.8, abs=0.5)
+    assert math.degrees(math.atan2(x_m, y_m)) == pytest.approx(-20.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"91,0,N,121,52.5,W",
+        b"90,0.1,S,121,52.5,W",
+        b"36,35.7,N,360,0.1,W",
+        b"36,35.7,N,1e9,0,E",
+        b"inf,35.7,N,121,52.5,W",
+        b"36,35.7,N,NaN,52.5,W",
+        b"36,NaN,N,121,52.5,W",
+    ],
+)
+def test_what_is_no_place_on_the_earth_has_no_position(line: bytes) -> None:
+    assert all(math.isnan(value) for value in values("gps", line) if value is not None)
+
+
+def test_a_longitude_may_be_written_up_to_a_full_turn() -> None:
+    west = values("gps", b"36,35.7,N,121,52.5,W")
+    assert values("gps", b"36,35.7,N,238,7.5,E") == pytest.approx(west, abs=1e-6)
 
 
 def test_the_hemisphere_of_a_longitude_without_a_letter_is_a_setting() -> None:
     line = b"36,35.716,N,121,52.5002"
-    assert values("gps", line)[1] == pytest.approx(-121.8750033)
-    assert values("gps", line, hemisphere="E")[1] == pytest.approx(121.8750033)
-    assert values("gps", line + b",W", hemisphere="E")[1] == pytest.approx(-121.8750033)
+    west, east = (values("gps", line + letter) for letter in (b",W", b",E"))
+    assert west != east
+    assert values("gps", line) == west
+    assert values("gps", line, hemisphere="E") == east
+    assert values("gps", line + b",W", hemisphere="E") == west
 
 
 def test_six_ranges_are_in_metres() -> None:
@@ -154,6 +212,12 @@ def test_a_short_line_of_ranges_has_none_for_the_others() -> None:
 def test_the_value_of_nothing_seen_is_infinite_and_not_a_wall(no_echo: Any, line: bytes) -> None:
     ranges = values("sonar", line + b",2,3,4,5,6", no_echo=no_echo, range_unit_m=1)
     assert ranges == (math.inf, 2, 3, 4, 5, 6)
+
+
+def test_a_range_that_is_too_large_for_a_number_is_not_nothing_seen() -> None:
+    first = values("sonar", b"1e308,2,3,4,5,6", range_unit_m=10)[0]
+    assert first is not None
+    assert math.isnan(first)
 
 
 @pytest.mark.parametrize("word", [b"Infinity", b"inf", b"NaN", b"-Infinity", b"1e999"])
@@ -219,6 +283,8 @@ def test_any_bytes_are_a_reading_of_the_port_or_none(port: str, line: bytes) -> 
         expected = next(each for each in BENDER.ports if each.name == port)
         assert reading.quantity is expected.quantity
         assert len(reading.values) == expected.values
+        text = json.dumps(reading.message("bender/0", port, 1.0), allow_nan=False)
+        assert repr(reading_of(json.loads(text))) == repr(reading)
 
 
 # Motor lines

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from agent_economy.live import fleet
+from agent_economy.live.frame import frame_of
 from agent_economy.live.locks import AddressLocks, LockedError
 from agent_economy.live.loop import last_resort
 from agent_economy.live.plan import FleetPlan
@@ -88,7 +89,7 @@ def test_an_error_in_the_warden_stops_and_closes_all_robots(
 
 
 def test_a_robot_that_moved_has_no_stop_while_its_motor_port_is_down(plan: FleetPlan) -> None:
-    robot = Robot(plan.robots[0], DriveContext(plan.origin, lambda: 1.0, lambda *_: None))
+    robot = Robot(plan.robots[0], DriveContext(frame_of(plan.origin), lambda: 1.0, lambda *_: None))
     robot.command(STOP, 1.0)
     assert robot.has_stop()
     robot.command(Motion(0.5, 0.0), 1.1)

@@ -3,6 +3,7 @@
 import asyncio
 import itertools
 import json
+import math
 import socket
 import threading
 import time
@@ -17,6 +18,7 @@ from bare_timer import repeated_if_late
 
 from agent_economy.live import fleet, rules
 from agent_economy.live.clock import now_s
+from agent_economy.live.frame import frame_of, heading_rad, place_deg, position_m
 from agent_economy.live.plan import FleetPlan
 from agent_economy.live.readings import Quantity, Reading
 from agent_economy.live.rules import Inputs, LoopInputs, Mode, Requests
@@ -24,11 +26,11 @@ from agent_economy.live.warden import authority, sentences
 from agent_economy.live.warden.control import Control, Drive
 from agent_economy.live.warden.endpoint import MAX_CONNECTIONS, Endpoint
 from agent_economy.live.warden.event_log import MAX_EVENTS, EventLog
-from agent_economy.live.warden.geometry import geographic_of, world_of
 from agent_economy.live.warden.robot import DriveContext, Robot
 from agent_economy.live.warden.warden import Warden
 
 PLAN = fleet.load("bender").plan
+FRAME = frame_of(PLAN.origin)
 ORIGIN = "http://127.0.0.1:8000"
 
 
@@ -68,7 +70,7 @@ class Served:
 def serving(plan: FleetPlan = PLAN) -> Iterator[Served]:
     """Serve a warden in a thread with an event loop of its own."""
     warden, events, orders = Warden(lambda _: None, is_headless=False), EventLog(), []
-    context = DriveContext(plan.origin, now_s, lambda *_: None)
+    context = DriveContext(frame_of(plan.origin), now_s, lambda *_: None)
     warden.robots = {each.name: Robot(each, context) for each in plan.robots}
     warden.order = lambda robot, point_m: orders.append((robot, point_m))  # type: ignore[method-assign]
     control = Control(warden, Drive(plan, "bender.toml", "bender.mcap"), events)
@@ -325,7 +327,7 @@ def test_the_errors_of_latitude_and_longitude_are_reported_together(served: Serv
 
 
 def test_a_waypoint_may_be_in_degrees_and_minutes(served: Served) -> None:
-    latitude_deg, longitude_deg = geographic_of(PLAN.origin, 20.0, 10.0)
+    latitude_deg, longitude_deg = FRAME.to_geographic(20.0, 10.0)
     angles: dict[str, Any] = {
         name: {"degrees": int(value), "minutes": value % 1 * 60, "hemisphere": letter}
         for name, value, letter in (
@@ -341,9 +343,9 @@ def test_a_waypoint_may_be_in_degrees_and_minutes(served: Served) -> None:
 
 def test_geographic_positions_are_the_inverse_of_those_in_the_world() -> None:
     for x_m, y_m in itertools.product((0.0, 37.0, 900.0), (-400.0, 0.0, 20.0)):
-        assert world_of(PLAN.origin, *geographic_of(PLAN.origin, x_m, y_m)) == pytest.approx(
-            (x_m, y_m), abs=1e-6
-        )
+        place = place_deg(FRAME, x_m, y_m)
+        assert place is not None
+        assert position_m(FRAME, *place) == pytest.approx((x_m, y_m), abs=1e-6)
 
 
 def test_a_state_has_the_events_after_a_number_and_the_last_thousand_at_most(
@@ -374,11 +376,34 @@ def test_before_anything_is_known_of_a_robot_its_state_claims_nothing(served: Se
 
 def test_each_reading_of_a_state_names_its_port(served: Served) -> None:
     robot = served.warden.robots["bender/0"]
-    robot.readings["compass"] = (Reading(Quantity.HEADING, (187.5,)), now_s())
+    robot.readings["compass"] = (
+        Reading(Quantity.HEADING, (heading_rad(FRAME, 187.5),)),
+        now_s(),
+    )
     robot.readings["sonar"] = (Reading(Quantity.RANGES, (2.0,) * 6), now_s())
     [state] = served.ask("/state", client="a", since=0)[1]["robots"]
-    assert (state["heading"]["port"], state["heading"]["magnetic_deg"]) == ("compass", 187.5)
+    heading = state["heading"]
+    assert (heading["port"], heading["magnetic_deg"]) == ("compass", pytest.approx(187.5))
+    # East of north by 187.5 and 14.5 degrees of declination, anticlockwise from east.
+    assert heading["world_deg"] == pytest.approx(90 - 187.5 - 14.5 + 360)
     assert state["ranges"]["port"] == "sonar"
+
+
+def test_a_position_far_from_the_world_is_shown_without_latitude_and_longitude(
+    served: Served,
+) -> None:
+    robot = served.warden.robots["bender/0"]
+    for values, shown in (
+        ((9e6, 2.0), {"x_m": 9e6, "y_m": 2.0, "latitude_deg": None, "longitude_deg": None}),
+        ((0.0, 0.0), {"latitude_deg": pytest.approx(36.595267), "x_m": 0.0}),
+    ):
+        robot.readings["gps"] = (Reading(Quantity.POSITION, values), now_s())
+        [state] = served.ask("/state", client="a", since=0)[1]["robots"]
+        assert {key: state["position"][key] for key in shown} == shown
+    robot.readings["gps"] = (Reading(Quantity.POSITION, (math.nan, math.nan)), now_s())
+    robot.readings["compass"] = (Reading(Quantity.HEADING, (math.nan,)), now_s())
+    [state] = served.ask("/state", client="a", since=0)[1]["robots"]
+    assert (state["position"], state["heading"]) == (None, None)
 
 
 def test_only_the_value_of_a_doubted_port_is_confirmed_by_hand(served: Served) -> None:

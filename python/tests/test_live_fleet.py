@@ -1,6 +1,7 @@
 """Fleet files: the plan of a fleet, warnings, schema, bundled fleets, and `check`."""
 
 import json
+import math
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -51,7 +52,7 @@ def test_a_fleet_has_its_scenario_and_the_plan_of_its_robots(folder: Path) -> No
 
 def test_the_inputs_of_a_robot_have_the_noise_of_the_scenario(folder: Path) -> None:
     compass, gps, sonar = load(folder, with_key("max_age_s = { gps = 2 }")).plan.robots[0].inputs
-    assert compass == InputPlan("compass", Quantity.HEADING, 1.0, 2.0, (0.0, 360.0))
+    assert compass == InputPlan("compass", Quantity.HEADING, 1.0, math.radians(2.0))
     assert gps == InputPlan("gps", Quantity.POSITION, 2.0, 0.3, None)
     # Of the sonar with the longest range: 0.02 + 1% of 8 m.
     assert (sonar.port, sonar.quantity, sonar.max_age_s) == ("sonar", Quantity.RANGES, 0.5)

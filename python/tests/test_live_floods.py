@@ -17,7 +17,11 @@ from wire_faults import lanes
 from agent_economy.live.clock import now_s
 from agent_economy.live.drivers import DRIVERS, Driver, LineSplitter
 from agent_economy.live.drivers.lines import MAX_LINE_BYTES
+from agent_economy.live.frame import frame_of
+from agent_economy.live.plan import Origin
 from agent_economy.live.warden.connection import MAX_BYTES, MAX_TURN_LINES, Connection, Share
+
+FRAME = frame_of(Origin(36.6, -121.9))
 
 LIMIT_S = 0.1
 """A robot is stopped within this time of the request."""
@@ -33,7 +37,7 @@ def seconds_per_line(driver: Driver, port: str, line: bytes) -> float:
     for _ in range(15):
         began_s = time.process_time_ns()
         for _ in range(4):
-            driver.reading(port, line, settings)
+            driver.reading(port, line, settings, FRAME)
         times.append((time.process_time_ns() - began_s) / 4e9)
     return min(times)
 
@@ -53,9 +57,9 @@ def test_a_line_that_is_too_long_is_malformed_for_every_driver(driver: Driver) -
     settings = {key: each.default for key, each in driver.settings.items()}
     for port in (each.name for each in driver.ports if each.quantity is not None):
         good = {"gps": b"36,35.7,N,121,52.5,W,", "sonar": b"1,2,3,4,5,6"}.get(port, b"12.5")
-        assert driver.parse(port, good, settings) is not None
-        assert driver.parse(port, good + b" " * MAX_LINE_BYTES, settings) is None
-        assert driver.parse(port, b"0" * 41, settings) is None
+        assert driver.parse(port, good, settings, FRAME) is not None
+        assert driver.parse(port, good + b" " * MAX_LINE_BYTES, settings, FRAME) is None
+        assert driver.parse(port, b"0" * 41, settings, FRAME) is None
 
 
 def test_of_a_flood_of_lines_only_the_newest_are_taken() -> None:

@@ -17,11 +17,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agent_economy.live import fleet
+from agent_economy.live.line_readings import LineReadings
 from agent_economy.live.loop.loop import Loop, explanation
 from agent_economy.live.loop.pacer import Pacer
-from agent_economy.live.loop.percepts import Percepts, frame_of
+from agent_economy.live.loop.percepts import Percepts
 from agent_economy.live.loop.team import Team
 from agent_economy.live.plan import FleetPlan
+from agent_economy.live.readings import reading_of
 from agent_economy.live.warden.sentences import sentence
 from agent_economy.runs.simulation import Simulation
 
@@ -36,16 +38,29 @@ def plan() -> FleetPlan:
 
 def percepts(plan: FleetPlan) -> Percepts:
     base = {"id": {"kind": 0, "index": 0}, "team_size": 1}
-    return Percepts(plan.robots[0], frame_of(plan.origin), base, seed=3, start_s=START_S)
+    return Percepts(plan.robots[0].name, base, seed=3, start_s=START_S)
+
+
+def reading(port: str, line: bytes, at_s: float = START_S) -> dict[str, Any] | None:
+    """Return the message of the reading of a line; None if the line is malformed."""
+    message = {"robot": "bender/0", "port": port, "t": at_s, "line": line.decode("latin-1")}
+    return LineReadings(PLAN).of(message)
+
+
+def add_line(robot: Percepts, port: str, line: bytes, at_s: float) -> None:
+    """Let a robot send a line."""
+    message = reading(port, line, at_s)
+    if message is not None:
+        robot.add_reading(reading_of(json.loads(json.dumps(message, allow_nan=False))), at_s)
 
 
 def test_the_time_of_a_percept_is_that_since_the_start_and_ages_agree_with_it(
     plan: FleetPlan,
 ) -> None:
     robot = percepts(plan)
-    robot.add_line("compass", b"100.0", START_S + 1.0)
-    robot.add_line("gps", b"36,35.71602,N,121,52.50018,W", START_S + 1.5)
-    robot.add_line("sonar", b"3.0,99.0,3.0,3.0,3.0,3.0", START_S + 1.75)
+    add_line(robot, "compass", b"100.0", START_S + 1.0)
+    add_line(robot, "gps", b"36,35.71602,N,121,52.50018,W", START_S + 1.5)
+    add_line(robot, "sonar", b"3.0,99.0,3.0,3.0,3.0,3.0", START_S + 1.75)
     percept: Any = robot.percept(20, START_S + 2.0, SONARS)
     assert percept["time_s"] == 2.0
     ages = {key: percept[key]["age_s"] for key in ("heading_rad", "position")}
@@ -60,7 +75,7 @@ def test_a_compass_bearing_becomes_a_heading_of_the_world(plan: FleetPlan) -> No
     robot = percepts(plan)
     # 14.5 degrees of declination and 10 of mounting error: east is a line of 85.5 degrees.
     for line, heading_deg in ((b"85.5", 0.0), (b"355.5", 90.0), (b"265.5", 180.0)):
-        robot.add_line("compass", line, START_S)
+        add_line(robot, "compass", line, START_S)
         percept: Any = robot.percept(0, START_S, SONARS)
         off_rad = percept["heading_rad"]["value"] - math.radians(heading_deg)
         assert math.cos(off_rad) == pytest.approx(1.0)
@@ -75,7 +90,7 @@ def test_what_has_never_been_measured_is_missing(plan: FleetPlan) -> None:
 def test_the_newest_line_of_a_port_counts(plan: FleetPlan) -> None:
     robot = percepts(plan)
     for turn in range(5):
-        robot.add_line("sonar", f"{turn + 1},1,1,1,1,1".encode(), START_S + turn)
+        add_line(robot, "sonar", f"{turn + 1},1,1,1,1,1".encode(), START_S + turn)
     percept: Any = robot.percept(0, START_S + 4.0, SONARS)
     assert percept["scans"][0] == {"age_s": 0.0, "ranges_m": [pytest.approx(5 * 0.3048)]}
 
@@ -90,7 +105,7 @@ def test_random_words_differ_by_robot_and_step_and_repeat(plan: FleetPlan) -> No
 def test_no_line_breaks_a_percept(lines: list[tuple[str, bytes]]) -> None:
     robot = percepts(PLAN)
     for port, line in lines:
-        robot.add_line(port, line, START_S)
+        add_line(robot, port, line, START_S)
     percept: Any = robot.percept(0, START_S, SONARS)
     values = [percept[key]["value"] for key in ("heading_rad", "battery") if key in percept]
     values += percept.get("position", {"value": []})["value"]
@@ -106,7 +121,7 @@ def test_a_verdict_that_could_not_be_sent_is_reported_again(plan: FleetPlan) -> 
     team = Team(plan, simulation, ordered, seed=0, start_s=START_S)
     event = {"type": "event", "robot": "bender/0", "is_armed": True, "action": "stop"}
     team.add(event)
-    team.add({"type": "line", "robot": "bender/0", "port": "compass", "line": "95.5", "t": START_S})
+    team.add(reading("compass", b"95.5") or {})
     simulation.step(percepts=team.percepts(0, START_S))
     sent = []
     for goal in team.new_verdicts():
@@ -128,7 +143,7 @@ def test_a_waypoint_is_pending_from_the_order_on_also_before_the_brain_steps(
     assert [each["at_m"] for each in before] == [[25, 15], [34, 20], [30, 10], [20, 5]]
     assert {each["verdict"] for each in before} == {"pending"}
     team.add({"type": "event", "robot": "bender/0", "is_armed": True, "action": "stop"})
-    team.add({"type": "line", "robot": "bender/0", "port": "compass", "line": "95.5", "t": START_S})
+    team.add(reading("compass", b"95.5") or {})
     simulation.step(percepts=team.percepts(0, START_S))
     known = [[*goal["at"]] for goal in simulation.assigned_goals("bender/0")]
     assert known == [each["at_m"] for each in before]

@@ -10,10 +10,8 @@ from test_live_endpoint import PLAN, Served, serving
 from agent_economy.live.clock import now_s
 from agent_economy.live.plan import Wall
 from agent_economy.live.readings import Quantity, Reading
-from agent_economy.live.rules import Sample
 from agent_economy.live.warden import waypoint_request
 from agent_economy.live.warden.endings import End
-from agent_economy.live.warden.geometry import geographic_of
 
 ROBOT = "bender/0"
 NOTCHED = ((1, 1), (39, 1), (39, 29), (22, 29), (22, 10), (18, 10), (18, 29), (1, 29))
@@ -268,9 +266,7 @@ def test_while_the_drive_ends_requests_are_refused(served: Served, path: str) ->
 def position(served: Served, x_m: float, y_m: float, age_s: float = 0.0) -> None:
     """Let the newest position of the robot be a place."""
     robot, at_s = served.warden.robots[ROBOT], now_s() - age_s
-    values = geographic_of(PLAN.origin, x_m, y_m)
-    robot.readings["gps"] = (Reading(Quantity.POSITION, values), at_s)
-    robot._samples["gps"] = Sample(at_s, (x_m, y_m))
+    robot.readings["gps"] = (Reading(Quantity.POSITION, (x_m, y_m)), at_s)
 
 
 def goal(served: Served, number: int, at_m: list[float], verdict: str = "pending") -> None:

@@ -11,7 +11,7 @@ from live_story import DRIVE, FENCE_M, LEAP_S, PLAN, ROBOT, START_M, Story, Valu
 
 from agent_economy.live.rules import Action, Mode, Requests, faults
 
-TURNED = {"compass": lambda true: ((true[0] + 90.0) % 360.0,)}
+TURNED = {"compass": lambda true: (math.remainder(true[0] + math.pi / 2, math.tau),)}
 
 
 def shifted(by_m: float) -> dict[str, Callable[[Values], Values]]:

@@ -57,7 +57,7 @@ def moments(draw: st.DrawFn) -> dict[str, Any]:
 def inputs_of(moment: dict[str, Any], time_s: float) -> Inputs:
     motion = Motion(moment.get("motion", 0.5), 0.0)
     setpoint = None if moment["no_setpoint"] else Setpoint(motion, 0, time_s, 0.3)
-    values = {"compass": (90.0,), "gps": START_M, "sonar": (4.0,) * 6, "battery": (0.9,)}
+    values = {"compass": (1.5,), "gps": START_M, "sonar": (4.0,) * 6, "battery": (0.9,)}
     samples = {port: Sample(time_s, each) for port, each in values.items()}
     port = moment["port"]
     age_s, value = moment.get("age_s", 0.0), moment.get("value")
@@ -97,7 +97,7 @@ def must_stand(moment: dict[str, Any], mode: Mode) -> bool:
         return bool(always)
     limit_s = {"compass": 1.0, "gps": 3.0, "sonar": 0.5}[moment["port"]]
     value = moment.get("value", 200.0 if moment["port"] == "gps" else 1.0)
-    possible = {"compass": 0.0 <= value <= 360.0, "gps": 100.0 < value < 300.0}
+    possible = {"compass": math.isfinite(value), "gps": 100.0 < value < 300.0}
     possible["sonar"] = 0.0 <= value <= 10.0 or value == math.inf
     return bool(
         always

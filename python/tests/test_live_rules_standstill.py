@@ -143,14 +143,14 @@ def test_a_robot_that_moves_again_has_no_confirmed_standstill() -> None:
     assert not story.now.is_confirmed
 
 
-def test_headings_around_north_have_no_slope() -> None:
-    compass = InputPlan("compass", Quantity.HEADING, 1.0, 0.5, (0.0, 360.0))
+def test_headings_around_a_half_turn_have_no_slope() -> None:
+    compass = InputPlan("compass", Quantity.HEADING, 1.0, math.radians(0.5))
     standstill = NO_STANDSTILL
     for number in range(300):
-        heading_deg = (359.9 + 0.2 * (number % 2)) % 360.0
-        standstill = observed(standstill, Sample(0.1 * number, (heading_deg,)), compass)
+        heading_rad = math.remainder(math.radians(179.9 + 0.2 * (number % 2)), math.tau)
+        standstill = observed(standstill, Sample(0.1 * number, (heading_rad,)), compass)
         assert not standstill.moves
-    assert standstill.unseen == pytest.approx(1.0, abs=0.4)
+    assert standstill.unseen == pytest.approx(math.radians(1.0), abs=math.radians(0.4))
 
 
 def test_positions_before_a_gap_do_not_count() -> None:

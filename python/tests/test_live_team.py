@@ -12,7 +12,8 @@ from agent_economy import Simulation
 from agent_economy.live import fleet
 from agent_economy.live.loop.shared import MAX_AGE_S, SharedWaypoints
 from agent_economy.live.loop.team import Team
-from agent_economy.live.replay import INPUT, read_drive
+from agent_economy.live.replay import read_drive
+from agent_economy.live.verification import INPUT
 
 WAYPOINTS_M = [[12.0, 7.0], [12.0, 23.0]]
 TEAM = Path(__file__).resolve().parents[2] / "scenarios" / "bender-team.toml"

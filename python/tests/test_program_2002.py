@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 from agent_economy.cli import app
 from agent_economy.live.drivers import DRIVERS
+from agent_economy.live.frame import frame_of
 from agent_economy.live.plan import Origin, RobotPlan
 from agent_economy.live.program_2002 import (
     Control,
@@ -211,7 +212,8 @@ def messages(stamped: list[tuple[float, str, str]]) -> list[dict[str, Any]]:
 def test_a_line_with_an_error_ends_the_control_thread(port: str, line: str) -> None:
     with pytest.raises(UncaughtError):
         Readings().take(port, line)
-    assert DRIVERS["bender"].parse(port, line.encode(), SETTINGS) is None
+    frame = frame_of(Origin(36.6, -121.9))
+    assert DRIVERS["bender"].parse(port, line.encode(), SETTINGS, frame) is None
 
 
 def test_a_place_is_always_north_and_west() -> None:

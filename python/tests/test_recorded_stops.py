@@ -6,6 +6,8 @@ from typing import Any
 
 from recorded_drive import ROBOT, STEP_S, made, messages
 
+from agent_economy.live import fleet
+from agent_economy.live.line_readings import LineReadings
 from agent_economy.recording.live_topics import EVENTS, TICKS
 from agent_economy.recording.stops import Stop, Stops
 from agent_economy.server.recordings.store import RecordingStore
@@ -17,7 +19,7 @@ FOREVER_S = 60.0
 
 def event(action: str, *faults: str, latched: tuple[str, ...] = ()) -> bytes:
     """A message of the warden about a robot."""
-    (sent, *_) = messages(0, 100.0)
+    (sent, *_) = messages(0, 100.0, LineReadings(fleet.load("bender").plan))
     return json.dumps({**sent, "action": action, "faults": faults, "latched": latched}).encode()
 
 

@@ -15,6 +15,8 @@ from agent_economy.live import fleet
 from agent_economy.live.drivers import DRIVERS, PortLine
 from agent_economy.live.emulator.faults import SENDING
 from agent_economy.live.emulator.world import STEP_S
+from agent_economy.live.frame import frame_of
+from agent_economy.live.line_readings import LineReadings
 from agent_economy.live.loop.team import Team
 from agent_economy.live.plan import RobotPlan
 from agent_economy.live.readings import Motion
@@ -115,14 +117,16 @@ class BrainSide:
         driver, settings = DRIVERS[self.plan.driver], self.plan.settings
         # A little less than the period: the times of two ticks differ by it but for rounding.
         period_s = MOTOR_PERIOD_S - 1e-6
-        self._motors = MotorLines(driver, settings, plan.origin, period_s)
+        self._motors = MotorLines(driver, settings, frame_of(plan.origin), period_s)
+        self._lines = LineReadings(plan)
         self.motion, self.has_stepped = Motion(), False
 
-    def add(self, kind: str, port: str, line: bytes, time_s: float) -> None:
-        """Take a line that was received, or one that was written."""
+    def add(self, port: str, line: bytes, time_s: float) -> None:
+        """Take a line that was received."""
         text = line.decode("latin-1")
-        message = {"type": kind, "robot": ROBOT, "port": port, "t": time_s, "line": text}
-        self.team.add(message)
+        reading = self._lines.of({"robot": ROBOT, "port": port, "t": time_s, "line": text})
+        if reading is not None:
+            self.team.add(reading)
 
     def arm(self, time_s: float) -> None:
         """Let the robot drive."""
@@ -136,10 +140,7 @@ class BrainSide:
         self.has_stepped = bool(percepts)
         commands = self.simulation.step(percepts=percepts)
         self.motion = limited(Motion(*self.team.motions(commands)[ROBOT]), self.plan)
-        lines = self._motors.due(self.motion, time_s, is_empty=True)
-        for line in lines:
-            self.add("written", line.port, line.data, time_s)
-        return lines
+        return self._motors.due(self.motion, time_s, is_empty=True)
 
     def belief(self) -> tuple[list[float], float] | None:
         """Return the believed position and its stated deviation."""
@@ -170,7 +171,7 @@ class VirtualDrive:
         for step in range(1, steps + 1):
             self._robot.step()
             for port, line in self._robot.lines():
-                self._brain.add("line", port, line, self._robot.time_s)
+                self._brain.add(port, line, self._robot.time_s)
             if step % every == 0:
                 self._tick(self._robot.time_s + self._phase_s)
             if self._is_complete():

@@ -197,6 +197,7 @@ impl Walk {
             bearing_rad: wrapped(way.y.atan2(way.x) - self.heading_rad),
             course_rad: None,
             age_s: 0.0,
+            uncertainty_m: 0.0,
             id: *id,
         }
     }

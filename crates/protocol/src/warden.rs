@@ -129,14 +129,14 @@ enum LinkState {
     Lost,
 }
 
-/// The newest position.
+/// The newest position. Latitude and longitude are null far from the world.
 #[derive(JsonSchema)]
 struct Position {
     port: String,
     x_m: f64,
     y_m: f64,
-    latitude_deg: f64,
-    longitude_deg: f64,
+    latitude_deg: Option<f64>,
+    longitude_deg: Option<f64>,
     uncertainty_m: f64,
     age_s: f64,
 }
@@ -168,14 +168,14 @@ struct Battery {
     is_estimated: bool,
 }
 
-/// A waypoint or a goal of a robot.
+/// A waypoint or a goal of a robot. Latitude and longitude are null far from the world.
 #[derive(JsonSchema)]
 struct Waypoint {
     goal: String,
     x_m: f64,
     y_m: f64,
-    latitude_deg: f64,
-    longitude_deg: f64,
+    latitude_deg: Option<f64>,
+    longitude_deg: Option<f64>,
     verdict: String,
     served_by: Option<String>,
     /// Why it is not served, in words; null if it is, or may still be.

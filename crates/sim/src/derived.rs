@@ -3,10 +3,11 @@
 use crate::bodies::RobotSpec;
 use crate::controllers::lane::in_truth;
 use crate::scenario::{Checked, ScenarioSpec};
+use crate::sensors::SensorSpec;
 use crate::sensors::detection::Detection;
 use crate::sensors::items::ItemsSpec;
 use crate::sensors::pass::{Pass, Path};
-use crate::sensors::{Measures, SensorSpec};
+use crate::sensors::sensor_kind::AmongKinds;
 use crate::warnings::lane_reach::{lane_reach, percent, reach_of};
 use economy::Clearance;
 
@@ -16,7 +17,7 @@ pub(crate) fn derived(checked: &Checked) -> Vec<(String, String)> {
     let mut derived = Vec::new();
     for (owner, robot) in &spec.robots {
         for (name, sensor) in &robot.sensors {
-            if let Measures::Items(items) = &sensor.measures {
+            if let Some(items) = ItemsSpec::of(&sensor.measures) {
                 let of = |kind: &String| {
                     let text = with_belief(spec, (robot, sensor), items, kind)?;
                     Some((format!("robots.{owner}.sensors.{name}, {kind}"), text))

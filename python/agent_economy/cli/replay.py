@@ -109,9 +109,17 @@ def as_sentence(result: "Replay", *, is_unfinished: bool) -> str:
     else:
         from_step = f"from step {result.mismatch_tick:,} on, first in its {result.mismatch}"
         verdict = f"differs from the recording {from_step}"
+    return f"{which}: {verdict}{origin(result)}{ending(result, is_unfinished=is_unfinished)}"
+
+
+def origin(result: "Replay") -> str:
+    """Return which build recorded a run, in words; empty if it is this one, or does not matter."""
     build = Build(result.program, result.engine)
-    builds = "" if build == own_build() else f"; recorded by {build}, replayed by {own_build()}"
-    return f"{which}: {verdict}{builds}{ending(result, is_unfinished=is_unfinished)}"
+    is_older = result.readings == 0 and not result.agrees
+    if build == own_build() and not is_older:
+        return ""
+    made = "; it has no readings of robots: they were made of its lines" if is_older else ""
+    return f"{made}; recorded by {build}, replayed by {own_build()}"
 
 
 def ending(result: "Replay", *, is_unfinished: bool) -> str:
@@ -128,7 +136,7 @@ def ending(result: "Replay", *, is_unfinished: bool) -> str:
 def as_dict(result: "Replay", *, is_unfinished: bool) -> dict[str, object]:
     """Return the result of a replay for programs."""
     first = ("seed", "run", "program", "engine")
-    last = ("mismatch_tick", "mismatch", "lines", "damaged_tick")
+    last = ("mismatch_tick", "mismatch", "lines", "readings", "damaged_tick")
     names = (*first, "is_complete", "tick", "hash", "agrees", *last)
     return {
         "scenario": result.scenario.name,

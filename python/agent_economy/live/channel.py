@@ -1,8 +1,10 @@
 """Messages between the warden and the loop: JSON, one per line, over pipes.
 
-The warden sends: `line` (a stamped line of a robot), `written` (a line that it wrote), `event` (a
-change of a robot's state, with its reasons), `order` (a waypoint that an operator ordered), `beat`
-(it is running), `end` (close the recording), `cancel` (remove it: the drive has not begun).
+The warden sends: `line` (a stamped line of a robot, for the recording), directly followed by its
+`reading` if it is valid (see `Reading.message`), `written` (a line that it wrote), `event` (a
+change of a robot's state, with its reasons), `order` (a waypoint that an operator ordered), `peer`
+(the address of a motor port), `beat` (it is running), `end` (close the recording), `cancel` (remove
+it: the drive has not begun).
 
 The loop sends: `plan` (the fleet, once), `invalid` (the errors of its input, then it ends),
 `setpoint` (the motion of one robot), `beat` (one per tick, with its lateness and the time by which

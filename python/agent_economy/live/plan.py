@@ -27,8 +27,9 @@ class InputPlan:
         port: The port that its lines come from.
         quantity: What it measures.
         max_age_s: Age at which it is stale.
-        noise: Its standard deviation, in the unit of its quantity; of positions in metres.
-        bounds: The possible values, in the unit of its quantity. Positions have none.
+        noise: Its standard deviation, in the unit of its quantity.
+        bounds: The possible values, in the unit of its quantity. Positions and headings have none:
+            each finite value is possible.
     """
 
     port: str

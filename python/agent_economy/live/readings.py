@@ -1,7 +1,10 @@
 """What a driver reads from the lines of a robot, and what it may be commanded."""
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 
 class Quantity(StrEnum):
@@ -10,25 +13,56 @@ class Quantity(StrEnum):
     RANGES = "ranges"
     """Metres, one value per sonar; infinite where nothing is seen, None where no value came."""
     HEADING = "heading"
-    """Degrees clockwise from magnetic north, without the mounting offset."""
+    """Radians anticlockwise from the x axis of the world."""
     POSITION = "position"
-    """Latitude and longitude in degrees, north and east positive."""
+    """x and y in metres of the world."""
     BATTERY = "battery"
     """The remaining share of the charge, 0 to 1."""
 
 
+COUNTS = {Quantity.HEADING: 1, Quantity.POSITION: 2, Quantity.BATTERY: 1}
+"""The number of values; that of ranges depends on the robot."""
+
+NOT_FINITE: Mapping[str, float] = {"inf": math.inf, "-inf": -math.inf, "nan": math.nan}
+"""The names, in messages and recordings, of numbers that JSON does not have."""
+
+
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """The values of one valid line.
+    """The values of one valid line, in SI units and in the frame of the world.
 
     Attributes:
         quantity: What they measure.
-        values: The values, in the unit of the quantity. They may be impossible (NaN, infinite, out
-            of range): rules judge that.
+        values: The values, in the unit of the quantity. They may be impossible (NaN, out of
+            range): rules judge that.
     """
 
     quantity: Quantity
     values: tuple[float | None, ...]
+
+    def message(self, robot: str, port: str, at_s: float) -> dict[str, Any]:
+        """Return it as a message for the loop and the recording: plain values for JSON."""
+        values = [_plain(value) for value in self.values]
+        return {
+            "type": "reading",
+            "robot": robot,
+            "port": port,
+            "t": at_s,
+            "quantity": self.quantity.value,
+            "values": values,
+        }
+
+
+def reading_of(message: Mapping[str, Any]) -> Reading:
+    """Return the reading that `Reading.message` described."""
+    values = tuple(
+        NOT_FINITE[value] if isinstance(value, str) else value for value in message["values"]
+    )
+    return Reading(Quantity(message["quantity"]), values)
+
+
+def _plain(value: float | None) -> float | str | None:
+    return value if value is None or math.isfinite(value) else repr(value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Verifies the recording of a drive: lines to percepts, percepts to commands, bit for bit."""
+"""Reads and replays the recording of a drive: `verification` compares it, bit for bit."""
 
 import json
 from collections.abc import Mapping
@@ -14,16 +14,23 @@ from agent_economy import recording
 from agent_economy._core import InputError
 from agent_economy.live.loop.team import Team
 from agent_economy.live.plan import plan_of
+from agent_economy.live.verification import INPUT, Mismatch, Verification
 from agent_economy.recording import Replay
 from agent_economy.recording.fields import Entries, hash_text
-from agent_economy.recording.file import strict
-from agent_economy.recording.live_topics import EVENTS, LIVE, ORDERS, SETPOINTS, TICKS, WIRE
+from agent_economy.recording.live_topics import (
+    EVENTS,
+    LIVE,
+    ORDERS,
+    READINGS,
+    SETPOINTS,
+    TICKS,
+    WIRE,
+)
 from agent_economy.recording.reading import file_errors, named, read_records
 from agent_economy.regular_file import open_regular
 from agent_economy.runs.simulation import Simulation
 
-INPUT = "/input"
-"""The topic of the percepts that the run took."""
+TOPICS = (EVENTS, ORDERS, TICKS, SETPOINTS, INPUT)
 
 
 @dataclass
@@ -32,7 +39,7 @@ class Drive:
 
     Attributes:
         values: Its metadata; None if the recording is not of a drive.
-        messages: The lines and events, the ticks, the percepts and the setpoints.
+        messages: The lines, readings and events, the ticks, the percepts and the setpoints.
         is_damaged: Whether the file is damaged behind them.
     """
 
@@ -56,7 +63,7 @@ class Drive:
                 self._topics[record.id] = record.topic
             case Message():
                 topic = self._topics.get(record.channel_id, "")
-                if topic.startswith(WIRE) or topic in (EVENTS, ORDERS, TICKS, SETPOINTS, INPUT):
+                if topic.startswith((WIRE, READINGS)) or topic in TOPICS:
                     self._add_message(topic, json.loads(record.data))
 
     def _add_message(self, topic: str, message: dict[str, Any]) -> None:
@@ -71,6 +78,11 @@ class Drive:
     def lines(self) -> int:
         """The number of lines that robots sent."""
         return sum(message.get("type") == "line" for _, message in self.messages)
+
+    @property
+    def readings(self) -> int:
+        """The number of recorded readings."""
+        return sum(topic.startswith(READINGS) for topic, _ in self.messages)
 
     def lines_of(self, robot: str) -> list[dict[str, Any]]:
         """Return the lines of a robot, read and written, in order."""
@@ -87,12 +99,12 @@ class Drive:
         return 1 + max(ticks, default=-1)
 
     def replayed(self, run: Replay) -> Replay:
-        """Return the replay of its run, with what its lines give up to its last whole step.
+        """Return the replay of its run, with what its messages give up to its last whole step.
 
         Raises:
             InputError: If its metadata or messages are damaged.
         """
-        simulation, tick = self._verified(run)
+        simulation, found = self._verified(run)
         is_damaged = self.is_damaged or run.damaged_tick is not None
         done = simulation.tick
         result = replace(
@@ -102,15 +114,16 @@ class Drive:
             hash=hash_text(simulation.hash),
             outcome=simulation.outcome(),
             lines=self.lines,
+            readings=self.readings,
             damaged_tick=done if is_damaged else None,
         )
         before = run.mismatch_tick
-        if tick is None or (before is not None and before < tick):
+        if found is None or (before is not None and before < found.tick):
             return result
-        return replace(result, mismatch_tick=tick, mismatch="percepts or setpoints")
+        return replace(result, mismatch_tick=found.tick, mismatch=found.what)
 
-    def _verified(self, replayed: Replay) -> tuple[Simulation, int | None]:
-        """Return its run, and the first tick whose percepts or setpoints its lines do not give.
+    def _verified(self, replayed: Replay) -> tuple[Simulation, Mismatch | None]:
+        """Return its run, and the first step that its messages do not reproduce.
 
         Raises:
             InputError: If its metadata are damaged.
@@ -129,39 +142,22 @@ class Drive:
                 seed=replayed.seed,
                 start_s=float(run.text("start_s")),
             )
-            return simulation, self._compare(team, simulation)
+            verification = Verification(plan, team, simulation, self.messages)
+            return simulation, verification.run(self.steps)
         except (KeyError, TypeError, ValueError) as error:
             if isinstance(error, InputError):
                 raise
             message = f"is damaged: the metadata or a message of its drive: {error!r}"
             raise InputError(message) from None
 
-    def _compare(self, team: Team, simulation: Simulation) -> int | None:
-        given: dict[int, Any] = {m["tick"]: m["percepts"] for t, m in self.messages if t == INPUT}
-        motions = {m["tick"]: m["motions"] for t, m in self.messages if t == SETPOINTS}
-        steps, mismatch_tick = self.steps, None
-        for topic, message in self.messages:
-            if topic == TICKS:
-                tick = int(message["tick"])
-                if tick >= steps:  # the file is truncated
-                    break
-                percepts = team.percepts(tick, message["t"])
-                decided = team.motions(simulation.step(percepts=percepts))
-                both = (strict(percepts), strict(decided))
-                differ = both != (given.get(tick, {}), motions.get(tick))
-                if differ and mismatch_tick is None:
-                    mismatch_tick = tick
-            elif topic not in (INPUT, SETPOINTS):
-                team.add(message)
-        return mismatch_tick
-
 
 def replay(path: str | Path, *, verify: bool = True) -> Replay:
     """Replay a recorded run or drive from its file alone. Ctrl-C stops it between two steps.
 
-    Of a drive, the percepts are made again of the recorded lines of the robots, and have to be
-    the recorded ones, as have the setpoints: of every step, also if only every n-th state is
-    recorded.
+    Of a drive, the readings are made again of the recorded lines of the robots, and the percepts
+    of the recorded readings; they have to be the recorded ones, as have the setpoints: of every
+    step, also if only every n-th state is recorded. Recordings of earlier versions have no
+    readings: theirs are made of the lines.
 
     Args:
         path: A recording. A truncated file is compared up to its end, a damaged one up to the

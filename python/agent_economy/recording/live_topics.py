@@ -1,5 +1,8 @@
 """The topics that a drive adds to the recording of its run."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from agent_economy.recording.schemas import INTEGER, NUMBER, STRING, of_object
 
 LIVE = "agent_economy.live"
@@ -8,11 +11,15 @@ LIVE = "agent_economy.live"
 WIRE = "/wire/"
 """Prefix of the topics of lines: followed by the robot and the port."""
 
+READINGS = "/reading/"
+"""Prefix of the topics of readings: followed by the robot and the port."""
+
 EVENTS, TICKS, SETPOINTS = "/live/events", "/live/ticks", "/live/setpoints"
 ORDERS = "/live/orders"
 
 _TIME = NUMBER | {"description": "Time since the machine was started."}
 _ROBOT = STRING | {"description": "Name of the robot."}
+_PORT = STRING | {"description": "Name of the port."}
 _FAULTS = {"type": "array", "items": STRING}
 
 _LINE = of_object(
@@ -21,9 +28,31 @@ _LINE = of_object(
     {
         "type": {"enum": ["line", "written"]},
         "robot": _ROBOT,
-        "port": STRING | {"description": "Name of the port."},
+        "port": _PORT,
         "t": _TIME,
         "line": STRING | {"description": "Its bytes, as Latin-1. A written line has its end."},
+    },
+)
+
+_READING = of_object(
+    "agent_economy.Reading",
+    "What a line measured: in SI units, in the frame of the world. It follows its line in /wire.",
+    {
+        "type": {"const": "reading"},
+        "robot": _ROBOT,
+        "port": _PORT,
+        "t": _TIME,
+        "quantity": {
+            "enum": ["ranges", "heading", "position", "battery"],
+            "description": "ranges: m, one per sonar. heading: rad, anticlockwise from the x axis "
+            "of the world. position: x and y in m. battery: remaining share of the charge.",
+        },
+        "values": {
+            "type": "array",
+            "items": {"type": ["number", "null", "string"], "pattern": "^(-?inf|nan)$"},
+            "description": 'Numbers; null where no value came, "inf" where a sonar sees nothing, '
+            '"nan" for an impossible value.',
+        },
     },
 )
 
@@ -62,7 +91,7 @@ _SCHEMAS = {
     ),
     TICKS: of_object(
         "agent_economy.LiveTick",
-        "The start of a step of the brains. The lines before it are what they know.",
+        "The start of a step of the brains. The readings before it are what they know.",
         {
             "tick": INTEGER | {"description": "Number of steps taken."},
             "t": _TIME,
@@ -86,4 +115,18 @@ _SCHEMAS = {
 
 def live_schema(topic: str) -> str:
     """Return the JSON Schema of a topic of a drive."""
-    return _LINE if topic.startswith(WIRE) else _SCHEMAS[topic]
+    if topic.startswith(WIRE):
+        return _LINE
+    return _READING if topic.startswith(READINGS) else _SCHEMAS[topic]
+
+
+def topic_of(message: Mapping[str, Any]) -> str:
+    """Return the topic of a message of the warden."""
+    match message["type"]:
+        case "line" | "written":
+            return f"{WIRE}{message['robot']}/{message['port']}"
+        case "reading":
+            return f"{READINGS}{message['robot']}/{message['port']}"
+        case "order":
+            return ORDERS
+    return EVENTS

@@ -42,12 +42,15 @@ class Replay:
         mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
             it reproduces all.
         mismatch: What differs there: "state", "decisions" (the percepts and commands until then) or
-            "decisions and state"; of a drive also "percepts or setpoints", if the recorded lines do
-            not give them. None if nothing differs.
+            "decisions and state"; of a drive also "readings", if the recorded lines do not give
+            them, "percepts", if the readings do not, "setpoints" or "percepts and setpoints". None
+            if nothing differs.
         outcome: The outcome of the replay.
         external: The bodies that were external from the start, by robot name.
-        lines: Number of lines of robots from which the percepts were made again; None if the
+        lines: Number of lines of robots from which the readings were made again; None if the
             recording is not of a drive.
+        readings: Number of recorded readings, from which the percepts were made again; 0 if an
+            earlier version recorded lines only, None if the recording is not of a drive.
         damaged_tick: Tick from which on the file is damaged; None if it is not. Nothing after it
             is compared.
     """
@@ -65,6 +68,7 @@ class Replay:
     outcome: Outcome
     external: Mapping[str, ExternalBody] = field(default_factory=dict)
     lines: int | None = None
+    readings: int | None = None
     damaged_tick: int | None = None
 
     @property

@@ -105,13 +105,16 @@ Operator: TypeAlias = Literal["you", "other"]
 
 
 class Position(TypedDict):
-    """The newest position."""
+    """The newest position.
+
+    Latitude and longitude are null far from the world.
+    """
 
     port: str
     x_m: float
     y_m: float
-    latitude_deg: float
-    longitude_deg: float
+    latitude_deg: float | None
+    longitude_deg: float | None
     uncertainty_m: float
     age_s: float
 
@@ -183,6 +186,8 @@ class WrittenLine(TypedDict):
 class Waypoint(TypedDict):
     """A waypoint or a goal of a robot.
 
+    Latitude and longitude are null far from the world.
+
     Attributes:
         reason: Why it is not served, in words; null if it is, or may still be.
     """
@@ -190,8 +195,8 @@ class Waypoint(TypedDict):
     goal: str
     x_m: float
     y_m: float
-    latitude_deg: float
-    longitude_deg: float
+    latitude_deg: float | None
+    longitude_deg: float | None
     verdict: str
     served_by: str | None
     reason: str | None

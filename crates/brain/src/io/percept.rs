@@ -150,7 +150,7 @@ pub struct Contact {
 }
 
 /// A detected robot.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema, Hashed)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Neighbour {
     /// Distance from centre to centre at the time of measurement.
@@ -163,8 +163,40 @@ pub struct Neighbour {
     pub course_rad: Option<f64>,
     /// Time since the measurement.
     pub age_s: f64,
+    /// How far its centre may be from there, beyond the errors of the sensor, as that of a real robot
+    /// among simulated ones.
+    #[serde(default, skip_serializing_if = "is_exact")]
+    #[schemars(range(min = 0.0))]
+    pub uncertainty_m: f64,
     /// Its id.
     pub id: AgentId,
+}
+
+impl Hashed for Neighbour {
+    /// An uncertainty is added only if there is one.
+    fn add_to(&self, hash: &mut Hash) {
+        let Self {
+            range_m,
+            bearing_rad,
+            course_rad,
+            age_s,
+            uncertainty_m,
+            id,
+        } = self;
+        range_m.add_to(hash);
+        bearing_rad.add_to(hash);
+        course_rad.add_to(hash);
+        age_s.add_to(hash);
+        id.add_to(hash);
+        if !is_exact(uncertainty_m) {
+            uncertainty_m.add_to(hash);
+        }
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_exact(uncertainty_m: &f64) -> bool {
+    *uncertainty_m == 0.0
 }
 
 /// A received message.

@@ -214,6 +214,7 @@ fn others(
             bearing_rad,
             course_rad,
             age_s,
+            uncertainty_m: 0.0,
             id,
         },
     );

@@ -250,6 +250,7 @@ fn a_new_robot_that_a_controller_sees_is_queried() {
         bearing_rad: 0.0,
         course_rad: None,
         age_s: 0.0,
+        uncertainty_m: 0.0,
         id: ROBOT,
     };
     let percept = Percept {

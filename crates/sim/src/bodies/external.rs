@@ -54,14 +54,19 @@ pub(crate) struct ExternalBody {
     pub(crate) is_in_contact: bool,
     /// Its pose now, if known.
     pub(crate) pose: Option<Pose>,
+    /// Age of its newest position; `None` before the first one.
+    pub(crate) age_s: Option<f64>,
 }
 
 impl Hashed for ExternalBody {
-    /// The pose follows from the others.
+    /// The pose follows from the others. Ages matter only for a body that can be silent.
     fn add_to(&self, hash: &mut Hash) {
         self.tracker.add_to(hash);
         self.since_s.add_to(hash);
         self.is_in_contact.add_to(hash);
+        if self.spec.max_age_s.is_some() {
+            self.age_s.add_to(hash);
+        }
     }
 }
 
@@ -76,6 +81,7 @@ impl ExternalBody {
             since_s: 0.0,
             is_in_contact: false,
             pose: None,
+            age_s: None,
         };
         body.number_sensors(kind);
         body
@@ -94,6 +100,8 @@ impl ExternalBody {
 
     /// Takes a percept, or lets time pass without one.
     pub(crate) fn observe(&mut self, percept: Option<&Percept>, elapsed_s: f64, body: &Body) {
+        let read_s = percept.and_then(|percept| Some(percept.position?.age_s));
+        self.age_s = read_s.or(self.age_s.map(|age_s| age_s + elapsed_s));
         match percept {
             Some(percept) => {
                 self.tracker.observe(percept, body);
@@ -108,6 +116,12 @@ impl ExternalBody {
     /// Takes the motion that is commanded from the last percept on.
     pub(crate) fn command(&mut self, motion: Motion) {
         self.tracker.command(motion);
+    }
+
+    /// Age of its newest position if that is too old: then it may have moved at any speed since.
+    pub(crate) fn silent_s(&self) -> Option<f64> {
+        let max_age_s = self.spec.max_age_s?;
+        self.age_s.filter(|age_s| *age_s > max_age_s)
     }
 
     /// The standard deviation of its position, along each axis.

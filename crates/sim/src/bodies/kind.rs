@@ -8,14 +8,15 @@ use super::{Layer, RobotSpec};
 use crate::goals::kind::capability;
 use crate::radio::Radio;
 use crate::schedule::Schedule;
-use crate::sensors::position::Drift;
-use crate::sensors::{Measure, Measures, Sensor, SensorSpec};
+use crate::sensors::robots::RobotDetector;
+use crate::sensors::sensor_kind::{AmongKinds, Provides, SensorContext};
+use crate::sensors::{Sensor, SensorSpec};
 use crate::world::items::MARK_TOLERANCE_M;
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
 use brain::behaviours::flock::{self, Sums};
-use brain::{ActKind, Body, Brain, Detector, Motion, Other, RandomWords, RangeRing};
+use brain::{ActKind, Body, Brain, Detector, Motion, Other, RandomWords};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -117,15 +118,13 @@ impl Kind {
         let KindContext {
             item_kinds, step_s, ..
         } = *context;
-        let sensors: Vec<Sensor> = spec
-            .sensors
-            .iter()
-            .map(|(sensor, spec)| Sensor::new((name, sensor), spec, item_kinds, step_s))
-            .collect();
+        let sensors = mounted(name, spec, context);
+        let sensors = sensors.map(|(spec, context)| Sensor::new(spec, &context, step_s));
+        let sensors: Vec<Sensor> = sensors.collect();
         let tools = spec.tools.ready(step_s);
         let schedule = Schedule::new(spec.brain.rate_hz, step_s);
         let drive = Drive::new(&spec.drive, spec.radius_m, step_s);
-        let body = Body {
+        let mut body = Body {
             radius_m: spec.radius_m,
             max_speed_m_s: drive.max_speed_m_s,
             max_reverse_speed_m_s: drive.max_reverse_speed_m_s,
@@ -133,27 +132,13 @@ impl Kind {
             max_turn_rate_rad_s: drive.max_turn_rate_rad_s,
             period_s: schedule.period_s(step_s),
             sensors: sensors.iter().map(|sensor| sensor.name.clone()).collect(),
-            rings: sensors
-                .iter()
-                .filter_map(|sensor| ring(sensor, step_s))
-                .collect(),
+            rings: Vec::new(),
             detectors: detectors(name, spec, context),
-            position_noise_m: noise(&sensors, |measure| match measure {
-                Measure::Position { noise_m, .. } => Some(*noise_m),
-                _ => None,
-            }),
-            position_drift_m: noise(&sensors, |measure| Some(drift(measure)?.deviation_m)),
-            position_drift_s: noise(&sensors, |measure| {
-                Some(drift(measure)?.independent_after_s)
-            }),
-            heading_noise_rad: noise(&sensors, |measure| match measure {
-                Measure::Heading { noise_rad } => Some(*noise_rad),
-                _ => None,
-            }),
-            neighbour_noise_m: noise(&sensors, |measure| match measure {
-                Measure::Robots(detector) => Some(detector.noise_m),
-                _ => None,
-            }),
+            position_noise_m: 0.0,
+            position_drift_m: 0.0,
+            position_drift_s: 0.0,
+            heading_noise_rad: 0.0,
+            neighbour_noise_m: 0.0,
             item_kinds: item_kinds.to_vec(),
             hazards_m: hazards_m(spec.layer, context),
             others: others(spec.layer, context),
@@ -161,6 +146,9 @@ impl Kind {
             tools: tools.iter().map(|tool| tool.known).collect(),
             field: Some(context.field),
         };
+        for (sensor, context) in mounted(name, spec, context) {
+            sensor.measures.extend_body(&context, &mut body);
+        }
         let mut kind = Self {
             all_on_w: 0.0,
             name: name.to_owned(),
@@ -181,7 +169,7 @@ impl Kind {
                 .map(|battery| Battery::new(battery, (spec.mass_kg, spec.payload_kg))),
             tools,
             charges: spec.tools.neutralise.as_ref().map(|tool| tool.charges),
-            rays_m: rays_m(&sensors),
+            rays_m: reach_m(&sensors, Provides::Distances),
             sensors,
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
             schedule,
@@ -199,9 +187,7 @@ impl Kind {
         let [sensor] = self.sensors.as_slice() else {
             return None;
         };
-        let Measure::Robots(detector) = &sensor.measure else {
-            return None;
-        };
+        let detector = RobotDetector::of(&sensor.measure)?;
         let is_plain = self.drive.errors.is_none()
             && self.schedule.is_every_step()
             && self.radio.is_none()
@@ -210,7 +196,7 @@ impl Kind {
             && detector.is_exact();
         is_plain.then(|| Flocking {
             rule: rule.clone(),
-            reach_m: detector.sector.range_m,
+            reach_m: sensor.reach_m(Provides::Robots),
             measures_headings: detector.measures_headings(),
         })
     }
@@ -249,7 +235,7 @@ impl Kind {
     /// The numbers of its range sensors among its sensors, in the order of the scans of percepts.
     pub(crate) fn ring_sensors(&self) -> impl Iterator<Item = usize> {
         let sensors = self.sensors.iter().enumerate();
-        let rings = sensors.filter(|(_, sensor)| matches!(sensor.measure, Measure::Range(_)));
+        let rings = sensors.filter(|(_, sensor)| sensor.facts.is_ring);
         rings.map(|(number, _)| number)
     }
 
@@ -261,13 +247,9 @@ impl Kind {
 
     /// Maximum distance at which it detects robots or communicates with them.
     pub(crate) fn robots_reach_m(&self) -> f64 {
-        let sensors = self.sensors.iter();
-        let detectors = sensors.filter_map(|sensor| match &sensor.measure {
-            Measure::Robots(detector) => Some(detector.sector.range_m),
-            _ => None,
-        });
-        let radio = self.radio.map(|radio| radio.range_m);
-        detectors.chain(radio).fold(0.0, f64::max)
+        let detected_m = reach_m(&self.sensors, Provides::Robots);
+        self.radio
+            .map_or(detected_m, |radio| radio.range_m.max(detected_m))
     }
 
     /// Maximum distance between the place that its robots name and an item that they act on.
@@ -282,41 +264,14 @@ impl Kind {
 
     /// Maximum distance at which it detects items.
     pub(crate) fn items_reach_m(&self) -> f64 {
-        let detectors = self
-            .sensors
-            .iter()
-            .filter_map(|sensor| match &sensor.measure {
-                Measure::Items(detector) => Some(detector.sector.range_m),
-                _ => None,
-            });
-        detectors.fold(0.0, f64::max)
+        reach_m(&self.sensors, Provides::Items)
     }
 }
 
-fn ring(sensor: &Sensor, step_s: f64) -> Option<RangeRing> {
-    let Measure::Range(ring) = &sensor.measure else {
-        return None;
-    };
-    Some(RangeRing {
-        bearings_rad: ring.bearings_rad.clone(),
-        range_m: ring.range_m,
-        period_s: sensor.schedule.period_s(step_s),
-        #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
-        latency_s: sensor.latency_steps as f64 * step_s,
-    })
-}
-
-/// The largest error of its sensors of one kind; 0 without any.
-fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
-    let noises = sensors.iter().filter_map(|sensor| of(&sensor.measure));
-    noises.fold(0.0, f64::max)
-}
-
-fn drift(measure: &Measure) -> Option<Drift> {
-    match measure {
-        Measure::Position { drift, .. } => *drift,
-        _ => None,
-    }
+/// Maximum range at which sensors provide something; 0 without any that does.
+fn reach_m(sensors: &[Sensor], what: Provides) -> f64 {
+    let ranges_m = sensors.iter().map(|sensor| sensor.reach_m(what));
+    ranges_m.fold(0.0, f64::max)
 }
 
 /// The dangers of items for robots in a layer: in the air, there are none.
@@ -350,23 +305,26 @@ fn capabilities(spec: &RobotSpec, all: &[String]) -> Vec<u8> {
     numbers
 }
 
+/// The item detectors of a robot kind, as all brains know them.
 fn detectors(owner: &str, spec: &RobotSpec, context: &KindContext) -> Vec<Detector> {
-    let detector = |(number, (name, sensor)): (u16, (&String, &SensorSpec))| match &sensor.measures
-    {
-        Measures::Items(items) => {
-            let period_s = Schedule::new(sensor.rate_hz, context.step_s).period_s(context.step_s);
-            let model = items.model_key(owner, name);
-            Some(items.detector((number, model), context.item_kinds, period_s))
-        }
-        _ => None,
-    };
-    (0..).zip(&spec.sensors).filter_map(detector).collect()
+    let sensors = mounted(owner, spec, context);
+    let detectors = sensors.filter_map(|(sensor, context)| sensor.measures.detector(&context));
+    detectors.collect()
 }
 
-fn rays_m(sensors: &[Sensor]) -> f64 {
-    let rings = sensors.iter().filter_map(|sensor| match &sensor.measure {
-        Measure::Range(ring) => Some(ring.range_m),
-        _ => None,
-    });
-    rings.fold(0.0, f64::max)
+/// The sensors of a robot kind, in their order, each with what it depends on.
+fn mounted<'a>(
+    owner: &'a str,
+    spec: &'a RobotSpec,
+    context: &KindContext<'a>,
+) -> impl Iterator<Item = (&'a SensorSpec, SensorContext<'a>)> {
+    let KindContext {
+        item_kinds, step_s, ..
+    } = *context;
+    (0..)
+        .zip(&spec.sensors)
+        .map(move |(number, (name, sensor))| {
+            let context = sensor.context(number, (owner, name), item_kinds, step_s);
+            (sensor, context)
+        })
 }

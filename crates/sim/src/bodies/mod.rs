@@ -9,6 +9,7 @@ pub mod external;
 pub(crate) mod kind;
 pub mod models;
 pub(crate) mod path;
+pub(crate) mod region;
 pub(crate) mod source;
 pub mod tools;
 

@@ -101,8 +101,10 @@ impl ControllerKind {
         let carrier = carrier.and_then(|kind| robots.position(|known| known == kind));
         let carrier = carrier.and_then(|number| u8::try_from(number).ok());
         let placed = || ControllerBase::Placed(spec.start.clone().unwrap_or_default());
-        let sensors = spec.sensors.iter();
-        let sensors = sensors.map(|(sensor, spec)| Sensor::new((name, sensor), spec, &[], step_s));
+        let sensors = (0..).zip(&spec.sensors).map(|(number, (sensor, spec))| {
+            let context = spec.context(number, (name, sensor), &[], step_s);
+            Sensor::new(spec, &context, step_s)
+        });
         Self {
             sensors: sensors.collect(),
             name: name.clone(),

@@ -5,10 +5,11 @@ use crate::bodies::RobotSpec;
 use crate::goals::kind::capability;
 use crate::scenario::ScenarioSpec;
 use crate::scenario::areas::number;
+use crate::sensors::SensorSpec;
 use crate::sensors::detection::Detection;
 use crate::sensors::items::ItemsSpec;
 use crate::sensors::pass::{Pass, Path};
-use crate::sensors::{Measures, SensorSpec};
+use crate::sensors::sensor_kind::AmongKinds;
 use base::geometry::{Point, Rectangle};
 use brain::{Lane, MARK_KINDS};
 use economy::{Charge, Clearance, RobotModel, Skill};
@@ -124,7 +125,7 @@ pub(crate) fn in_truth(clearance: &Clearance, scenario: &ScenarioSpec) -> Option
     let sensors = sensors.flat_map(|robot| robot.sensors.values_mut());
     let mut is_believed = false;
     for sensor in sensors {
-        if let Measures::Items(items) = &mut sensor.measures {
+        if let Some(items) = ItemsSpec::of_mut(&mut sensor.measures) {
             is_believed |= items.believed.take().is_some();
         }
     }
@@ -196,10 +197,7 @@ pub(crate) fn detectors(
     robot: &RobotSpec,
 ) -> impl Iterator<Item = (&String, &ItemsSpec, &SensorSpec)> {
     let sensors = robot.sensors.iter();
-    sensors.filter_map(|(name, sensor)| match &sensor.measures {
-        Measures::Items(items) => Some((name, items, sensor)),
-        _ => None,
-    })
+    sensors.filter_map(|(name, sensor)| Some((name, ItemsSpec::of(&sensor.measures)?, sensor)))
 }
 
 /// How often a pass at the robot's speed misses an item in its swath that the sensor can detect, in nats; of the kind

@@ -2,6 +2,7 @@
 
 use super::state::State;
 use crate::bodies::path::Orientation;
+use crate::bodies::region::{Region, uncertainty_m};
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use brain::Percept;
@@ -43,5 +44,21 @@ impl State {
             *centre = scenario.home(at);
         }
         before.to(scenario.image(before, *centre)).length()
+    }
+
+    /// Notes where external bodies may be.
+    pub(crate) fn note_regions(&mut self, scenario: &Scenario, robots: &[usize]) {
+        let of = |robot: &usize| {
+            let external = self.body_states[*robot].external()?;
+            let kind = scenario.kind_of(self.ids[*robot]);
+            let at = self.discs[*robot].centre;
+            Some(Region::new(*robot, external, kind, at))
+        };
+        self.regions = robots.iter().filter_map(of).collect();
+    }
+
+    /// How far the centre of a robot may be from its position; 0 if its body is simulated.
+    pub(crate) fn uncertainty_m(&self, robot: usize) -> f64 {
+        uncertainty_m(&self.regions, robot)
     }
 }

@@ -7,6 +7,7 @@ use super::placing::{
 };
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::path::Orientation;
+use crate::bodies::region::Region;
 use crate::goals::placed::Goals;
 use crate::judge::Outcome;
 use crate::judge::moment::Moment;
@@ -35,6 +36,8 @@ pub struct State {
     pub(crate) discs: Vec<Disc>,
     pub(crate) orientations: Vec<Orientation>,
     pub(crate) body_states: Vec<BodyState>,
+    /// Where external bodies may be; it follows from their states.
+    pub(crate) regions: Vec<Region>,
     pub(crate) noises: Vec<Noise>,
     pub(crate) agents: Vec<Agent>,
     /// Controllers in the order of their kinds and indices.
@@ -65,6 +68,7 @@ impl State {
             discs: Vec::new(),
             orientations: Vec::new(),
             body_states: Vec::new(),
+            regions: Vec::new(),
             noises: Vec::new(),
             agents: Vec::new(),
             controllers: Vec::new(),

@@ -4,7 +4,8 @@ use super::checked::Checked;
 use super::spec::ScenarioSpec;
 use crate::bodies::{Layer, RobotSpec};
 use crate::goals::GoalSpec;
-use crate::sensors::Measures;
+use crate::sensors::items::ItemsSpec;
+use crate::sensors::sensor_kind::AmongKinds;
 use crate::world::obstacles::Solid;
 use base::geometry::Rectangle;
 use base::placement::Placement;
@@ -24,7 +25,7 @@ pub(crate) fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>>
         let mut range_m = None;
         let mut through_m = 0.0_f64;
         for sensor in robot.sensors.values() {
-            let Measures::Items(items) = &sensor.measures else {
+            let Some(items) = ItemsSpec::of(&sensor.measures) else {
                 continue;
             };
             let believed = items.as_believed(spec.items.keys());

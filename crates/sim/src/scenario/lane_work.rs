@@ -4,7 +4,8 @@ use super::spec::ScenarioSpec;
 use crate::bodies::{Layer, RobotSpec};
 use crate::controllers::clearance::{ClearanceSpec, SkillSpec};
 use crate::controllers::lane::detectors;
-use crate::sensors::Measures;
+use crate::sensors::position::PositionSpec;
+use crate::sensors::sensor_kind::AmongKinds;
 use brain::behaviours::BehaviourSpec;
 use brain::min_work_range_m;
 
@@ -104,12 +105,7 @@ fn has(robot: &RobotSpec, skill: Option<&SkillSpec>) -> bool {
 }
 
 fn position_noise_m(robot: &RobotSpec) -> f64 {
-    let noises = robot
-        .sensors
-        .values()
-        .filter_map(|sensor| match &sensor.measures {
-            Measures::Position(position) => Some(position.noise_m),
-            _ => None,
-        });
+    let sensors = robot.sensors.values();
+    let noises = sensors.filter_map(|sensor| Some(PositionSpec::of(&sensor.measures)?.noise_m));
     noises.fold(0.0, f64::max)
 }

@@ -333,6 +333,11 @@ impl Scenario {
         self.torus.map_or(place, |torus| torus.image(from, place))
     }
 
+    /// Whether a place is in the world; a periodic world has no border.
+    pub(crate) fn has_place(&self, place: Point) -> bool {
+        self.torus.is_some() || self.world.contains(place)
+    }
+
     /// No robot touches, detects or receives another whose nearest image is farther away.
     pub(crate) fn interaction_range_m(&self) -> f64 {
         let rays_m = greatest(&self.kinds, |kind| kind.rays_m) + self.max_radius_m();

@@ -1,7 +1,7 @@
 //! Readings that have not reached the brain of a robot yet.
 
+use super::Sensor;
 use super::pending::PendingQueue;
-use super::{Measure, Sensor};
 use brain::{Contact, Neighbour, Observation, Percept};
 
 /// Readings that have not reached the brain yet.
@@ -89,8 +89,7 @@ pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
 
 /// One slot per measurement that can be in transit, and one that has arrived.
 fn empty_slots(sensor: &Sensor) -> Vec<StoredMeasurement> {
-    let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
-    if sensor.is_immediate() || !is_value {
+    if sensor.is_immediate() || sensor.facts.detects {
         return Vec::new();
     }
     let in_transit = sensor.schedule.max_events_in(sensor.latency_steps);

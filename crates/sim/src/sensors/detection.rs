@@ -1,5 +1,7 @@
 //! Probability of detection per measurement, by distance.
 
+use base::document::Place;
+use base::error::InputError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +52,23 @@ impl Detection {
                 .map(|at| [at, self.probability(at)])
                 .collect(),
         }
+    }
+}
+
+impl Detection {
+    /// The error of a table that is not one, at its place in a document.
+    pub(super) fn error(&self, at: &Place) -> Option<InputError> {
+        let Self::Table(rows) = self else {
+            return None;
+        };
+        let ascends = rows.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        let is_fine = |[distance, probability]: &[f64; 2]| {
+            *distance >= 0.0 && (0.0..=1.0).contains(probability)
+        };
+        let allowed = "at least one pair of a distance of at least 0 and a probability from 0 to 1, each \
+                       distance above the one before";
+        let is_right = !rows.is_empty() && ascends && rows.iter().all(is_fine);
+        (!is_right).then(|| at.error(allowed))
     }
 }
 

@@ -1,8 +1,13 @@
 //! Position sensor: a satellite receiver.
 
+use super::buffers::Buffers;
+use super::detection_sink::DetectionSink;
+use super::scene::Scene;
 use super::sensor_frame::{NoisePurpose, SensorFrame};
+use super::sensor_kind::{Amounts, Instrument, Provides, SensorContext, SensorKind, Vicinity};
 use base::geometry::Point;
 use base::noise::normal_pair;
+use brain::{Body, Percept, Reading};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,17 +32,81 @@ fn a_minute() -> f64 {
     60.0
 }
 
+impl SensorKind for PositionSpec {
+    type Instrument = PositionSensor;
+    const PROVIDES: &'static [Provides] = &[Provides::Position];
+    const EXAMPLE: &'static str = "gps = { kind = \"position\" }";
+
+    fn instrument(&self, _context: &SensorContext) -> PositionSensor {
+        PositionSensor {
+            noise_m: self.noise_m,
+            drift: Drift::new(self),
+        }
+    }
+
+    fn extend_body(&self, _context: &SensorContext, body: &mut Body) {
+        body.position_noise_m = body.position_noise_m.max(self.noise_m);
+        if let Some(drift) = Drift::new(self) {
+            body.position_drift_m = body.position_drift_m.max(drift.deviation_m);
+            body.position_drift_s = body.position_drift_s.max(drift.independent_after_s);
+        }
+    }
+
+    fn amounts(&self, _period_s: f64, _around: &impl Vicinity) -> Amounts {
+        Amounts {
+            values: 2.0,
+            ..Amounts::default()
+        }
+    }
+}
+
+/// A position sensor, converted for measurements.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PositionSensor {
+    noise_m: f64,
+    drift: Option<Drift>,
+}
+
+impl Instrument for PositionSensor {
+    #[inline]
+    fn measure(
+        &self,
+        frame: &SensorFrame,
+        scene: &impl Scene,
+        buffers: &mut Buffers,
+        _sink: &mut impl DetectionSink,
+    ) {
+        let values = &mut buffers.values;
+        let [x, y] = frame.deviations().map(|deviation| deviation * self.noise_m);
+        values.clear();
+        values.extend([frame.at.x + x, frame.at.y + y]);
+        if let Some(drift) = self.drift {
+            let error = drift.at(frame, scene.time_s());
+            values[0] += error.x;
+            values[1] += error.y;
+        }
+    }
+
+    #[inline]
+    fn write(&self, percept: &mut Percept, _ring: usize, age_s: f64, values: &mut Vec<f64>) {
+        if let [x, y] = values[..] {
+            let value = Point { x, y };
+            percept.position = Some(Reading { value, age_s });
+        }
+    }
+}
+
 /// The slow error of a position sensor, a function of the time: independent normal deviates at even times, half of
 /// `drift_s` apart, and in between the mean of two, weighted by nearness and scaled to the same variance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Drift {
-    pub(crate) deviation_m: f64,
-    pub(crate) independent_after_s: f64,
+struct Drift {
+    deviation_m: f64,
+    independent_after_s: f64,
 }
 
 impl Drift {
     /// `None` without a slow error.
-    pub(crate) fn new(spec: &PositionSpec) -> Option<Self> {
+    fn new(spec: &PositionSpec) -> Option<Self> {
         (spec.drift_m > 0.0).then_some(Self {
             deviation_m: spec.drift_m,
             independent_after_s: spec.drift_s,
@@ -45,7 +114,7 @@ impl Drift {
     }
 
     /// The error at a time.
-    pub(crate) fn at(&self, frame: &SensorFrame, time_s: f64) -> Point {
+    fn at(&self, frame: &SensorFrame, time_s: f64) -> Point {
         let place = 2.0 * time_s / self.independent_after_s;
         let (knot, later) = (place.floor(), place.fract());
         let earlier = 1.0 - later;

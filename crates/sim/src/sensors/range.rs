@@ -5,10 +5,17 @@
     reason = "it is compiled for the vectors of its callers"
 )]
 
-use super::rays::{GROUP, Near, Rays};
+use super::buffers::{Buffers, RingBuffers};
+use super::detection_sink::DetectionSink;
+use super::outline::{BlockedBy, Outline};
+use super::rays::{GROUP, Rays};
+use super::scene::Scene;
+use super::sector::whole_circle;
 use super::sensor_frame::{NoisePurpose, SensorFrame};
+use super::sensor_kind::{Amounts, Instrument, Provides, SensorContext, SensorKind, Vicinity};
 use base::noise::{BATCH, normal_pairs, share_of};
 use base::trig::wrapped;
+use brain::{Body, Percept, RangeRing};
 use pulp::{Arch, Simd, WithSimd};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,50 +59,108 @@ pub struct RangeSpec {
     pub spurious_return_probability: f64,
 }
 
-pub(super) fn whole_circle() -> f64 {
-    360.0
+impl SensorKind for RangeSpec {
+    type Instrument = Ring;
+    const PROVIDES: &'static [Provides] = &[Provides::Distances];
+    const EXAMPLE: &'static str = "sonar = { kind = \"range\", rays = 8, range_m = 4 }";
+
+    fn instrument(&self, _context: &SensorContext) -> Ring {
+        Ring::new(self)
+    }
+
+    fn range_m(&self) -> Option<f64> {
+        Some(self.range_m)
+    }
+
+    fn extend_body(&self, context: &SensorContext, body: &mut Body) {
+        body.rings.push(RangeRing {
+            bearings_rad: bearings(self),
+            range_m: self.range_m,
+            period_s: context.period_s,
+            latency_s: context.latency_s,
+        });
+    }
+
+    fn amounts(&self, _period_s: f64, _around: &impl Vicinity) -> Amounts {
+        Amounts {
+            values: f64::from(self.rays),
+            ..Amounts::default()
+        }
+    }
 }
 
 /// A ring, converted for measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Ring {
     rays: Rays,
-    pub(crate) bearings_rad: Vec<f64>,
-    pub(crate) width_rad: f64,
-    pub(crate) facing_rad: f64,
-    pub(crate) range_m: f64,
+    /// Number of its rays: those of [`Rays`] come in whole groups.
+    count: usize,
+    width_rad: f64,
+    facing_rad: f64,
+    range_m: f64,
     noise_m: f64,
     relative_noise: f64,
     miss_probability: f64,
     spurious_return_probability: f64,
 }
 
+impl Instrument for Ring {
+    const IS_RING: bool = true;
+
+    #[inline]
+    fn measure(
+        &self,
+        frame: &SensorFrame,
+        scene: &impl Scene,
+        buffers: &mut Buffers,
+        _sink: &mut impl DetectionSink,
+    ) {
+        buffers.gather(scene);
+        self.distances(frame, &mut buffers.rays, &mut buffers.values);
+    }
+
+    #[inline]
+    fn write(&self, percept: &mut Percept, ring: usize, age_s: f64, values: &mut Vec<f64>) {
+        let scan = &mut percept.scans[ring];
+        scan.age_s = Some(age_s);
+        std::mem::swap(&mut scan.ranges_m, values);
+    }
+
+    fn outline(&self) -> Option<Outline> {
+        Some(Outline {
+            range_m: self.range_m,
+            width_rad: self.width_rad,
+            facing_rad: self.facing_rad,
+            blocked_by: BlockedBy::Bodies,
+        })
+    }
+}
+
 impl Ring {
     pub(crate) fn new(spec: &RangeSpec) -> Self {
-        let bearings_rad = bearings(spec);
         Self {
-            rays: Rays::new(&bearings_rad),
-            bearings_rad,
             width_rad: spec.fov_deg.to_radians(),
             facing_rad: spec.facing_deg.to_radians(),
-            range_m: spec.range_m,
             noise_m: spec.noise_m,
             relative_noise: spec.relative_noise,
             miss_probability: spec.miss_probability,
             spurious_return_probability: spec.spurious_return_probability,
+            ..Self::exact(spec.range_m, &bearings(spec))
         }
     }
 
-    /// The same without errors, and with a ray along each of the other bearings.
-    pub(crate) fn exact(&self, bearings_rad: Vec<f64>) -> Self {
+    /// A ring without errors, with a ray along each of the bearings.
+    pub(crate) fn exact(range_m: f64, bearings_rad: &[f64]) -> Self {
         Self {
-            rays: Rays::new(&bearings_rad),
-            bearings_rad,
+            rays: Rays::new(bearings_rad),
+            count: bearings_rad.len(),
+            width_rad: TAU,
+            facing_rad: 0.0,
+            range_m,
             noise_m: 0.0,
             relative_noise: 0.0,
             miss_probability: 0.0,
             spurious_return_probability: 0.0,
-            ..*self
         }
     }
 
@@ -103,7 +168,7 @@ impl Ring {
     ///
     /// One pass in the widest vectors of the machine.
     #[inline]
-    pub(crate) fn measure(
+    pub(crate) fn distances(
         &self,
         frame: &SensorFrame,
         buffers: &mut RingBuffers,
@@ -129,16 +194,8 @@ impl Ring {
             buffers,
             to: to_groups,
         });
-        to.truncate(self.bearings_rad.len());
+        to.truncate(self.count);
     }
-}
-
-/// Buffers for measurements of rings, kept so that nothing is allocated.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct RingBuffers {
-    pub(crate) near: Near,
-    /// Normal deviates of the rays.
-    deviations: Vec<[f64; GROUP]>,
 }
 
 /// The widest instruction set of this machine.

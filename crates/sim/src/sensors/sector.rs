@@ -1,6 +1,5 @@
 //! Field of view.
 
-use super::range::whole_circle;
 use base::geometry::Point;
 use base::trig::sin_cos;
 use schemars::JsonSchema;
@@ -20,6 +19,15 @@ pub struct SectorSpec {
     #[serde(default)]
     #[schemars(range(min = -180.0, max = 180.0))]
     pub facing_deg: f64,
+}
+
+pub(super) fn whole_circle() -> f64 {
+    360.0
+}
+
+/// Whether obstacles block the view by default.
+pub(super) fn yes() -> bool {
+    true
 }
 
 /// Everything within some distance and angle of a direction.

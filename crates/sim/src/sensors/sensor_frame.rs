@@ -42,6 +42,8 @@ pub(crate) enum NoisePurpose {
     Act = 14,
     /// Whether an item destroys a robot; not a sensor's.
     Hazard = 15,
+    /// The error of the place from which virtual sensors measure; not a sensor's, and beyond all of these.
+    Place = 512,
 }
 
 /// Purposes of one sensor are numbered from here.
@@ -77,6 +79,13 @@ impl SensorFrame<'_> {
     pub(crate) fn words(&self, used: NoisePurpose, index: u32) -> [u32; 4] {
         self.noise
             .words(used.of_sensor(self.sensor), self.measurement, index)
+    }
+
+    /// Two standard normal deviates for the error of a measurement.
+    #[inline]
+    pub(super) fn deviations(&self) -> [f64; 2] {
+        let [a, b, ..] = self.words(NoisePurpose::Error, 0);
+        normal_pair([a, b])
     }
 
     /// The random words for a time that does not depend on measurements.
@@ -126,6 +135,12 @@ impl SensorFrame<'_> {
     pub(crate) fn sees(&self, place: Point) -> bool {
         self.is_clear || self.geometry.is_open(self.at, place)
     }
+}
+
+/// The distance and the bearing of what lies at a vector relative to the robot's front.
+#[inline]
+pub(super) fn polar(way: Point) -> (f64, f64) {
+    (way.length(), libm::atan2(way.y, way.x))
 }
 
 /// A place with a normal error along each axis, from the last three words of a draw.

@@ -2,6 +2,7 @@
 
 use crate::bodies::external::{ExternalSpec, ReadingSource};
 use crate::scenario::Scenario;
+use crate::sensors::Sensor;
 use base::document::path_of;
 use base::error::InputError;
 use base::geometry::Point;
@@ -26,15 +27,12 @@ impl Scenario {
                     let error = InputError::unknown_key(at, name, shown(*source), names);
                     errors.push(error);
                 }
-                Some(sensor) if *source != ReadingSource::Real && !sensor.can_be_virtual() => {
-                    let allowed = "\"real\": virtual sensors measure from the position and heading that real ones state";
-                    errors.push(InputError::new(
-                        at,
-                        Some(shown(*source)),
-                        allowed.to_owned(),
-                    ));
+                Some(sensor) => {
+                    let error = |allowed: &str| {
+                        InputError::new(at.clone(), Some(shown(*source)), allowed.to_owned())
+                    };
+                    errors.extend(allowed(sensor, *source).map(error));
                 }
-                Some(_) => {}
             }
         }
         let is_finite = |corner: &Point| corner.x.is_finite() && corner.y.is_finite();
@@ -50,6 +48,20 @@ impl Scenario {
             ));
         }
         errors
+    }
+}
+
+/// What is allowed, if this source is not.
+fn allowed(sensor: &Sensor, source: ReadingSource) -> Option<&'static str> {
+    match source {
+        ReadingSource::Real => None,
+        _ if !sensor.can_be_virtual() => Some(
+            "\"real\": virtual sensors measure from the position and heading that real ones state",
+        ),
+        ReadingSource::Both if !sensor.can_be_both() => {
+            Some("\"real\" or \"virtual\": its readings cannot be merged")
+        }
+        _ => None,
     }
 }
 

@@ -2,10 +2,13 @@
 
 use super::{NoRobot, Simulation};
 use crate::run::agent::is_on;
-use crate::sensors::Measure;
-use crate::sensors::items::ItemDetector;
-use crate::sensors::range::{Ring, RingBuffers, spread};
-use crate::step::measurement::gather;
+use crate::sensors::Sensor;
+use crate::sensors::buffers::RingBuffers;
+use crate::sensors::outline::BlockedBy;
+use crate::sensors::range::{Ring, spread};
+use crate::sensors::scene::Scene;
+use crate::sensors::sensor_kind::Provides;
+use crate::step::robot_scene::RobotScene;
 use crate::step::view::View;
 use base::geometry::Point;
 use base::trig::sin_cos;
@@ -62,57 +65,62 @@ impl Simulation {
         }
         let sensors = view.kind(robot).sensors.iter().enumerate();
         let on = sensors.filter(|(number, _)| is_on(agents[robot].sensors_off, *number));
-        let footprints = on.filter_map(|(number, sensor)| match &sensor.measure {
-            Measure::Items(detector) => Some(view.of_detector(robot, number, detector)),
-            Measure::Range(ring) if of == Sensors::All => Some(view.of_ring(robot, number, ring)),
-            _ => None,
+        let footprints = on.filter_map(|(number, sensor)| {
+            let is_shown = of == Sensors::All || sensor.facts.provides(Provides::Items);
+            is_shown.then(|| view.footprint(robot, number, sensor))?
         });
         Ok(footprints.collect())
     }
 }
 
 impl View<'_> {
-    fn of_detector(&self, robot: usize, sensor: usize, detector: &ItemDetector) -> Footprint {
-        let sector = &detector.sector;
+    /// The footprint of a sensor; `None` if it covers no area.
+    fn footprint(&self, robot: usize, number: usize, sensor: &Sensor) -> Option<Footprint> {
+        let outline = sensor.measure.outline()?;
         let mut footprint = Footprint {
-            sensor,
-            finds_items: true,
-            range_m: sector.range_m,
-            width_rad: sector.width_rad,
-            facing_rad: sector.facing_rad,
-            ranges_m: vec![sector.range_m; bearings(sector.width_rad) as usize],
+            sensor: number,
+            finds_items: sensor.facts.provides(Provides::Items),
+            range_m: outline.range_m,
+            width_rad: outline.width_rad,
+            facing_rad: outline.facing_rad,
+            ranges_m: vec![outline.range_m; bearings(outline.width_rad) as usize],
         };
-        if detector.needs_line_of_sight {
-            let frame = self.sensor_frame(robot, sensor, self.tick);
-            let around = frame.geometry.around(frame.at, sector.range_m);
-            let bearings_rad = footprint.bearings_rad();
-            for (range_m, bearing_rad) in footprint.ranges_m.iter_mut().zip(bearings_rad) {
-                let (y, x) = sin_cos(bearing_rad);
-                let end = frame.world_of(Point { x, y }.times(sector.range_m));
-                *range_m *= around.open_share(end);
-            }
+        match outline.blocked_by {
+            BlockedBy::Nothing => {}
+            BlockedBy::Geometry => self.end_at_geometry(robot, &mut footprint),
+            BlockedBy::Bodies => self.end_at_bodies(robot, &mut footprint),
         }
-        footprint
+        Some(footprint)
     }
 
-    fn of_ring(&self, robot: usize, sensor: usize, ring: &Ring) -> Footprint {
-        let mut footprint = Footprint {
-            sensor,
-            finds_items: false,
-            range_m: ring.range_m,
-            width_rad: ring.width_rad,
-            facing_rad: ring.facing_rad,
-            ranges_m: vec![0.0; bearings(ring.width_rad) as usize],
-        };
+    fn end_at_geometry(&self, robot: usize, footprint: &mut Footprint) {
+        let full_m = footprint.range_m;
+        let frame = self.sensor_frame(robot, footprint.sensor, self.tick);
+        let around = frame.geometry.around(frame.at, full_m);
+        let bearings_rad = footprint.bearings_rad();
+        for (range_m, bearing_rad) in footprint.ranges_m.iter_mut().zip(bearings_rad) {
+            let (y, x) = sin_cos(bearing_rad);
+            let end = frame.world_of(Point { x, y }.times(full_m));
+            *range_m *= around.open_share(end);
+        }
+    }
+
+    fn end_at_bodies(&self, robot: usize, footprint: &mut Footprint) {
+        let full_m = footprint.range_m;
         let mut buffers = RingBuffers::default();
-        gather(self, robot, &mut buffers.near);
-        let frame = self.sensor_frame(robot, sensor, self.tick);
-        let exact = ring.exact(footprint.bearings_rad());
-        exact.measure(&frame, &mut buffers, &mut footprint.ranges_m);
+        let at = self.discs[robot].centre;
+        RobotScene {
+            view: self,
+            robot,
+            at,
+        }
+        .gather(&mut buffers.near);
+        let frame = self.sensor_frame(robot, footprint.sensor, self.tick);
+        let ring = Ring::exact(full_m, &footprint.bearings_rad());
+        ring.distances(&frame, &mut buffers, &mut footprint.ranges_m);
         let ranges_m = footprint.ranges_m.iter_mut();
         // A ray that meets nothing has no return.
-        ranges_m.for_each(|range_m| *range_m = range_m.min(ring.range_m));
-        footprint
+        ranges_m.for_each(|range_m| *range_m = range_m.min(full_m));
     }
 }
 

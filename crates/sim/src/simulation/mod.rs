@@ -24,6 +24,7 @@ use crate::run::state::State;
 use crate::scenario::Scenario;
 use crate::step::direct::ControllerScratch;
 use crate::step::external::ExternalInputs;
+use crate::step::mixed_percept::Perceived;
 use crate::step::neighbours::Neighbours;
 use crate::step::pending_decisions::PendingDecision;
 use crate::step::tick::StepScratch;
@@ -172,6 +173,14 @@ impl Simulation {
     #[must_use]
     pub fn decided(&self) -> &[PendingDecision] {
         self.scratch.decided()
+    }
+
+    /// What a robot with an external body perceived in the last step; `None` if its brain did not step.
+    ///
+    /// # Errors
+    /// If there is no such robot.
+    pub fn perceived(&self, id: AgentId) -> Result<Option<&Perceived>, NoRobot> {
+        Ok(self.scratch.perceived(self.number(id)?))
     }
 
     /// What a robot or controller will perceive in the next step; `None` if its brain does not step in it, if
@@ -329,6 +338,7 @@ impl Simulation {
             let percept = percept.or_else(|| inputs.observed.get(&robot));
             farthest_m = farthest_m.max(self.state.place_external(&self.scenario, robot, percept));
         }
+        self.state.note_regions(&self.scenario, &external);
         self.scratch.note_placed(external, farthest_m);
     }
 

@@ -2,7 +2,7 @@
 
 use super::decision::{Decision, DecisionInputs};
 use super::decision_hash::{decision_hash, motion_hash};
-use super::mixed_percept::add_virtual;
+use super::mixed_percept::{Perceived, add_virtual};
 use super::sense::{SensingScratch, sense, sense_between_steps};
 use super::view::View;
 use crate::bodies::kind::Kind;
@@ -33,6 +33,8 @@ pub(crate) struct WorkerScratch {
     pub(crate) unsent_done: Vec<Outgoing>,
     /// Commands of brains for external bodies, by the number of the robot.
     pub(crate) external_commands: Vec<(usize, Command)>,
+    /// What external bodies perceived.
+    pub(crate) perceived: Vec<Perceived>,
     /// The hash of each decision, in the order of the robots, if decisions are hashed.
     pub(crate) decisions: Vec<u64>,
 }
@@ -44,6 +46,7 @@ impl WorkerScratch {
         self.unsent = 0;
         self.unsent_done.clear();
         self.external_commands.clear();
+        self.perceived.clear();
         self.decisions.clear();
     }
 
@@ -117,6 +120,15 @@ impl WorkerScratch {
             sense(view, robot, agent, &mut self.sensing, &mut self.percept);
             std::mem::swap(&mut self.percept, &mut self.virtual_percept);
         }
+        self.perceived.push(Perceived {
+            robot,
+            real: read.clone(),
+            measured: if external.virtual_sensors == 0 {
+                Percept::default()
+            } else {
+                self.virtual_percept.clone()
+            },
+        });
         self.percept.clone_from(read);
         self.recognise(view, robot);
         if external.virtual_sensors != 0 {
@@ -177,6 +189,9 @@ impl WorkerScratch {
         let percept = &mut self.percept;
         percept.position = None;
         percept.heading_rad = None;
+        percept.motion = None;
+        percept.battery = None;
+        percept.touch = None;
         percept.observations.clear();
         percept.contacts.clear();
         percept.neighbours.clear();

@@ -2,6 +2,7 @@
 
 use crate::judge::detections::Detections;
 use crate::sensors::backlog::Backlog;
+use crate::sensors::detection_sink::DetectionSink;
 use crate::sensors::pending::{Pending, PendingQueue};
 use brain::{Contact, Neighbour, Observation, Percept};
 
@@ -22,9 +23,9 @@ pub(super) enum Destination<'a> {
     },
 }
 
-impl Destination<'_> {
+impl DetectionSink for Destination<'_> {
     #[inline]
-    pub(super) fn add_observation(&mut self, observation: Observation) {
+    fn add_observation(&mut self, observation: Observation) {
         match self {
             Self::Percept { percept, .. } => percept.observations.push(observation),
             Self::Backlog {
@@ -37,9 +38,8 @@ impl Destination<'_> {
         }
     }
 
-    /// Adds a contact with an item, or with none for a false alarm.
     #[inline]
-    pub(super) fn add_contact(&mut self, contact: Contact, item: Option<u32>) {
+    fn add_contact(&mut self, contact: Contact, item: Option<u32>) {
         match self {
             Self::Percept {
                 percept,
@@ -60,7 +60,7 @@ impl Destination<'_> {
     }
 
     #[inline]
-    pub(super) fn add_neighbour(&mut self, neighbour: Neighbour) {
+    fn add_neighbour(&mut self, neighbour: Neighbour) {
         match self {
             Self::Percept { percept, .. } => percept.neighbours.push(neighbour),
             Self::Backlog {

@@ -4,8 +4,7 @@ use super::decide::{WorkerScratch, send};
 use super::decision_hash::decision_hash;
 use super::external::ExternalInputs;
 use super::pending_decisions::PendingDecision;
-use super::surroundings::Surroundings;
-use crate::bodies::body_state::BodyState;
+use super::surroundings::{Moment, Surroundings};
 use crate::run::controller::ControllerAgent;
 use crate::run::participant::{Participant, Place};
 use crate::run::state::State;
@@ -19,13 +18,6 @@ pub(crate) struct ControllerScratch {
     percept: Percept,
     command: Command,
     surroundings: Surroundings,
-}
-
-/// What all controllers step from.
-struct Moment<'a> {
-    scenario: &'a Scenario,
-    tick: u64,
-    body_states: &'a [BodyState],
 }
 
 impl ControllerScratch {
@@ -42,6 +34,7 @@ impl ControllerScratch {
             scenario,
             tick: state.tick,
             body_states: &state.body_states,
+            items: &state.items,
         };
         let hashes_decisions = state.decisions.is_some();
         for (number, agent) in (state.agents.len()..).zip(&mut state.controllers) {
@@ -84,6 +77,7 @@ impl ControllerScratch {
             scenario,
             tick: state.tick,
             body_states: &state.body_states,
+            items: &state.items,
         };
         for (number, agent) in (state.agents.len()..).zip(&state.controllers) {
             let id = agent.participant.id;
@@ -115,6 +109,7 @@ impl ControllerScratch {
             scenario,
             tick: state.tick,
             body_states: &state.body_states,
+            items: &state.items,
         };
         let mut scratch = Self::default();
         let agent = &state.controllers[controller];
@@ -144,11 +139,12 @@ impl ControllerScratch {
             Place::Fixed(value, _) => Some(Reading { value, age_s: 0.0 }),
             Place::Aboard(_) => None,
         };
+        percept.observations.clear();
+        percept.contacts.clear();
         percept.neighbours.clear();
         let sensors = &scenario.controller_kind_of(participant.id).sensors;
-        let moment = (scenario, tick);
         self.surroundings
-            .detect(moment, participant, sensors, &mut percept.neighbours);
+            .detect(moment, participant, sensors, percept);
         percept.inbox.clear();
         participant.deliver(tick, scenario.step_s, &mut percept.inbox);
     }

@@ -4,6 +4,17 @@ use crate::bodies::external::ExternalBody;
 use crate::bodies::kind::Kind;
 use brain::{Percept, Scan};
 
+/// What an external body perceived in a step.
+#[derive(Debug, Clone)]
+pub struct Perceived {
+    /// The number of the robot.
+    pub(crate) robot: usize,
+    /// What was read outside of the simulation.
+    pub real: Percept,
+    /// What its virtual sensors measured.
+    pub measured: Percept,
+}
+
 /// Adds what the virtual sensors of a body measured to a percept from outside.
 ///
 /// A reading from outside is never replaced: where both have one, the nearer range counts, as old as the
@@ -20,6 +31,9 @@ pub(super) fn add_virtual(
         .append(&mut virtual_percept.observations);
     percept.contacts.append(&mut virtual_percept.contacts);
     percept.neighbours.append(&mut virtual_percept.neighbours);
+    take(&mut percept.motion, &mut virtual_percept.motion);
+    take(&mut percept.battery, &mut virtual_percept.battery);
+    take(&mut percept.touch, &mut virtual_percept.touch);
     let rings = virtual_percept.scans.len();
     percept.scans.resize_with(rings, Scan::default);
     let scans = percept.scans.iter_mut().zip(&mut virtual_percept.scans);
@@ -33,6 +47,13 @@ pub(super) fn add_virtual(
         } else {
             merge(scan, measured);
         }
+    }
+}
+
+/// Takes the reading of a virtual sensor, if there is one.
+fn take<T>(reading: &mut Option<T>, measured: &mut Option<T>) {
+    if measured.is_some() {
+        *reading = measured.take();
     }
 }
 

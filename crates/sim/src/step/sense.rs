@@ -4,12 +4,14 @@
 //! from the backlog that have arrived are added. All other measurements go into the backlog.
 
 use super::destination::Destination;
-use super::measurement::{Buffers, Measurement, write};
+use super::measurement::Measurement;
 use super::view::View;
 use crate::judge::detections::Detections;
 use crate::run::agent::{Agent, is_on};
+use crate::sensors::Sensor;
 use crate::sensors::backlog::{Backlog, age_s};
-use crate::sensors::{Measure, Sensor};
+use crate::sensors::buffers::Buffers;
+use crate::sensors::sensor_frame::SensorFrame;
 use brain::Percept;
 
 /// Buffers for measurements, and what the judge counts of them.
@@ -71,13 +73,17 @@ fn due<'a>(
     sensors_off: u32,
 ) -> impl Iterator<Item = Measurement<'a>> {
     let sensors_off = sensors_off | view.unmeasured(robot);
+    let at = view.sensing_place(robot);
     numbered(&view.kind(robot).sensors).filter_map(move |(number, ring, sensor)| {
         let measurement = sensor.schedule.due(view.tick)?;
         is_on(sensors_off, number).then(|| Measurement {
             view,
             robot,
             sensor,
-            frame: view.sensor_frame(robot, number, measurement),
+            frame: SensorFrame {
+                at,
+                ..view.sensor_frame(robot, number, measurement)
+            },
             number,
             ring,
         })
@@ -89,7 +95,7 @@ fn numbered(sensors: &[Sensor]) -> impl Iterator<Item = (usize, usize, &Sensor)>
     let mut rings = 0;
     sensors.iter().enumerate().map(move |(number, sensor)| {
         let ring = rings;
-        rings += usize::from(matches!(sensor.measure, Measure::Range(_)));
+        rings += usize::from(sensor.facts.is_ring);
         (number, ring, sensor)
     })
 }
@@ -109,7 +115,7 @@ fn deliver(
             values.clear();
             values.extend_from_slice(newest);
             let age_s = age_s(taken, now, step_s);
-            write(percept, &sensor.measure, ring, age_s, values);
+            sensor.measure.write(percept, ring, age_s, values);
         }
     }
     backlog.deliver(now, step_s, percept, |item| {

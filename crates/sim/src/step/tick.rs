@@ -14,6 +14,7 @@ use super::external::ExternalInputs;
 use super::flock_step::flock_step;
 use super::flocks::Flocks;
 use super::hazards;
+use super::mixed_percept::Perceived;
 use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
@@ -234,6 +235,12 @@ impl StepScratch {
     /// The robots of the last step for which decisions were made outside their brains.
     pub(crate) fn decided(&self) -> &[PendingDecision] {
         &self.decisions.all
+    }
+
+    /// What a robot with an external body perceived in the last step, if its brain stepped.
+    pub(crate) fn perceived(&self, robot: usize) -> Option<&Perceived> {
+        let mut all = self.workers.iter().flat_map(|worker| &worker.perceived);
+        all.find(|perceived| perceived.robot == robot)
     }
 
     /// The commands that brains decided for external bodies, by the number of the robot.

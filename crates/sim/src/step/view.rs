@@ -5,6 +5,7 @@ use crate::bodies::Layer;
 use crate::bodies::body_state::{BodyState, Status};
 use crate::bodies::kind::Kind;
 use crate::bodies::path::Orientation;
+use crate::bodies::region::Region;
 use crate::run::agent::Agent;
 use crate::run::controller::ControllerAgent;
 use crate::run::state::State;
@@ -29,6 +30,8 @@ pub(crate) struct View<'a> {
     pub(crate) controllers: &'a [ControllerAgent],
     pub(crate) neighbours: &'a Neighbours,
     pub(crate) has_external_bodies: bool,
+    /// Where external bodies may be.
+    pub(crate) regions: &'a [Region],
 }
 
 impl<'a> View<'a> {
@@ -104,6 +107,7 @@ impl State {
             items: &self.items,
             controllers: &self.controllers,
             neighbours,
+            regions: &self.regions,
             has_external_bodies: self.body_states.iter().any(BodyState::is_external),
         };
         (view, &mut self.agents)

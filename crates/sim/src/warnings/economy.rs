@@ -4,7 +4,7 @@ use crate::bodies::RobotSpec;
 use crate::controllers::ControllerSpec;
 use crate::goals::GoalSpec;
 use crate::scenario::{Checked, ScenarioSpec};
-use crate::sensors::Measures;
+use crate::sensors::sensor_kind::Provides;
 use base::document::Place;
 use base::warning::Warning;
 use brain::Work;
@@ -91,7 +91,7 @@ fn of_searches(spec: &ScenarioSpec, at: &Place) -> Vec<Warning> {
     let searches = has_robot(spec, |robot| {
         let mut sensors = robot.sensors.values();
         robot.brain.behaviours.iter().any(serves)
-            && sensors.any(|sensor| matches!(sensor.measures, Measures::Items(_)))
+            && sensors.any(|sensor| sensor.provides(Provides::Items))
     });
     let has_servers = has_robot(spec, |robot| robot.brain.behaviours.iter().any(serves));
     let kinds = goals(spec).filter(|(_, kind)| kind.work == Work::Search);

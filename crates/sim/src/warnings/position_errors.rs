@@ -2,7 +2,8 @@
 
 use crate::bodies::RobotSpec;
 use crate::scenario::{Checked, ScenarioSpec};
-use crate::sensors::Measures;
+use crate::sensors::position::PositionSpec;
+use crate::sensors::sensor_kind::AmongKinds;
 use base::document::Place;
 use base::warning::Warning;
 use brain::behaviours::BehaviourSpec;
@@ -61,12 +62,10 @@ impl Errors {
     /// `None` without a position sensor.
     fn of(robot: &RobotSpec) -> Option<Self> {
         let sensors = robot.sensors.values();
-        let positions = sensors.filter_map(|sensor| match &sensor.measures {
-            Measures::Position(position) => Some(Self {
-                noise_m: position.noise_m,
-                drift_m: position.drift_m,
-            }),
-            _ => None,
+        let positions = sensors.filter_map(|sensor| PositionSpec::of(&sensor.measures));
+        let positions = positions.map(|position| Self {
+            noise_m: position.noise_m,
+            drift_m: position.drift_m,
         });
         positions.reduce(|one, other| Self {
             noise_m: one.noise_m.max(other.noise_m),

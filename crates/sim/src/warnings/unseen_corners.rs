@@ -3,7 +3,9 @@
 
 use crate::bodies::{Layer, RobotSpec};
 use crate::scenario::Checked;
-use crate::sensors::{Measures, SensorSpec};
+use crate::sensors::SensorSpec;
+use crate::sensors::range::RangeSpec;
+use crate::sensors::sensor_kind::AmongKinds;
 use crate::world::obstacles::ObstacleSpec;
 use base::document::Place;
 use base::geometry::Point;
@@ -108,9 +110,7 @@ struct Rays {
 impl Rays {
     /// `None` unless the sensor has several rays, to both sides of the direction ahead.
     fn new(robot: &RobotSpec, sensor: &SensorSpec, step_s: f64) -> Option<Self> {
-        let Measures::Range(range) = &sensor.measures else {
-            return None;
-        };
+        let range = RangeSpec::of(&sensor.measures)?;
         let gap_rad = range.gap_rad()?;
         if range.fov_deg < 2.0 * (range.facing_deg.abs() + MIN_SIDE_DEG) && range.fov_deg < 360.0 {
             return None;

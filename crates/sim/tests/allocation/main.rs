@@ -218,6 +218,7 @@ fn crowded_percept(step: u32, rays: u32, age_s: f64) -> Percept {
                 bearing_rad: 6.0 * spread(number + 300) - 3.0,
                 course_rad: None,
                 age_s: 0.0,
+                uncertainty_m: 0.0,
                 id: id(number),
             })
             .collect(),

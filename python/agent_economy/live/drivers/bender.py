@@ -11,7 +11,9 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from agent_economy._core import LocalFrame
 from agent_economy.live.drivers.driver import Driver, Port, PortLine, Setting, Settings
+from agent_economy.live.frame import heading_rad, position_m
 from agent_economy.live.readings import Motion, Quantity, Reading
 
 NEUTRAL = 150
@@ -136,7 +138,9 @@ class Bender(Driver):
         ),
     }
 
-    def reading(self, port: str, line: bytes, settings: Settings) -> Reading | None:
+    def reading(
+        self, port: str, line: bytes, settings: Settings, frame: LocalFrame
+    ) -> Reading | None:
         """Return the reading of a line, or None if the line is malformed.
 
         A heading of one digit is a reading; the 2002 program ignored lines of one character. A
@@ -145,9 +149,9 @@ class Bender(Driver):
         try:
             match port:
                 case "compass":
-                    return self._heading(line, settings)
+                    return self._heading(line, settings, frame)
                 case "gps":
-                    return self._position(line, settings)
+                    return self._position(line, settings, frame)
                 case "sonar":
                     return self._ranges(line, settings)
         except ValueError:
@@ -249,14 +253,14 @@ class Bender(Driver):
     def _track(self, channel: int, value: int) -> PortLine:
         return PortLine(self.motor_port, f"x,{channel},{value},\n".encode())
 
-    def _heading(self, line: bytes, settings: Settings) -> Reading:
+    def _heading(self, line: bytes, settings: Settings, frame: LocalFrame) -> Reading:
         low, high = COMPASS_DEG
         raw = number(line)
         # A value far outside the scale is no heading: taken modulo, it would look possible.
         degrees = raw - settings["compass_offset_deg"] if low <= raw <= high else math.nan
-        return Reading(Quantity.HEADING, (degrees % FULL_TURN_DEG,))
+        return Reading(Quantity.HEADING, (heading_rad(frame, degrees % FULL_TURN_DEG),))
 
-    def _position(self, line: bytes, settings: Settings) -> Reading | None:
+    def _position(self, line: bytes, settings: Settings, frame: LocalFrame) -> Reading | None:
         fields = [field.strip().upper() for field in line.split(b",")]
         if len(fields) < POSITION_FIELDS:
             return None
@@ -267,7 +271,7 @@ class Bender(Driver):
             return None
         latitude = _SIGNS[north] * _angle_deg(fields[0], fields[1])
         longitude = _SIGNS[east] * _angle_deg(fields[3], fields[4])
-        return Reading(Quantity.POSITION, (latitude, longitude))
+        return Reading(Quantity.POSITION, position_m(frame, latitude, longitude))
 
     def _ranges(self, line: bytes, settings: Settings) -> Reading | None:
         # The program of 2002 ignored a comma at the end.
@@ -281,8 +285,9 @@ class Bender(Driver):
         no_echo = settings["no_echo"]
         if no_echo is not None and value == float(no_echo):
             return math.inf
+        range_m = value * settings["range_unit_m"]
         # Infinity is a range only where a setting states that it means nothing seen.
-        return value * settings["range_unit_m"] if math.isfinite(value) else math.nan
+        return range_m if math.isfinite(range_m) else math.nan
 
 
 def _mirrored_m(latitude_deg: float, east_deg: float) -> float:

@@ -1,7 +1,7 @@
 """What a kind of robot has to define. A driver is one file in this package.
 
-The functions of a driver are pure: bytes and settings in, readings and lines out. Sockets, clocks
-and rules are the warden's.
+The functions of a driver are pure: bytes, settings and the frame of the world in, readings and
+lines out. Sockets, clocks and rules are the warden's.
 """
 
 from abc import ABC, abstractmethod
@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from agent_economy._core import LocalFrame
 from agent_economy.live.drivers.lines import MAX_LINE_BYTES
 from agent_economy.live.readings import Motion, Quantity, Reading
 
@@ -72,7 +73,9 @@ class Driver(ABC):
     settings: Mapping[str, Setting]
     """Its settings, by key."""
 
-    def parse(self, port: str, line: bytes, settings: Settings) -> Reading | None:
+    def parse(
+        self, port: str, line: bytes, settings: Settings, frame: LocalFrame
+    ) -> Reading | None:
         """Return the reading of a line without its end, or None if the line is malformed.
 
         A line that is longer than `MAX_LINE_BYTES` is malformed, whatever it contains: the warden
@@ -80,13 +83,17 @@ class Driver(ABC):
         """
         if len(line) > MAX_LINE_BYTES:
             return None
-        return self.reading(port, line, settings)
+        return self.reading(port, line, settings, frame)
 
     @abstractmethod
-    def reading(self, port: str, line: bytes, settings: Settings) -> Reading | None:
+    def reading(
+        self, port: str, line: bytes, settings: Settings, frame: LocalFrame
+    ) -> Reading | None:
         """Return the reading of a line of bounded length, or None if the line is malformed.
 
-        Its time must be linear in the length of the line.
+        It is in SI units and in the frame of the world: the functions of `agent_economy.live.frame`
+        convert places and bearings, whatever their values are. Nothing may be raised, and the time
+        must be linear in the length of the line.
         """
 
     @abstractmethod

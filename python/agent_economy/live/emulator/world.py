@@ -4,15 +4,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from agent_economy.live.emulator.bender import KIND, Bender
-from agent_economy.live.emulator.frame import frame_of
 from agent_economy.live.emulator.settings import MAX_RATE_HZ, Settings
 from agent_economy.live.emulator.tracks import Motion
+from agent_economy.live.frame import frame_of
+from agent_economy.live.plan import Origin
 from agent_economy.runs.brain import Percept
 from agent_economy.runs.simulation import Simulation
 from agent_economy.scenario import Override, Scenario
 
 STEP_S = 1 / MAX_RATE_HZ
 """Length of a step."""
+
+MONTEREY = {"latitude_deg": 36.595267, "longitude_deg": -121.875003, "declination_deg": 14.5}
+"""The origin of a scenario without its own: that of the bundled scenario, with x to the east."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,7 @@ class World:
         self._bender = Bender.of(scenario)
         self._errors = self._bender.errors(settings)
         self._simulation = Simulation(self._bender.emulated(robots, settings), seed)
-        self.frame = frame_of(self._bender.world)
+        self.frame = frame_of(Origin(**(self._bender.world.get("origin") or MONTEREY)))
         self.max_range_m = self._bender.max_range_m
         self.robots = tuple(f"{KIND}/{index}" for index in range(robots))
 

@@ -1,5 +1,6 @@
 """The sensors of a scenario's kind: they have to be those that a driver has inputs for."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -20,8 +21,6 @@ KINDS = {
     Quantity.HEADING: "heading",
 }
 """The kind of sensor that measures a quantity."""
-
-FULL_TURN_DEG = 360.0
 
 MAX_ROUNDING = 0.01
 """A range may be rounded by this fraction of the maximum range."""
@@ -82,7 +81,7 @@ def _measurement(quantity: Quantity, sensors: list[Sensor]) -> Measurement:
             bound_m = max_range_m * (1 + MAX_ROUNDING) + MAX_SIGMAS * noise_m
             return Measurement(noise_m, (0.0, bound_m))
         case Quantity.HEADING:
-            return Measurement(float(sensors[0].get("noise_deg", 0)), (0.0, FULL_TURN_DEG))
+            return Measurement(math.radians(float(sensors[0].get("noise_deg", 0))), None)
         case Quantity.POSITION:
             return Measurement(float(sensors[0].get("noise_m", 0)), None)
         case Quantity.BATTERY:

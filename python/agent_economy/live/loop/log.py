@@ -11,13 +11,11 @@ from agent_economy.live.fleet import Fleet
 from agent_economy.recording import Recording
 from agent_economy.recording.file import strict
 from agent_economy.recording.live_topics import (
-    EVENTS,
     LIVE,
-    ORDERS,
     SETPOINTS,
     TICKS,
-    WIRE,
     live_schema,
+    topic_of,
 )
 from agent_economy.recording.output import create_new
 from agent_economy.recording.selection import Selection
@@ -82,10 +80,7 @@ class Log:
 
     def add(self, message: Mapping[str, Any]) -> None:
         """Record a message of the warden."""
-        at_s = message["t"]
-        topic = ORDERS if message["type"] == "order" else EVENTS
-        if message["type"] in ("line", "written"):
-            topic = f"{WIRE}{message['robot']}/{message['port']}"
+        at_s, topic = message["t"], topic_of(message)
         self._recording.write_json(topic, live_schema(topic), message, at_s - self._start_s)
 
     def tick(self, tick: int, now_s: float, lateness_s: float, behind_s: float = 0.0) -> None:

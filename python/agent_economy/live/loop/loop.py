@@ -1,4 +1,4 @@
-"""The loop: receive lines, step the brains, send setpoints; at the pace of the clock."""
+"""The loop: receive readings, step the brains, send setpoints; at the pace of the clock."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -72,7 +72,9 @@ class Loop:
                     return False
                 case "peer":
                     self.peers[message["robot"]] = tuple(message["address"])
-                case "line" | "written" | "event" | "order":
+                case "line" | "written":
+                    self._add(message)
+                case "reading" | "event" | "order":
                     self._team.add(message)
                     self._add(message)
                     self._note_stop(message)

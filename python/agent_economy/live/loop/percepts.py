@@ -1,22 +1,12 @@
-"""Makes percepts of the lines of one robot. It reads no clock, so that a replay is exact."""
+"""Makes percepts of the readings of one robot. It reads no clock, so that a replay is exact."""
 
 import hashlib
 import math
 from collections.abc import Mapping
 from typing import Any
 
-from agent_economy._core import LocalFrame
-from agent_economy.live.drivers import DRIVERS
-from agent_economy.live.plan import Origin, RobotPlan
-from agent_economy.live.readings import Quantity
+from agent_economy.live.readings import COUNTS, Quantity, Reading
 from agent_economy.runs.brain import Percept
-
-
-def frame_of(origin: Origin) -> LocalFrame:
-    """Return the conversions of a geographic origin."""
-    return LocalFrame(
-        origin.latitude_deg, origin.longitude_deg, origin.rotation_deg, origin.declination_deg
-    )
 
 
 class Percepts:
@@ -26,36 +16,29 @@ class Percepts:
         is_driving: Whether the brain steps: the robot is armed, in automatic mode, and not held.
     """
 
-    def __init__(
-        self, plan: RobotPlan, frame: LocalFrame, base: Mapping[str, Any], seed: int, start_s: float
-    ) -> None:
+    def __init__(self, name: str, base: Mapping[str, Any], seed: int, start_s: float) -> None:
         """Create it without readings.
 
         Args:
-            plan: The robot.
-            frame: The conversions of the world's origin.
+            name: The name of the robot.
             base: The parts of a percept that never change.
             seed: Seed of the random bits of percepts.
             start_s: The time at which the drive started, by the clock of the time stamps.
         """
         self.is_driving, self._is_moving = False, False
-        self._plan, self._frame, self._base = plan, frame, base
+        self._name, self._base = name, base
         self._seed, self._start_s = seed, start_s
-        self._driver = DRIVERS[plan.driver]
         self._readings: dict[Quantity, tuple[Any, float]] = {}
         self._ranges: dict[int, tuple[float, float]] = {}
 
-    def add_line(self, port: str, line: bytes, at_s: float) -> None:
-        """Take a line, with its time stamp."""
-        reading = self._driver.parse(port, line, self._plan.settings)
-        if reading is None:
-            return
+    def add_reading(self, reading: Reading, at_s: float) -> None:
+        """Take a reading, with its time stamp."""
         if reading.quantity is Quantity.RANGES:
             for sonar, range_m in enumerate(reading.values):
                 if range_m is not None:
                     self._ranges[sonar] = (range_m, at_s)
             return
-        value = self._value(reading.quantity, reading.values)
+        value = _value(reading)
         if value is not None:
             self._readings[reading.quantity] = (value, at_s)
 
@@ -71,7 +54,7 @@ class Percepts:
         percept: dict[str, Any] = {
             **self._base,
             "time_s": now_s - self._start_s,
-            "random_words": random_words(self._seed, self._plan.name, tick),
+            "random_words": random_words(self._seed, self._name, tick),
             "scans": [self._scan(sonar, now_s) for sonar in range(sonars)],
         }
         for quantity, key in KEYS.items():
@@ -89,23 +72,18 @@ class Percepts:
             return {"age_s": None, "ranges_m": []}
         return {"age_s": now_s - at_s, "ranges_m": [None if math.isinf(range_m) else range_m]}
 
-    def _value(self, quantity: Quantity, values: tuple[float | None, ...]) -> Any:
-        numbers = [value for value in values if value is not None and math.isfinite(value)]
-        if len(numbers) < len(values):
-            return None
-        match quantity:
-            case Quantity.POSITION:
-                return self._position(*numbers)
-            case Quantity.HEADING:
-                return self._frame.heading_rad(*numbers)
-            case Quantity.BATTERY:
-                return min(1.0, max(0.0, *numbers))
-        return None
 
-    def _position(self, latitude_deg: float, longitude_deg: float) -> list[float] | None:
-        if abs(latitude_deg) > MAX_LATITUDE_DEG or abs(longitude_deg) > MAX_LONGITUDE_DEG:
-            return None
-        return list(self._frame.to_local(latitude_deg, longitude_deg))
+def _value(reading: Reading) -> Any:
+    """Return the value of a percept; None if the reading is impossible."""
+    numbers = [value for value in reading.values if value is not None and math.isfinite(value)]
+    if not len(numbers) == len(reading.values) == COUNTS.get(reading.quantity):
+        return None
+    match reading.quantity:
+        case Quantity.POSITION:
+            return numbers
+        case Quantity.BATTERY:
+            return min(1.0, max(0.0, *numbers))
+    return numbers[0]
 
 
 KEYS = {
@@ -113,7 +91,6 @@ KEYS = {
     Quantity.HEADING: "heading_rad",
     Quantity.BATTERY: "battery",
 }
-MAX_LATITUDE_DEG, MAX_LONGITUDE_DEG = 90.0, 360.0
 
 
 def random_words(seed: int, robot: str, tick: int) -> list[int]:

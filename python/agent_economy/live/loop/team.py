@@ -5,9 +5,10 @@ from typing import Any
 
 from agent_economy import _core
 from agent_economy.live.loop.awarded import awarded_to
-from agent_economy.live.loop.percepts import Percepts, frame_of
+from agent_economy.live.loop.percepts import Percepts
 from agent_economy.live.loop.shared import shared_by
 from agent_economy.live.plan import FleetPlan
+from agent_economy.live.readings import reading_of
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
 
@@ -44,14 +45,13 @@ class Team:
         self._simulation = simulation
         bodies = _core.recorded_setting(simulation._run)["bodies"]  # noqa: SLF001  (ours)
         kinds = list(bodies)
-        frame = frame_of(plan.origin)
         self._robots: dict[str, Percepts] = {}
         self._bodies: dict[str, Mapping[str, Any]] = {}
         for robot in plan.robots:
             kind, _, index = robot.name.rpartition("/")
             count = sum(name.startswith(f"{kind}/") for name in simulation.robots)
             base = {"id": {"kind": kinds.index(kind), "index": int(index)}, "team_size": count}
-            self._robots[robot.name] = Percepts(robot, frame, base, seed, start_s)
+            self._robots[robot.name] = Percepts(robot.name, base, seed, start_s)
             self._bodies[robot.name] = bodies[kind]
         self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
         self._ordered = {name: len(waypoints_m.get(name, ())) for name in self._robots}
@@ -66,11 +66,11 @@ class Team:
         self._reasons: dict[tuple[float, ...], str] = {}
 
     def add(self, message: Mapping[str, Any]) -> None:
-        """Take a line, an event or an order of the warden."""
+        """Take a reading, an event or an order of the warden."""
         name = message["robot"]
         robot = self._robots[name]
-        if message["type"] == "line":
-            robot.add_line(message["port"], message["line"].encode("latin-1"), message["t"])
+        if message["type"] == "reading":
+            robot.add_reading(reading_of(message), message["t"])
         elif message["type"] == "event":
             robot.add_event(message)
         elif message["type"] == "order":

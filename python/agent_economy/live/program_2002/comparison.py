@@ -13,6 +13,7 @@ from typing import Any
 
 from agent_economy._core import LocalFrame
 from agent_economy.live.drivers import DRIVERS
+from agent_economy.live.frame import frame_of
 from agent_economy.live.plan import Origin, RobotPlan
 from agent_economy.live.program_2002.control import Control
 from agent_economy.live.program_2002.inputs import UncaughtError
@@ -93,9 +94,7 @@ def compare(
         messages: The lines of the robot, read and written, in order.
         steers: Whether the program of 2002 turns to its waypoint. As printed, it never does.
     """
-    frame = LocalFrame(
-        origin.latitude_deg, origin.longitude_deg, origin.rotation_deg, origin.declination_deg
-    )
+    frame = frame_of(origin)
     waypoint = Waypoint() if waypoint_m is None else as_typed(*frame.to_geographic(*waypoint_m))
     old = _Program(Control(waypoint, steers=steers))
     new = _Sent(plan, frame, waypoint_m or frame.to_local(*waypoint.position_deg))
@@ -196,14 +195,15 @@ class _Sent:
 
     def take(self, port: str, line: str) -> None:
         """Take a line that arrives."""
-        reading = DRIVERS[self.plan.driver].parse(port, line.encode("latin-1"), self.plan.settings)
+        driver, settings = DRIVERS[self.plan.driver], self.plan.settings
+        reading = driver.parse(port, line.encode("latin-1"), settings, self.frame)
         if reading is None:
             return
         values = [each for each in reading.values if each is not None and math.isfinite(each)]
         if reading.quantity is Quantity.HEADING and values:
-            self._heading_rad = self.frame.heading_rad(values[0])
+            self._heading_rad = values[0]
         if reading.quantity is Quantity.POSITION and len(values) == len(reading.values):
-            self._position_m = self.frame.to_local(*values)
+            self._position_m = (values[0], values[1])
 
     def write(self, port: str, line: str, time_s: float) -> None:
         """Take a line that was written; the lines of one turn of the warden have one time."""

@@ -26,7 +26,7 @@ def change(before: Values, after: Values, quantity: Quantity) -> float:
     """Return the distance of two readings, in the unit of their quantity."""
     changes = [(new or 0.0) - (old or 0.0) for old, new in zip(before, after, strict=False)]
     if quantity is Quantity.HEADING:
-        return abs((changes[0] + 180.0) % 360.0 - 180.0)
+        return abs((changes[0] + math.pi) % math.tau - math.pi)
     return math.hypot(*changes)
 
 
@@ -39,7 +39,7 @@ def max_rate(plan: InputPlan, robot: RobotPlan) -> float | None:
     """Return the fastest change of an input, per second; None where it is not limited."""
     match plan.quantity:
         case Quantity.HEADING:
-            return math.degrees(robot.max_turn_rate_rad_s)
+            return robot.max_turn_rate_rad_s
         case Quantity.POSITION:
             return robot.max_speed_m_s
     return None

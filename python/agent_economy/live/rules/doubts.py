@@ -20,7 +20,12 @@ from agent_economy.live.rules.faults import (
 )
 from agent_economy.live.rules.interface import Sample
 
-UNITS = {Quantity.HEADING: "degrees", Quantity.POSITION: "m", Quantity.RANGES: "m"}
+UNITS = {
+    Quantity.HEADING: ("degrees", math.degrees(1.0)),
+    Quantity.POSITION: ("m", 1.0),
+    Quantity.RANGES: ("m", 1.0),
+}
+"""The unit of changes in reasons, and its number per unit of the readings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,10 +133,10 @@ def _after_jump(doubts: Doubts, step: Step) -> Doubts:
     size = change(before.values, sample.values, plan.quantity)
     if size <= limit:
         return doubts
-    unit = UNITS[plan.quantity]
+    unit, scale = UNITS[plan.quantity]
     reason = (
-        f"{plan.port}: changed by {size:.1f} {unit} at once (limit {limit:.1f} {unit}) and is not "
-        "back: it has to be confirmed by hand"
+        f"{plan.port}: changed by {scale * size:.1f} {unit} at once (limit {scale * limit:.1f} "
+        f"{unit}) and is not back: it has to be confirmed by hand"
     )
     doubts = replace(doubts, jump_reason=reason, broken_s=sample.time_s)
     if doubts.origin is not None:

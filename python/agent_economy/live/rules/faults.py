@@ -3,6 +3,7 @@
 Its limits are here too, so that a row and what it states cannot differ.
 """
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -37,7 +38,7 @@ the slope, plus the drift; up to the second, it confirms a standstill. A motion 
 the third is noticed in 998 of 1000 cases. The first is large because the errors of receivers are
 correlated, and slopes therefore larger than those of independent errors."""
 
-DRIFT_M_S, DRIFT_DEG_S = 0.1, 1.0
+DRIFT_M_S, DRIFT_RAD_S = 0.1, math.radians(1.0)
 """Positions and headings of a robot that stands may drift as fast as this."""
 
 FROZEN_S = 3.0
@@ -139,8 +140,8 @@ MOVES_WHILE_STOPPED = Fault(
     "moves_while_stopped",
     f"Heading, position or two ranges changed by more than {NOISE_SIGMAS:g} standard deviations of "
     f"their noise within {STILL_S:g} s, or means of positions or headings by more than "
-    f"{DRIFT_M_S:g} m/s or {DRIFT_DEG_S:g} degrees/s and {MOVES_SIGMAS:g} standard deviations of "
-    "their slope, although stop has been commanded.",
+    f"{DRIFT_M_S:g} m/s or {math.degrees(DRIFT_RAD_S):g} degrees/s and {MOVES_SIGMAS:g} standard "
+    "deviations of their slope, although stop has been commanded.",
     SETTLING_S,
     Clears.ARMING,
     InManual.STOP,

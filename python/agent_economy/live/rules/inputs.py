@@ -1,6 +1,5 @@
 """Judges all inputs of one robot: see `monitors` for one of them."""
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
@@ -56,8 +55,7 @@ def unseen(memory: RobotMemory, plan: RobotPlan, time_s: float) -> Unseen | None
     speed_m_s = _slowest(memory, inputs, Quantity.POSITION, time_s)
     if speed_m_s is None or speed_m_s >= plan.max_speed_m_s:
         return None
-    turn_rate_deg_s = _slowest(memory, inputs, Quantity.HEADING, time_s)
-    return Unseen(speed_m_s, None if turn_rate_deg_s is None else math.radians(turn_rate_deg_s))
+    return Unseen(speed_m_s, _slowest(memory, inputs, Quantity.HEADING, time_s))
 
 
 def _slowest(

@@ -38,9 +38,7 @@ class Sample:
 
     Attributes:
         time_s: When it arrived.
-        values: Positions: x and y in metres of the world. Headings: degrees, 0 to 360, clockwise
-            from magnetic north. Ranges: metres; infinite where nothing is seen, None without a
-            value. Batteries: 0 to 1. NaN is an impossible value.
+        values: Its values: see `Quantity`. NaN is an impossible value.
     """
 
     time_s: float

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 from agent_economy.live.plan import InputPlan, RobotPlan
-from agent_economy.live.readings import Motion, Quantity
+from agent_economy.live.readings import COUNTS, Motion, Quantity
 from agent_economy.live.rules.differences import Values, differs
 from agent_economy.live.rules.doubts import (
     NO_DOUBTS,
@@ -32,9 +32,7 @@ from agent_economy.live.rules.standstill import NO_STANDSTILL, Standstill, obser
 MAX_AHEAD_S = 0.1
 """A stamp may be this much ahead of the time of the update."""
 
-_COUNTS = {Quantity.HEADING: 1, Quantity.POSITION: 2, Quantity.BATTERY: 1}
 _BOUNDS = {
-    Quantity.HEADING: (0.0, 360.0),
     Quantity.RANGES: (0.0, math.inf),
     Quantity.BATTERY: (0.0, 1.0),
 }
@@ -46,13 +44,13 @@ class Commanded:
 
     Attributes:
         turning_s: Time of turning.
-        turned_deg: Sum of all turns, in either direction.
+        turned_rad: Sum of all turns, in either direction.
         driving_s: Time of driving.
         driven_m: Sum of all ways, forward and in reverse.
     """
 
     turning_s: float = 0.0
-    turned_deg: float = 0.0
+    turned_rad: float = 0.0
     driving_s: float = 0.0
     driven_m: float = 0.0
 
@@ -61,7 +59,7 @@ class Commanded:
         turn_rate, speed = abs(motion.turn_rate_rad_s), abs(motion.speed_m_s)
         return Commanded(
             self.turning_s + (elapsed_s if turn_rate else 0.0),
-            self.turned_deg + math.degrees(turn_rate) * elapsed_s,
+            self.turned_rad + turn_rate * elapsed_s,
             self.driving_s + (elapsed_s if speed else 0.0),
             self.driven_m + speed * elapsed_s,
         )
@@ -222,7 +220,7 @@ def _freshness(memory: InputMemory, plan: InputPlan, time_s: float) -> Iterator[
 def _impossible(values: Values, plan: InputPlan) -> bool:
     if plan.quantity is Quantity.RANGES:
         return not all(each is None or _is_possible(each, plan) for each in values)
-    if len(values) != _COUNTS[plan.quantity]:
+    if len(values) != COUNTS[plan.quantity]:
         return True
     return not all(each is not None and _is_possible(each, plan) for each in values)
 
@@ -275,7 +273,7 @@ def _commanded_change(plan: InputPlan, before: Commanded, after: Commanded) -> C
         case Quantity.HEADING:
             time_s, change = (
                 after.turning_s - before.turning_s,
-                after.turned_deg - before.turned_deg,
+                after.turned_rad - before.turned_rad,
             )
         case Quantity.POSITION | Quantity.RANGES:
             time_s, change = after.driving_s - before.driving_s, after.driven_m - before.driven_m

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from agent_economy.live.plan import InputPlan
 from agent_economy.live.readings import Quantity
 from agent_economy.live.rules.faults import (
-    DRIFT_DEG_S,
     DRIFT_M_S,
+    DRIFT_RAD_S,
     MISSED_SIGMAS,
     MOVES_SIGMAS,
     STANDS_SIGMAS,
@@ -37,7 +37,7 @@ MAX_AGE_S = 3.0
 MIN_MEANS = 4
 """A line is fitted to this number of means at least."""
 
-_DRIFTS = {Quantity.POSITION: DRIFT_M_S, Quantity.HEADING: DRIFT_DEG_S}
+_DRIFTS = {Quantity.POSITION: DRIFT_M_S, Quantity.HEADING: DRIFT_RAD_S}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Mean:
         began_s: When the first one came.
         newest_s: When the last one came.
         time_s: The mean of their times.
-        values: The means of the values; headings are continuous, not 0 to 360.
+        values: The means of the values; headings are continuous, beyond a full turn too.
         count: The number of readings.
     """
 
@@ -129,7 +129,7 @@ def _with(
     newest = means[-1]
     if quantity is Quantity.HEADING:
         last = newest.values[0]
-        values = (last + (values[0] - last + 180.0) % 360.0 - 180.0,)
+        values = (last + (values[0] - last + math.pi) % math.tau - math.pi,)
     if time_s - newest.began_s < BIN_S:
         return (*means[:-1], newest.after(time_s, values))
     kept = tuple(each for each in means if time_s - each.began_s <= LONGEST_S)

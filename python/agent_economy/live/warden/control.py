@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.frame import frame_of
 from agent_economy.live.plan import FleetPlan, RobotPlan
 from agent_economy.live.rules import Mode, Setpoint
 from agent_economy.live.rules.faults import MANUAL_LIFETIME_S
@@ -53,6 +54,7 @@ class Control:
     def __init__(self, warden: Warden, drive: Drive, events: EventLog) -> None:
         """Create it for a drive."""
         self._warden, self._drive, self._events = warden, drive, events
+        self._frame = frame_of(drive.plan.origin)
         self._plans = {robot.name: robot for robot in drive.plan.robots}
         self._waypoints = WaypointOrders(warden, drive.plan)
         self._authority = Authority()
@@ -132,7 +134,7 @@ class Control:
                     warden.robots[name],
                     decision,
                     warden.goals.get(name, {}).values(),
-                    self._drive.plan.origin,
+                    self._frame,
                     now,
                 )
                 for name, decision in decisions.items()

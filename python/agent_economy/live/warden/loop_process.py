@@ -69,14 +69,14 @@ class LoopProcess:
         """Its process id."""
         return self._process.pid if self._process else None
 
-    def send(self, message: Message) -> bool:
-        """Send a message, or queue it; return whether it was.
+    def send(self, *messages: Message) -> bool:
+        """Send messages, or queue them; return whether they were: all of them, or none.
 
         Nothing more is queued for a loop that does not read.
         """
         is_taken = not self.has_ended and len(self._queue) < MAX_QUEUE_BYTES
         if is_taken:
-            self._queue += encode(message)
+            self._queue += b"".join(map(encode, messages))
             self._write()
         return is_taken
 

@@ -1,11 +1,12 @@
 """Decides which motor lines are due. Nothing here reads a clock."""
 
+import math
 from dataclasses import dataclass
 
+from agent_economy._core import LocalFrame
 from agent_economy.live.drivers.driver import Driver, PortLine, Settings
-from agent_economy.live.plan import Origin
+from agent_economy.live.frame import bearing_deg
 from agent_economy.live.readings import Motion
-from agent_economy.live.warden.geometry import magnetic_bearing_deg
 
 
 @dataclass
@@ -19,7 +20,7 @@ class MotorLines:
 
     driver: Driver
     settings: Settings
-    origin: Origin
+    frame: LocalFrame
     repeat_s: float
     _written: tuple[PortLine, ...] = ()
     _at_s: float = float("-inf")
@@ -53,8 +54,10 @@ class MotorLines:
         if motion.tracks is not None:
             return self.driver.move(motion, self.settings)
         if motion.heading_rad is not None:
-            bearing_deg = magnetic_bearing_deg(self.origin, motion.heading_rad)
-            lines = self.driver.turn_to(bearing_deg, self.settings)
+            if not math.isfinite(motion.heading_rad):  # the rules pass no such motion
+                return self.driver.stop(self.settings)
+            to_deg = bearing_deg(self.frame, motion.heading_rad)
+            lines = self.driver.turn_to(to_deg, self.settings)
             if lines:
                 return lines
         return self.driver.move(motion, self.settings)

@@ -5,20 +5,26 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Protocol
 
+from agent_economy._core import LocalFrame
+from agent_economy.live.channel import Message
 from agent_economy.live.drivers import DRIVERS, PortLine
 from agent_economy.live.locks import AddressLocks
-from agent_economy.live.plan import Origin, RobotPlan
-from agent_economy.live.readings import Motion, Quantity, Reading
+from agent_economy.live.plan import RobotPlan
+from agent_economy.live.readings import Motion, Reading
 from agent_economy.live.rules import Link, RobotInputs, Sample, Setpoint
 from agent_economy.live.warden.connection import Connection, Share
-from agent_economy.live.warden.geometry import world_of
 from agent_economy.live.warden.motor_line import MotorLines
 from agent_economy.live.warden.name_lookup import NameLookup
 from agent_economy.live.warden.port_link import PortLink
 
-LineReport = Callable[[str, str, bytes, float, bool], None]
-"""Takes the robot, the port, a line, its time, and whether it was written."""
+
+class Report(Protocol):
+    """Takes the messages of a line: that it was written, or that it was read, and its reading."""
+
+    def __call__(self, *messages: Message) -> object:
+        """Take all of them, or none."""
 
 
 @dataclass(frozen=True)
@@ -26,15 +32,15 @@ class DriveContext:
     """What all robots of a drive have in common.
 
     Attributes:
-        origin: The geographic origin of the world.
+        frame: The conversions of the world's geographic origin.
         stamp_s: Returns the time stamp of a line that is read now.
-        report: Is called with each line.
+        report: Is called with the messages of each line.
         share: What is taken of one port in one turn.
     """
 
-    origin: Origin
+    frame: LocalFrame
     stamp_s: Callable[[], float]
-    report: LineReport
+    report: Report
     share: Share = field(default_factory=Share)
 
 
@@ -47,7 +53,7 @@ class Robot:
         links: The link of each port.
         setpoint: The newest setpoint of the loop.
         manual: The newest setpoint of the operator.
-        readings: The newest reading of each port, as the driver made it, and its time.
+        readings: The newest reading of each port, and its time.
         written: The newest motor lines, and when they were written; None before.
         standing_s: Time for which stop was commanded, since the start.
         driving_s: Time for which it was not.
@@ -73,15 +79,14 @@ class Robot:
         self.readings, self.written = {}, None
         self.standing_s = self.driving_s = 0.0
         self._commanded_s: float | None = None
-        self._origin, self._stamp_s = context.origin, context.stamp_s
+        self._frame, self._stamp_s = context.frame, context.stamp_s
         self._report = context.report
         self.driver = DRIVERS[plan.driver]
         self._has_moved = False
-        self._samples: dict[str, Sample] = {}
         self._arrived: dict[str, deque[tuple[bytes, float]]] = {
             port: deque(maxlen=context.share.lines) for port in plan.ports
         }
-        self._motors = MotorLines(self.driver, plan.settings, context.origin, plan.repeat_s)
+        self._motors = MotorLines(self.driver, plan.settings, context.frame, plan.repeat_s)
         lookup, locks = NameLookup(plan.host), locks or AddressLocks()
         self.links = {
             port: PortLink(
@@ -105,7 +110,10 @@ class Robot:
             self._take_lines(port)
             link.connection.resume()
         links = {port: self._link(port, now_s) for port in self.links}
-        return RobotInputs(links, dict(self._samples), self.setpoint, self.manual)
+        samples = {
+            port: Sample(at_s, reading.values) for port, (reading, at_s) in self.readings.items()
+        }
+        return RobotInputs(links, samples, self.setpoint, self.manual)
 
     def command(self, motion: Motion, now_s: float) -> None:
         """Write the motor lines that are due."""
@@ -167,7 +175,7 @@ class Robot:
         connection = self.links[line.port].connection
         if connection.is_up:
             connection.write(line.data, now_s)
-            self._report(self.plan.name, line.port, line.data, now_s, True)  # noqa: FBT003
+            self._report(self._message("written", line.port, line.data, now_s))
 
     def _link(self, port: str, now_s: float) -> Link:
         link = self.links[port]
@@ -176,7 +184,6 @@ class Robot:
 
     def _connected(self, port: str) -> None:
         self._arrived[port].clear()
-        self._samples.pop(port, None)
         self.readings.pop(port, None)
         if port == self.driver.motor_port:
             self._motors.forget()
@@ -189,20 +196,14 @@ class Robot:
         """Take the lines that have arrived, in order."""
         while self._arrived[port]:
             line, at_s = self._arrived[port].popleft()
-            self._report(self.plan.name, port, line, at_s, False)  # noqa: FBT003
-            reading = self.driver.parse(port, line, self.plan.settings)
-            if reading is not None:
+            message = self._message("line", port, line, at_s)
+            reading = self.driver.parse(port, line, self.plan.settings, self._frame)
+            if reading is None:
+                self._report(message)
+            else:
                 self.readings[port] = (reading, at_s)
-                self._samples[port] = Sample(at_s, self._values(reading))
+                self._report(message, reading.message(self.plan.name, port, at_s))
 
-    def position_m(self, port: str) -> tuple[float | None, ...]:
-        """Return the newest position of a port in the world; its reading must be known."""
-        return self._samples[port].values
-
-    def _values(self, reading: Reading) -> tuple[float | None, ...]:
-        if reading.quantity is not Quantity.POSITION:
-            return reading.values
-        latitude, longitude = reading.values
-        if latitude is None or longitude is None:
-            return reading.values
-        return world_of(self._origin, latitude, longitude)
+    def _message(self, kind: str, port: str, line: bytes, at_s: float) -> Message:
+        text = line.decode("latin-1")
+        return {"type": kind, "robot": self.plan.name, "port": port, "t": at_s, "line": text}

@@ -5,11 +5,12 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from typing import Any, cast
 
-from agent_economy.live.plan import InputPlan, Origin, Point
+from agent_economy._core import LocalFrame
+from agent_economy.live.frame import FULL_TURN_DEG, bearing_deg, place_deg
+from agent_economy.live.plan import InputPlan
 from agent_economy.live.readings import Motion, Quantity
 from agent_economy.live.rules import Decision, Fault, Mode, Setpoint
 from agent_economy.live.rules.faults import MANUAL_LIFETIME_S, MAX_UNACKNOWLEDGED_S
-from agent_economy.live.warden.geometry import geographic_of, world_heading_deg
 from agent_economy.live.warden.port_link import PortLink
 from agent_economy.live.warden.robot import Robot
 from agent_economy.live.warden.sentences import reason_of
@@ -32,7 +33,7 @@ def robot_state(
     robot: Robot,
     decision: Decision,
     goals: Iterable[Mapping[str, Any]],
-    origin: Origin,
+    frame: LocalFrame,
     now_s: float,
 ) -> WardenRobot:
     """Return what is known of one robot."""
@@ -52,11 +53,11 @@ def robot_state(
         "blockers": _reasons(decision.blockers),
         "warnings": _reasons(decision.warnings),
         "links": [_link(robot, port, link, now_s) for port, link in robot.links.items()],
-        "position": _position(robot, now_s),
-        "heading": _heading(robot, origin, now_s),
+        "position": _position(robot, frame, now_s),
+        "heading": _heading(robot, frame, now_s),
         "ranges": _ranges(robot, now_s),
         "battery": _battery(robot),
-        "waypoints": [_waypoint(goal, origin) for goal in goals],
+        "waypoints": [_waypoint(goal, frame) for goal in goals],
         "navigates": decision.navigates,
     }
 
@@ -112,30 +113,31 @@ def _link(robot: Robot, port: str, link: PortLink, now_s: float) -> WardenLink:
     }
 
 
-def _position(robot: Robot, now_s: float) -> Position | None:
+def _position(robot: Robot, frame: LocalFrame, now_s: float) -> Position | None:
     plan, values, age_s = _read(robot, Quantity.POSITION, now_s)
     if plan is None or not all(map(_is_number, values)):
         return None
-    x_m, y_m = cast("Point", robot.position_m(plan.port))
+    x_m, y_m = values
+    latitude_deg, longitude_deg = place_deg(frame, x_m, y_m) or (None, None)
     return {
         "port": plan.port,
         "x_m": x_m,
         "y_m": y_m,
-        "latitude_deg": values[0],
-        "longitude_deg": values[1],
+        "latitude_deg": latitude_deg,
+        "longitude_deg": longitude_deg,
         "uncertainty_m": plan.noise,
         "age_s": age_s,
     }
 
 
-def _heading(robot: Robot, origin: Origin, now_s: float) -> Heading | None:
+def _heading(robot: Robot, frame: LocalFrame, now_s: float) -> Heading | None:
     plan, values, age_s = _read(robot, Quantity.HEADING, now_s)
     if plan is None or not all(map(_is_number, values)):
         return None
     return {
         "port": plan.port,
-        "magnetic_deg": values[0],
-        "world_deg": world_heading_deg(origin, values[0]),
+        "magnetic_deg": bearing_deg(frame, values[0]),
+        "world_deg": math.degrees(values[0]) % FULL_TURN_DEG,
         "age_s": age_s,
     }
 
@@ -169,9 +171,9 @@ def _battery(robot: Robot) -> Battery | None:
     return None if used is None else {"share": 1.0 - used, "is_estimated": True}
 
 
-def _waypoint(goal: Mapping[str, Any], origin: Origin) -> Waypoint:
+def _waypoint(goal: Mapping[str, Any], frame: LocalFrame) -> Waypoint:
     x_m, y_m = goal["at_m"]
-    latitude_deg, longitude_deg = geographic_of(origin, x_m, y_m)
+    latitude_deg, longitude_deg = place_deg(frame, x_m, y_m) or (None, None)
     return {
         "goal": goal["goal"],
         "x_m": x_m,

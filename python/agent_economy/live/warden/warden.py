@@ -8,6 +8,7 @@ from typing import Any
 from agent_economy.live import rules
 from agent_economy.live.channel import BEAT_S, Message
 from agent_economy.live.clock import now_s
+from agent_economy.live.frame import frame_of
 from agent_economy.live.locks import AddressLocks
 from agent_economy.live.plan import FleetPlan, Point, plan_of
 from agent_economy.live.readings import Motion
@@ -94,7 +95,7 @@ class Warden:
             locks: The locks of each robot, which the caller closes.
         """
         share = Share.of(sum(len(robot.ports) for robot in plan.robots))
-        context = DriveContext(plan.origin, self._stamp_s, self._line, share)
+        context = DriveContext(frame_of(plan.origin), self._stamp_s, self._loop.send, share)
         for each in plan.robots:
             self.robots[each.name] = Robot(each, context, (locks or {}).get(each.name))
         async with asyncio.TaskGroup() as tasks:
@@ -242,11 +243,6 @@ class Warden:
         """Return the time of a line read now: after a gap, the time from which on it can be."""
         now = now_s()
         return self._turned_s if now - self._turned_s > LATE_S else now
-
-    def _line(self, robot: str, port: str, line: bytes, at_s: float, written: bool) -> None:  # noqa: FBT001
-        kind = "written" if written else "line"
-        text = line.decode("latin-1")
-        self._loop.send({"type": kind, "robot": robot, "port": port, "t": at_s, "line": text})
 
     def _message(self, message: Mapping[str, Any]) -> None:
         now = now_s()

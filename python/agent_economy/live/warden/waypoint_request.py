@@ -4,12 +4,13 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from math import isfinite
 
+from agent_economy._core import LocalFrame
 from agent_economy.live.clock import now_s
+from agent_economy.live.frame import frame_of, position_m
 from agent_economy.live.legs import Walls, exit_of, is_within
-from agent_economy.live.plan import FleetPlan, Origin, Point, RobotPlan
+from agent_economy.live.plan import FleetPlan, Point, RobotPlan
 from agent_economy.live.readings import Quantity
 from agent_economy.live.warden import effects
-from agent_economy.live.warden.geometry import world_of
 from agent_economy.live.warden.mission import COMPLETE, IMPOSSIBLE
 from agent_economy.live.warden.request_body import Body, number
 from agent_economy.live.warden.robot import Robot
@@ -27,7 +28,7 @@ class WaypointOrders:
 
     def __init__(self, warden: Warden, plan: FleetPlan) -> None:
         """Create it for a drive."""
-        self._warden, self._plan = warden, plan
+        self._warden, self._plan, self._frame = warden, plan, frame_of(plan.origin)
         self._walls = Walls(plan.walls or ())
         self._sent: dict[str, list[Point]] = {robot.name: [] for robot in plan.robots}
 
@@ -40,7 +41,7 @@ class WaypointOrders:
         if not robot.takes_orders:
             message = f"the brain of {robot.name} takes no orders: it has no behaviour correct"
             raise ValueError(message)
-        point = _point(body, self._plan.origin)
+        point = _point(body, self._frame)
         self._check_place(robot, point)
         self._check_count(robot.name)
         notes = list(self._check_way(robot, point))
@@ -117,15 +118,16 @@ class WaypointOrders:
                 x_m, y_m = goal["at_m"]
                 return float(x_m), float(y_m)
         robot = self._warden.robots.get(name)
-        return None if robot is None else _position_m(robot)
+        return None if robot is None else _newest_m(robot)
 
 
-def _position_m(robot: Robot) -> Point | None:
+def _newest_m(robot: Robot) -> Point | None:
     """Return the newest position of a robot; None if it has none that is fresh."""
     for plan in robot.plan.inputs:
         if plan.quantity is Quantity.POSITION and plan.port in robot.readings:
-            is_fresh = now_s() - robot.readings[plan.port][1] <= plan.max_age_s
-            x_m, y_m = robot.position_m(plan.port)
+            reading, at_s = robot.readings[plan.port]
+            is_fresh = now_s() - at_s <= plan.max_age_s
+            x_m, y_m = reading.values
             if is_fresh and x_m is not None and y_m is not None and isfinite(x_m + y_m):
                 return x_m, y_m
     return None
@@ -135,7 +137,7 @@ def _shown(point: Point) -> str:
     return f"[{point[0]:.2f}, {point[1]:.2f}]"
 
 
-def _point(body: Body, origin: Origin) -> Point:
+def _point(body: Body, frame: LocalFrame) -> Point:
     """Return the place of a waypoint in the world."""
     if "point_m" in body:
         if "latitude" in body or "longitude" in body:
@@ -150,7 +152,7 @@ def _point(body: Body, origin: Origin) -> Point:
         partial(_degrees, body, key, letters)
         for key, letters in (("latitude", "NS"), ("longitude", "EW"))
     )
-    return world_of(origin, *_pair(latitude, longitude))
+    return position_m(frame, *_pair(latitude, longitude))
 
 
 def _pair(*reads: Callable[[], float]) -> Point:

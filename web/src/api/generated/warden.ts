@@ -46,13 +46,13 @@ export type Mode = "auto" | "manual";
 /** Whether the client of the request is the operator, or another one is. */
 export type Operator = "you" | "other";
 
-/** The newest position. */
+/** The newest position. Latitude and longitude are null far from the world. */
 export interface Position {
   port: string;
   x_m: number;
   y_m: number;
-  latitude_deg: number;
-  longitude_deg: number;
+  latitude_deg: number | null;
+  longitude_deg: number | null;
   uncertainty_m: number;
   age_s: number;
 }
@@ -165,13 +165,13 @@ export interface WardenState {
   events: WardenEvent[];
 }
 
-/** A waypoint or a goal of a robot. */
+/** A waypoint or a goal of a robot. Latitude and longitude are null far from the world. */
 export interface Waypoint {
   goal: string;
   x_m: number;
   y_m: number;
-  latitude_deg: number;
-  longitude_deg: number;
+  latitude_deg: number | null;
+  longitude_deg: number | null;
   verdict: string;
   served_by: string | null;
   /** Why it is not served, in words; null if it is, or may still be. */

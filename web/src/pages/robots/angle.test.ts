@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { parseAngle, writeAngle } from "./angle";
+import { parseAngle, writeAngle, writePlace } from "./angle";
 
 describe("degrees and minutes", () => {
   test("are read with their hemisphere, which is never assumed", () => {
@@ -30,5 +30,13 @@ describe("degrees and minutes", () => {
   test("are written without 60 minutes", () => {
     expect(writeAngle("latitude", 36.595267)).toBe("36° 35.7160′ N");
     expect(writeAngle("longitude", -121.99999999)).toBe("122° 0.0000′ W");
+  });
+
+  test("of a place too far from the map are replaced by its coordinates", () => {
+    const place = { x_m: 0, y_m: 1, latitude_deg: 36.595267, longitude_deg: -121.5 };
+    expect(writePlace(place)).toBe("36° 35.7160′ N, 121° 30.0000′ W");
+    expect(writePlace({ ...place, x_m: 9e6, latitude_deg: null, longitude_deg: null })).toBe(
+      "(9000000.0, 1.0 m on the map)",
+    );
   });
 });

@@ -22,6 +22,25 @@ export function parseAngle(axis: Axis, degrees: string, minutes: string, hemisph
   return { angle: { degrees: Number(degrees), minutes: Number(minutes), hemisphere } };
 }
 
+/** Where something is. */
+interface Place {
+  x_m: number;
+  y_m: number;
+  latitude_deg: number | null;
+  longitude_deg: number | null;
+}
+
+/** Latitude and longitude of a place; its coordinates on the map if it is too far from it to have any. */
+export function writePlace({ x_m, y_m, latitude_deg, longitude_deg }: Place): string {
+  if (latitude_deg === null || longitude_deg === null) return writePoint(x_m, y_m);
+  return `${writeAngle("latitude", latitude_deg)}, ${writeAngle("longitude", longitude_deg)}`;
+}
+
+/** Coordinates on the map. */
+export function writePoint(x_m: number, y_m: number): string {
+  return `(${x_m.toFixed(1)}, ${y_m.toFixed(1)} m on the map)`;
+}
+
 /** Degrees, minutes and hemisphere of an angle, such as 36° 35.7160′ N. */
 export function writeAngle(axis: Axis, value_deg: number): string {
   const hemisphere = hemispheres[axis][value_deg < 0 ? 1 : 0];

@@ -28,6 +28,8 @@ test("a doubted value is shown in the terms of the operator", () => {
     "36° 35.7241′ N, 121° 52.4921′ W (12.0, 15.0 m on the map)",
     "2.2 m, no echo, unknown",
   ]);
+  const far = { ...robot.position!, latitude_deg: null, longitude_deg: null, x_m: 9e6 };
+  expect(values({ ...robot, position: far })[1]).toBe("(9000000.0, 15.0 m on the map)");
   const heading = { port: "compass", magnetic_deg: 359.97, world_deg: 0, age_s: 0.1 };
   expect(values({ ...robot, heading })[0]).toBe("0.0 degrees magnetic");
 });

@@ -1,5 +1,5 @@
 import type { Position, WardenRobot } from "../../api/warden";
-import { writeAngle } from "./angle";
+import { writeAngle, writePoint } from "./angle";
 import { ageOf, isOld } from "./words";
 
 /** An input whose value is doubted. */
@@ -40,8 +40,10 @@ function headingOf(magnetic_deg: number): string {
 }
 
 function coordinatesOf({ latitude_deg, longitude_deg, x_m, y_m }: Position): string {
+  const point = unbroken(writePoint(x_m, y_m));
+  if (latitude_deg === null || longitude_deg === null) return point;
   const angles = [writeAngle("latitude", latitude_deg), writeAngle("longitude", longitude_deg)].map(unbroken);
-  return `${angles.join(", ")} ${unbroken(`(${x_m.toFixed(1)}, ${y_m.toFixed(1)} m on the map)`)}`;
+  return `${angles.join(", ")} ${point}`;
 }
 
 function rangeOf(value_m: number | null, isKnown: boolean): string {

@@ -28,6 +28,7 @@ fn at(x: f64, y: f64, course_rad: f64) -> Neighbour {
         bearing_rad: y.atan2(x),
         course_rad: Some(course_rad),
         age_s: 0.0,
+        uncertainty_m: 0.0,
         id: AgentId::default(),
     }
 }
@@ -232,7 +233,7 @@ prop_compose! {
         range_m in any_number(), bearing_rad in any_number(), age_s in any_number(),
         course_rad in prop::option::of(any_number()), index: u32,
     ) -> Neighbour {
-        Neighbour { range_m, bearing_rad, course_rad, age_s, id: AgentId::robot(0, index) }
+        Neighbour { range_m, bearing_rad, course_rad, age_s, uncertainty_m: 0.0, id: AgentId::robot(0, index) }
     }
 }
 

@@ -66,6 +66,7 @@ impl TestRobot {
                 range_m: way.length(),
                 bearing_rad: wrapped(libm::atan2(way.y, way.x) - self.heading_rad),
                 age_s: 0.0,
+                uncertainty_m: 0.0,
                 id: AgentId::robot(*kind, u32::try_from(number).unwrap()),
             }
         });

@@ -148,18 +148,21 @@ impl Others {
         } else {
             EXACT_GAIN
         };
+        let radius_m = other.map_or(body.radius_m, |other| other.radius_m);
+        let radius_m = radius_m + neighbour.uncertainty_m;
         let known = self.movers.iter_mut();
         if let Some(mover) = known
             .into_iter()
             .find(|mover| mover.id == Some(neighbour.id))
         {
             mover.correct((at, body.neighbour_noise_m), neighbour.age_s, gain);
+            mover.radius_m = radius_m;
             return;
         }
         let mut mover = Mover {
             id: Some(neighbour.id),
             at,
-            radius_m: other.map_or(body.radius_m, |other| other.radius_m),
+            radius_m,
             braking_m_s2: other.map_or(body.max_acceleration_m_s2, |other| {
                 other.max_acceleration_m_s2
             }),
@@ -231,7 +234,8 @@ fn is_on(mover: &Mover, at: Point) -> bool {
 fn is_valid(neighbour: &Neighbour) -> bool {
     let is_range = (0.0..=1e6).contains(&neighbour.range_m);
     let is_angle = neighbour.bearing_rad.abs() <= 10.0;
-    is_range && is_angle && (0.0..=MAX_AGE_S).contains(&neighbour.age_s)
+    let is_uncertainty = (0.0..=1e6).contains(&neighbour.uncertainty_m);
+    is_range && is_angle && is_uncertainty && (0.0..=MAX_AGE_S).contains(&neighbour.age_s)
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use super::ground::rectangle;
 use crate::bodies::RobotSpec;
 use crate::scenario::spec::ScenarioSpec;
-use crate::sensors::Measures;
+use crate::sensors::KINDS;
+use crate::sensors::sensor_kind::Provides;
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::{Point, Rectangle};
@@ -33,22 +34,20 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
 
 /// Behaviours that need sensors or a radio that the robot does not have.
 fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
-    let has = |is_it: fn(&Measures) -> bool| {
+    let has = |what: Provides| {
         let mut sensors = robot.sensors.values();
-        sensors.any(|sensor| is_it(&sensor.measures))
+        sensors.any(|sensor| sensor.provides(what))
     };
-    let has_position = has(|measures| matches!(measures, Measures::Position(_)));
-    let has_heading = has(|measures| matches!(measures, Measures::Heading(_)));
-    let has_robots = has(|measures| matches!(measures, Measures::Robots(_)));
-    let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
     let mut errors = Vec::new();
     for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
         let at = at.key("brain").key("behaviours").item(number);
         let name = behaviour.name();
-        let mut needs = |is_needed: bool, has: bool, what: &str| {
-            if is_needed && !has {
+        let mut needs = |is_needed: bool, what: Provides| {
+            let example = KINDS.iter().find(|kind| kind.provides(what));
+            if let Some(kind) = example.filter(|_| is_needed && !has(what)) {
                 errors.push(at.key("kind").error(format!(
-                    "a behaviour whose sensors the robot has: {name} needs, for example, {what} under its sensors"
+                    "a behaviour whose sensors the robot has: {name} needs, for example, {} under its sensors",
+                    kind.example
                 )));
             }
         };
@@ -57,21 +56,15 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
             BehaviourSpec::Follow(_) => robot.radio.is_none(),
             _ => false,
         };
-        needs(
-            needs_robots,
-            has_robots,
-            "eye = { kind = \"robots\", range_m = 10 }",
-        );
-        let needs_pose = behaviour.needs_pose();
-        needs(needs_pose, has_position, "gps = { kind = \"position\" }");
-        needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
-        let eye = "eye = { kind = \"items\", range_m = 3 }";
+        needs(needs_robots, Provides::Robots);
+        needs(behaviour.needs_pose(), Provides::Position);
+        needs(behaviour.needs_pose(), Provides::Heading);
         let needs_width = match behaviour {
             BehaviourSpec::Lawnmower(lanes) => lanes.width_m.is_none(),
             BehaviourSpec::Spiral(spiral) => spiral.width_m.is_none(),
             _ => false,
         };
-        needs(behaviour.needs_detector() || needs_width, has_detector, eye);
+        needs(behaviour.needs_detector() || needs_width, Provides::Items);
         if let BehaviourSpec::Navigate(navigate) = behaviour
             && navigate.is_shared_by_team()
             && robot.radio.is_none()

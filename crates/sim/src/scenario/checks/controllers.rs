@@ -4,7 +4,7 @@ use crate::controllers::ControllerSpec;
 use crate::goals::GoalSpec;
 use crate::radio::RadioSpec;
 use crate::scenario::spec::ScenarioSpec;
-use crate::sensors::Measures;
+use crate::sensors::KINDS;
 use base::document::Place;
 use base::error::{InputError, Problem};
 
@@ -60,8 +60,10 @@ fn of_sensors(kind: &ControllerSpec, at: &Place) -> Vec<InputError> {
     }
     for (name, sensor) in &kind.sensors {
         let at = at.key("sensors").key(name);
-        if !matches!(sensor.measures, Measures::Robots(_)) {
-            let allowed = "\"robots\": controllers have no other sensors";
+        if !sensor.measures.facts().is_for_controllers {
+            let kinds = KINDS.iter().filter(|kind| kind.is_for_controllers);
+            let kinds: Vec<String> = kinds.map(|kind| format!("{:?}", kind.name)).collect();
+            let allowed = format!("{}: controllers have no other sensors", kinds.join(" or "));
             errors.push(at.key("kind").error(allowed));
         }
         if sensor.latency_s > 0.0 {

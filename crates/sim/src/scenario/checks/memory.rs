@@ -5,13 +5,12 @@ use crate::bodies::RobotSpec;
 use crate::controllers::ControllerSpec;
 use crate::radio::RadioSpec;
 use crate::scenario::spec::ScenarioSpec;
-use crate::sensors::items::ItemsSpec;
+use crate::sensors::SensorSpec;
 use crate::sensors::memory::{
     CONTACT_BYTES, MAX_PENDING, MEASUREMENT_BYTES, MESSAGE_BYTES, NEIGHBOUR_BYTES,
     OBSERVATION_BYTES, SENT_BYTES,
 };
-use crate::sensors::sector::Sector;
-use crate::sensors::{Measures, SensorSpec};
+use crate::sensors::sensor_kind::Vicinity;
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::Rectangle;
@@ -143,20 +142,30 @@ fn bytes_of_sensor(sensor: &SensorSpec, rate_hz: Option<f64>, spec: &ScenarioSpe
         per_brain_step: period_s(rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
         is_immediate: sensor.latency_s == 0.0 && rate_hz.is_none(),
     };
-    match &sensor.measures {
-        Measures::Range(range) => counts.bytes_kept(f64::from(range.rays), sensor),
-        Measures::Position(_) => counts.bytes_kept(2.0, sensor),
-        Measures::Heading(_) => counts.bytes_kept(1.0, sensor),
-        Measures::Items(items) => {
-            let per_measurement =
-                contacts_per_measurement(items, period_s(sensor.rate_hz, step_s), spec);
-            counts.waiting(per_measurement) * size(CONTACT_BYTES)
-                + counts.waiting(1.0) * size(OBSERVATION_BYTES)
-        }
-        Measures::Robots(robots) => {
-            let per_measurement = robots_within(robots.sector.range_m, spec, |_| true);
-            counts.waiting(per_measurement) * size(NEIGHBOUR_BYTES)
-        }
+    let amounts = sensor
+        .measures
+        .amounts(period_s(sensor.rate_hz, step_s), &Around(spec));
+    if !sensor.measures.facts().detects {
+        return counts.bytes_kept(amounts.values, sensor);
+    }
+    counts.waiting(amounts.contacts) * size(CONTACT_BYTES)
+        + counts.waiting(amounts.observations) * size(OBSERVATION_BYTES)
+        + counts.waiting(amounts.neighbours) * size(NEIGHBOUR_BYTES)
+}
+
+/// What is to be expected anywhere in a scenario.
+struct Around<'s>(&'s ScenarioSpec);
+
+impl Vicinity for Around<'_> {
+    fn items_within(&self, area_m2: f64) -> impl Iterator<Item = (&str, f64)> {
+        self.0.items.iter().map(move |(name, kind)| {
+            let items = things_within(area_m2, kind.count, &kind.placement, self.0);
+            (name.as_str(), items)
+        })
+    }
+
+    fn robots_within(&self, range_m: f64) -> f64 {
+        robots_within(range_m, self.0, |_| true)
     }
 }
 
@@ -190,22 +199,6 @@ impl MeasurementCounts {
         // Entries that are too old are dropped once there are twice as many as the limit.
         late + (per_measurement * self.per_brain_step.max(1.0)).min(late + most() + per_measurement)
     }
-}
-
-/// Mean number of contacts per measurement: false alarms and items.
-fn contacts_per_measurement(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f64 {
-    let view_m2 = Sector::new(&sensor.sector).area_m2();
-    let contacts = spec.items.iter().map(|(name, kind)| {
-        let detection_probability = sensor.detection_probability.as_ref();
-        let is_known = detection_probability.is_none_or(|kinds| kinds.contains_key(name));
-        let items = if is_known {
-            things_within(view_m2, kind.count, &kind.placement, spec)
-        } else {
-            0.0
-        };
-        sensor.false_alarms_per_measurement(name, period_s) + items
-    });
-    contacts.sum()
 }
 
 /// Mean number of robots in range where they start; at most as many as have room beside each other.

@@ -4,12 +4,10 @@ mod brains;
 mod clearance;
 mod clock;
 mod controllers;
-mod detection;
 mod drive;
 mod end;
 mod goals;
 mod ground;
-mod identification;
 mod items;
 mod lane_outcomes;
 mod memory;
@@ -20,6 +18,7 @@ mod places;
 mod rates;
 mod reach;
 mod room;
+mod sensors;
 mod tools;
 
 use super::checked::Checked;
@@ -35,13 +34,12 @@ use std::collections::BTreeSet;
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 /// Checks of what the conversion for runs relies on.
-const CHECKS_OF_FORM: [Check; 9] = [
+const CHECKS_OF_FORM: [Check; 8] = [
     clock::errors,
     names::errors,
     rates::errors,
     drive::errors,
-    detection::errors,
-    identification::errors,
+    sensors::errors,
     items::errors,
     tools::errors,
     memory::errors,

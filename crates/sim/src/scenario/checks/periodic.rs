@@ -1,7 +1,6 @@
 //! Checks that a periodic world is large enough for what robots detect and touch.
 
 use crate::scenario::checked::Checked;
-use crate::sensors::Measures;
 use base::document::Place;
 use base::error::InputError;
 
@@ -25,7 +24,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         let at = at.key("robots").key(name);
         let sensors = robot.sensors.iter().filter_map(|(name, sensor)| {
             let at = at.key("sensors").key(name).key("range_m");
-            Some((range_m(&sensor.measures)?, at))
+            Some((sensor.measures.range_m()?, at))
         });
         let too_far = sensors.filter(|(range_m, _)| *range_m > max_m);
         errors.extend(too_far.map(|(_, at)| at.error(allowed(max_m))));
@@ -38,14 +37,5 @@ fn allowed(max_m: f64) -> String {
         format!("at most {max_m:.3}, somewhat less than half of a periodic world")
     } else {
         "none: the world is periodic and too small".to_owned()
-    }
-}
-
-fn range_m(measures: &Measures) -> Option<f64> {
-    match measures {
-        Measures::Range(range) => Some(range.range_m),
-        Measures::Items(items) => Some(items.sector.range_m),
-        Measures::Robots(robots) => Some(robots.sector.range_m),
-        Measures::Position(_) | Measures::Heading(_) => None,
     }
 }

@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::scenario::ScenarioSpec;
-use crate::sensors::Measures;
+use crate::sensors::sensor_kind::AmongKinds;
 use base::document::Document;
+use std::borrow::Cow;
 
 fn kinds() -> Vec<String> {
     ["clutter", "mine", "rock"].map(str::to_owned).to_vec()
@@ -20,10 +21,8 @@ fn sensor(lines: &str, believed: &str) -> ItemsSpec {
     );
     let read = ScenarioSpec::read(&Document::parse("t", &text).unwrap());
     let checked = read.unwrap_or_else(|errors| panic!("{errors}"));
-    match &checked.spec.robots["rover"].sensors["eye"].measures {
-        Measures::Items(items) => items.clone(),
-        _ => panic!("it detects items"),
-    }
+    let measures = &checked.spec.robots["rover"].sensors["eye"].measures;
+    ItemsSpec::of(measures).expect("it detects items").clone()
 }
 
 #[test]

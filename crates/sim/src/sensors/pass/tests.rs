@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::scenario::{Checked, ScenarioSpec};
-use crate::sensors::Measures;
+use crate::sensors::sensor_kind::AmongKinds;
 use crate::simulation::Simulation;
 use base::document::Document;
 use brain::{AgentId, Command, Motion};
@@ -34,9 +34,7 @@ fn scenario(eye: &str, [right_m, left_m]: [f64; 2]) -> Checked {
 
 fn pass(checked: &Checked) -> Pass {
     let sensor = &checked.spec.robots["rover"].sensors["eye"];
-    let Measures::Items(items) = &sensor.measures else {
-        panic!("not a detector of items");
-    };
+    let items = items_of(checked);
     let always = Detection::Constant(1.0);
     let detection = items.detection_probability.as_ref();
     let path = Path {
@@ -109,10 +107,8 @@ fn a_simulated_pass_detects_the_computed_shares() {
 }
 
 fn items_of(checked: &Checked) -> &ItemsSpec {
-    match &checked.spec.robots["rover"].sensors["eye"].measures {
-        Measures::Items(items) => items,
-        _ => panic!("not a detector of items"),
-    }
+    let measures = &checked.spec.robots["rover"].sensors["eye"].measures;
+    ItemsSpec::of(measures).expect("a detector of items")
 }
 
 #[test]

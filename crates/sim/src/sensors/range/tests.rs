@@ -49,7 +49,7 @@ fn measurements(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
             geometry: &geometry,
             is_clear: false,
         };
-        ring.measure(&frame, &mut buffers, &mut ranges_m);
+        ring.distances(&frame, &mut buffers, &mut ranges_m);
         ranges_m.clone()
     };
     (0..count).flat_map(measurement).collect()
@@ -231,7 +231,7 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
             is_clear: false,
         };
         let mut ranges_m = Vec::new();
-        ring.measure(&frame, &mut buffers, &mut ranges_m);
+        ring.distances(&frame, &mut buffers, &mut ranges_m);
         ranges_m.iter().position(|range_m| range_m.is_finite())
     };
     // The disc is to the left, ahead, behind, and to the right.

@@ -411,6 +411,7 @@ fn absurd_percepts_are_handled() {
                     course_rad: None,
                     bearing_rad: number(),
                     age_s: 0.0,
+                    uncertainty_m: 0.0,
                     id: id(9, 9),
                 }],
                 ..Percept::default()

@@ -52,4 +52,5 @@ mod sensors;
 mod state_hashes;
 mod streams;
 mod trade;
+mod virtual_sensors;
 mod waiting;

@@ -16,6 +16,7 @@ fn neighbour(id: AgentId, at: Point) -> Neighbour {
         range_m: at.length(),
         bearing_rad: libm::atan2(at.y, at.x),
         age_s: 0.0,
+        uncertainty_m: 0.0,
         id,
     }
 }

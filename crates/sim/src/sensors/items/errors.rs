@@ -1,42 +1,84 @@
-//! Checks of the items that detectors cannot detect, of what items look like to them, and of the kinds that they report:
-//! in truth, and as believed.
+//! Checks of item detectors: that they detect existing items, with valid probabilities; of the items that they cannot
+//! detect, of what items look like to them, and of the kinds that they report: in truth, and as believed.
 
-use super::names::{allowed, is_fine};
-use crate::scenario::spec::ScenarioSpec;
-use crate::sensors::Measures;
+use super::spec::ItemsSpec;
+use crate::poisson::MAX_MEAN;
 use crate::sensors::confusion::{ConfusionSpec, ROW_TOLERANCE};
 use crate::sensors::detection::Detection;
-use crate::sensors::items::ItemsSpec;
+use crate::sensors::sensor_kind::SensorContext;
 use base::document::Place;
 use base::error::InputError;
-use base::random::kind_key;
 use std::collections::BTreeMap;
 
-pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
-    let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
-    let mut models = BTreeMap::new();
+/// Maximum false alarm rate, so that a typing error is reported instead of simulated.
+const MAX_FALSE_ALARMS: f64 = 1000.0;
+
+pub(super) fn errors(items: &ItemsSpec, context: &SensorContext, at: &Place) -> Vec<InputError> {
+    let kinds: Vec<&str> = context.item_kinds.iter().map(String::as_str).collect();
+    let mut errors = of_detection(items, &kinds, at);
+    errors.extend(too_many(items, context.period_s, at));
+    errors.extend(of_identification(items, context.item_kinds, at));
+    errors
+}
+
+fn of_identification(items: &ItemsSpec, item_kinds: &[String], at: &Place) -> Vec<InputError> {
+    let kinds: Vec<&str> = item_kinds.iter().map(String::as_str).collect();
+    let fits = Fits::new(items, &kinds);
+    let mut errors = fits.blind_shares(&items.blind_share, at);
+    errors.extend(fits.lookalikes(&items.lookalike_share, at));
+    errors.extend(fits.confusion(&items.confusion, at));
+    if let Some(believed) = &items.believed {
+        let at = at.key("believed");
+        let fits = Fits::new(&items.as_believed(item_kinds.iter()), &kinds);
+        errors.extend(fits.blind_shares(&believed.blind_share, &at));
+        errors.extend(fits.lookalikes(&believed.lookalike_share, &at));
+        errors.extend(fits.confusion(&believed.confusion, &at));
+    }
+    errors
+}
+
+/// Unknown kinds, tables that are none, and rates out of range.
+fn of_detection(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
-    for (owner, robot) in &spec.robots {
-        let at = at.key("robots").key(owner).key("sensors");
-        for (name, sensor) in &robot.sensors {
-            if let Measures::Items(items) = &sensor.measures {
-                let at = at.key(name);
-                let fits = |items: &ItemsSpec| Fits::new(items, &kinds);
-                errors.extend(fits(items).blind_shares(&items.blind_share, &at));
-                errors.extend(fits(items).lookalikes(&items.lookalike_share, &at));
-                errors.extend(fits(items).confusion(&items.confusion, &at));
-                if let Some(believed) = &items.believed {
-                    let at = at.key("believed");
-                    let fits = fits(&items.as_believed(spec.items.keys()));
-                    errors.extend(fits.blind_shares(&believed.blind_share, &at));
-                    errors.extend(fits.lookalikes(&believed.lookalike_share, &at));
-                    errors.extend(fits.confusion(&believed.confusion, &at));
-                }
-                errors.extend(model(items, (owner, name), &mut models, &at));
-            }
+    let believed = items.believed.as_ref();
+    let tables = [
+        (at.clone(), items.detection_probability.as_ref()),
+        (
+            at.key("believed"),
+            believed.map(|each| &each.detection_probability),
+        ),
+    ];
+    for (at, table) in tables {
+        let at = at.key("detection_probability");
+        for (kind, detection) in table.into_iter().flatten() {
+            errors.extend(unknown(kind, kinds, &at));
+            errors.extend(detection.error(&at.key(kind)));
+        }
+    }
+    let alarms = at.key("false_alarm_rate_per_m2_s");
+    for (kind, rate) in &items.false_alarm_rate_per_m2_s {
+        errors.extend(unknown(kind, kinds, &alarms));
+        if !(0.0..=MAX_FALSE_ALARMS).contains(rate) {
+            let allowed = format!("a number from 0 to {MAX_FALSE_ALARMS}");
+            errors.push(alarms.key(kind).error(allowed));
         }
     }
     errors
+}
+
+/// More false alarms than one measurement can yield.
+fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
+    let rates = items.false_alarm_rate_per_m2_s.iter();
+    let rates = rates.filter(|(_, rate)| (0.0..=MAX_FALSE_ALARMS).contains(*rate));
+    let means = rates.map(|(kind, _)| (kind, items.false_alarms_per_measurement(kind, period_s)));
+    let errors = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
+        let allowed = format!(
+            "lower, so that a measurement has at most {MAX_MEAN} false alarms; in its whole range and \
+             {period_s} s it has {mean:.0}"
+        );
+        at.key("false_alarm_rate_per_m2_s").key(kind).error(allowed)
+    });
+    errors.collect()
 }
 
 /// What the tables of a sensor may name: the kinds of items, which of them it detects, and which look like other kinds.
@@ -138,24 +180,4 @@ fn unknown(kind: &str, kinds: &[&str], at: &Place) -> Option<InputError> {
 fn out_of_range(share: f64, at: &Place) -> Option<InputError> {
     let is_share = (0.0..=1.0).contains(&share);
     (!is_share).then(|| at.error("a number from 0 to 1"))
-}
-
-/// A bad name of a model, or one whose hash is that of another model.
-fn model(
-    items: &ItemsSpec,
-    (owner, name): (&str, &str),
-    models: &mut BTreeMap<u32, String>,
-    at: &Place,
-) -> Option<InputError> {
-    let at = at.key("model");
-    if items.model.as_ref().is_some_and(|model| !is_fine(model)) {
-        return Some(at.error(allowed()));
-    }
-    let model = items.model_name(owner, name);
-    let known = models.entry(kind_key(&model)).or_insert(model.clone());
-    (*known != model).then(|| {
-        at.error(format!(
-            "a different name: the hash that keys its random numbers equals that of {known}"
-        ))
-    })
 }

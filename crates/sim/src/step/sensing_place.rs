@@ -1,0 +1,54 @@
+//! The place from which the sensors of a robot measure.
+
+use super::view::View;
+use crate::bodies::Layer;
+use crate::scenario::Scenario;
+use crate::sensors::sensor_frame::NoisePurpose;
+use base::geometry::Point;
+use base::noise::normal_pair;
+use base::trig::sin_cos;
+use std::f64::consts::TAU;
+
+/// A body whose believed position is inside an obstacle is at the nearest free place, as far as this grid of
+/// rings around it has one: distance between rings, their number, and places on each.
+const RING_M: f64 = 0.05;
+const RINGS: u16 = 100;
+const PLACES: u16 = 32;
+
+impl View<'_> {
+    /// Where the sensors of a robot measure from: its position. Virtual sensors of an external body measure
+    /// from a place that differs from its believed position as the body itself may, but is not behind an
+    /// obstacle.
+    #[inline]
+    pub(super) fn sensing_place(&self, robot: usize) -> Point {
+        let at = self.discs[robot].centre;
+        let Some(external) = self.body_states[robot].external() else {
+            return at;
+        };
+        let kind = self.kind(robot);
+        let at = free_place(self.scenario, at, kind.layer);
+        let noise = self.noises[robot].words(NoisePurpose::Place as u32, self.tick, 0);
+        let [x, y] = normal_pair([noise[0], noise[1]]);
+        let error = Point { x, y }.times(external.uncertainty_m(kind.brain.body()));
+        let place = at.plus(error);
+        let is_free = self.scenario.is_free(place, 0.0, kind.layer);
+        let is_open = || self.scenario.hiding([kind.layer; 2]).is_open(at, place);
+        if is_free && is_open() { place } else { at }
+    }
+}
+
+/// The nearest place to this one that no obstacle covers; this one, if there is none near.
+fn free_place(scenario: &Scenario, at: Point, layer: Layer) -> Point {
+    if scenario.is_free(at, 0.0, layer) {
+        return at;
+    }
+    let on_ring = |ring: u16| {
+        (0..PLACES).map(move |place| {
+            let (y, x) = sin_cos(TAU * f64::from(place) / f64::from(PLACES));
+            at.plus(Point { x, y }.times(RING_M * f64::from(ring)))
+        })
+    };
+    let mut places = (1..=RINGS).flat_map(on_ring);
+    let free = places.find(|place| scenario.is_free(*place, 0.0, layer));
+    free.unwrap_or(at)
+}
