@@ -226,13 +226,73 @@ def test_sensors_that_the_driver_does_not_provide_are_errors(
     assert all(part in error for part in parts), error
 
 
-def test_a_detector_that_has_no_input_is_an_error(folder: Path) -> None:
-    camera = '[robots.crawler.sensors.camera]\nkind = "robots"\nrange_m = 5\n'
-    (error,) = errors(folder, FLEET, SCENARIO + camera)
-    assert error == (
-        'fleet.toml:3: robots."crawler/0".driver = "bender": must be a driver for the sensors of '
-        'robots.crawler in the scenario: bender has no input for camera (kind "robots")'
-    )
+CAMERA = '[robots.crawler.sensors.camera]\nkind = "robots"\nrange_m = 5\n'
+
+
+def test_a_detector_that_has_no_input_is_virtual_with_a_warning(folder: Path) -> None:
+    (folder / "crawlers.toml").write_text(SCENARIO + CAMERA)
+    loaded = load(folder, FLEET)
+    warning = next(str(each) for each in loaded.warnings if "camera" in str(each))
+    assert "camera is virtual, because bender has no input for it" in warning
+    assert loaded.plan.robots[0].sensors["camera"] == "virtual"
+    stated = FLEET + '[robots."crawler/0".sensors]\ncamera = "virtual"\n'
+    loaded = load(folder, stated)
+    named = [str(each) for each in loaded.warnings if "camera" in str(each)]
+    assert not [each for each in named if "crawler/0" in each]
+
+
+def test_all_sources_that_sensors_cannot_have_are_errors(folder: Path) -> None:
+    second = '[robots.crawler.sensors.second]\nkind = "position"\n'
+    sources = {
+        "camera": "real",
+        "compass": "both",
+        "gps": "real",
+        "second": "real",
+        "sonra": "virtual",
+    }
+    lines = "\n".join(f'{name} = "{source}"' for name, source in sources.items())
+    text = f'{FLEET}[robots."crawler/0".sensors]\n{lines}\n'
+    found = errors(folder, text, SCENARIO + CAMERA + second)
+    found = [error for error in found if '"crawler/0".sensors' in error]
+    at = 1 + text.splitlines().index('camera = "real"')
+    starts = [
+        f'fleet.toml:{at + row}: robots."crawler/0".sensors.{name}'
+        for row, name in enumerate(sources)
+    ]
+    assert [error.startswith(start) for error, start in zip(found, starts, strict=True)] == [
+        True
+    ] * 5
+    for error, allowed in zip(
+        found,
+        (
+            '"virtual": the driver bender has no input for it, only for sensors of kind "heading"',
+            '"real": a real and a virtual heading cannot be merged',
+            '"virtual" for all but one of gps and second: the driver bender measures one position',
+            '"virtual" for all but one of gps and second: the driver bender measures one position',
+            "a sensor of robots.crawler in the scenario",
+        ),
+        strict=True,
+    ):
+        assert allowed in error
+
+
+def test_a_virtual_position_needs_a_real_one(folder: Path) -> None:
+    virtual = FLEET + '[robots."crawler/0".sensors]\ngps = "virtual"\n'
+    (error,) = errors(folder, virtual)
+    assert "virtual sensors measure from the position that a real one states" in error
+    second = '[robots.crawler.sensors.second]\nkind = "position"\n'
+    (folder / "crawlers.toml").write_text(SCENARIO + second)
+    names = ("crawler/0", "crawler/1", "crawler/2")
+    stated = "".join(f'[robots."{name}".sensors]\nsecond = "virtual"\n' for name in names)
+    loaded = load(folder, FLEET + stated)
+    assert loaded.plan.robots[0].sensors["second"] == "virtual"
+
+
+def test_two_real_sensors_of_one_quantity_are_an_error(folder: Path) -> None:
+    second = '[robots.crawler.sensors.second]\nkind = "position"\n'
+    (error,) = errors(folder, FLEET, SCENARIO + second)
+    assert 'needs one sensor of kind "position", and the kind has gps and second' in error
+    assert 'set the others to "virtual" under sensors' in error
 
 
 def test_all_sensors_of_a_bundled_model_are_named(folder: Path) -> None:
@@ -241,7 +301,7 @@ def test_all_sensors_of_a_bundled_model_are_named(folder: Path) -> None:
     assert [each for each in found if "fleet.toml:3" in each] == [
         'fleet.toml:3: robots."rover/0".driver = "bender": must be a driver for the sensors of '
         'robots.rover in the scenario: bender needs 6 sensors of kind "range" with rays = 1, and '
-        'the kind has lidar (rays = 55); it has no input for camera (kind "items")'
+        "the kind has lidar (rays = 55)"
     ]
 
 

@@ -28,7 +28,7 @@ from agent_economy.live.warden.sentences import sentence
 from agent_economy.runs.simulation import Simulation
 
 START_S = 1000.0
-SONARS = 6
+SONARS = range(6)
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_the_time_of_a_percept_is_that_since_the_start_and_ages_agree_with_it(
     assert percept["time_s"] == 2.0
     ages = {key: percept[key]["age_s"] for key in ("heading_rad", "position")}
     assert ages == {"heading_rad": 1.0, "position": 0.5}
-    assert [scan["age_s"] for scan in percept["scans"]] == [0.25] * SONARS
+    assert [scan["age_s"] for scan in percept["scans"]] == [0.25] * len(SONARS)
     assert percept["scans"][0]["ranges_m"] == [pytest.approx(0.9144)]
     assert percept["scans"][1]["ranges_m"] == [None]  # nothing seen
     assert percept["position"]["value"] == pytest.approx([0.0, 0.0], abs=0.1)
@@ -84,7 +84,7 @@ def test_a_compass_bearing_becomes_a_heading_of_the_world(plan: FleetPlan) -> No
 def test_what_has_never_been_measured_is_missing(plan: FleetPlan) -> None:
     percept: Any = percepts(plan).percept(0, START_S, SONARS)
     assert not {"position", "heading_rad", "battery"} & percept.keys()
-    assert [scan["age_s"] for scan in percept["scans"]] == [None] * SONARS
+    assert [scan["age_s"] for scan in percept["scans"]] == [None] * len(SONARS)
 
 
 def test_the_newest_line_of_a_port_counts(plan: FleetPlan) -> None:

@@ -45,7 +45,9 @@ from agent_economy import Scenario, Simulation
 start = json.loads(sys.stdin.readline())
 given = start["scenario"]
 scenario = Scenario.loads(given["text"], given["file"])
-simulation = Simulation(scenario, seed=start["seed"], external=start["external"])
+from agent_economy.runs.external import external_body
+bodies = {name: external_body(values) for name, values in start["external"].items()}
+simulation = Simulation(scenario, seed=start["seed"], external=bodies)
 simulation.hash_decisions()
 out = open(sys.argv[1] + f"/{os.getpid()}.jsonl", "w", buffering=1)
 print(json.dumps(start), file=out)
@@ -55,7 +57,7 @@ print(json.dumps({"type": "ready", "url": url}), flush=True)
 for line in sys.stdin:
     message = json.loads(line)
     assert message["tick"] == simulation.tick, (message["tick"], simulation.tick)
-    simulation.step(percepts=message["inputs"])
+    simulation.step(**message["inputs"])
     print(json.dumps([message["tick"], simulation.decision_hash]), file=out)
 """
 

@@ -15,6 +15,7 @@ mod engines;
 mod error;
 mod events;
 mod external;
+mod external_view;
 mod frame;
 mod geodesy;
 mod inspect;
@@ -60,6 +61,8 @@ mod _core {
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]
     use crate::events::EventReader;
+    #[pymodule_export]
+    use crate::external_view::{external_views, sensor_kinds};
     #[pymodule_export]
     use crate::frame::frame;
     #[pymodule_export]

@@ -2,11 +2,14 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 from agent_economy.live.readings import Quantity
 
 Point = tuple[float, float]
+
+ReadingSource = Literal["real", "virtual", "both"]
+"""Where the readings of a sensor come from: the robot, the scenario, or both."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,10 @@ class RobotPlan:
         repeat_s: Time between two motor lines of the same motion.
         takes_orders: Whether its brain visits waypoints that an operator orders.
         radius_m: Radius of its body; None if it flies over walls.
+        sensors: Where the readings of each of its sensors come from, by name: `real`, `virtual` or
+            `both`. Those that are missing are real, as all of older recordings.
+        scans: For each ring of rays of its body, the number of the sonar whose range is its scan;
+            None for a ring that is virtual only. In older recordings, there is a sonar for each.
     """
 
     name: str
@@ -92,6 +99,8 @@ class RobotPlan:
     repeat_s: float = 0.2
     takes_orders: bool = True
     radius_m: float | None = None
+    sensors: Mapping[str, ReadingSource] = field(default_factory=dict)
+    scans: tuple[int | None, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -146,7 +155,9 @@ def _robot(values: Mapping[str, Any]) -> RobotPlan:
     inputs = tuple(_input(each) for each in values["inputs"])
     fence = values.get("fence_m")
     fence_m = fence and _points(fence)
-    return RobotPlan(**{**values, "inputs": inputs, "fence_m": fence_m})
+    scans = values.get("scans")
+    scans = None if scans is None else tuple(scans)
+    return RobotPlan(**{**values, "inputs": inputs, "fence_m": fence_m, "scans": scans})
 
 
 def _input(values: Mapping[str, Any]) -> InputPlan:

@@ -131,9 +131,8 @@ class Drive:
         run = Entries(f"metadata {LIVE!r}", self.values)
         try:
             plan = plan_of(run.json("plan"))
-            names = [robot.name for robot in plan.robots]
             simulation = Simulation(
-                replayed.scenario, seed=replayed.seed, run=replayed.run, external=names
+                replayed.scenario, seed=replayed.seed, run=replayed.run, external=replayed.external
             )
             team = Team(
                 plan,

@@ -14,6 +14,8 @@ from agent_economy.runs.simulation import Simulation
 INPUT = "/input"
 """The topic of the percepts that the run took."""
 
+NO_INPUTS: Mapping[str, Any] = {"percepts": {}, "observed": {}}
+
 Messages = Sequence[tuple[str, dict[str, Any]]]
 """Messages of a recording with their topics, in the order in which the loop took them."""
 
@@ -39,7 +41,7 @@ class Verification:
         self._team, self._simulation, self._messages = team, simulation, messages
         self._lines = LineReadings(plan)
         self._has_readings = any(topic.startswith(READINGS) for topic, _ in messages)
-        self._percepts = {m["tick"]: m["percepts"] for topic, m in messages if topic == INPUT}
+        self._inputs = {m["tick"]: _given(m) for topic, m in messages if topic == INPUT}
         self._motions = {m["tick"]: m["motions"] for topic, m in messages if topic == SETPOINTS}
 
     def run(self, steps: int) -> Mismatch | None:
@@ -60,9 +62,12 @@ class Verification:
     def _step(self, tick: int, now_s: float) -> str:
         """Take a step; return what differs, in words."""
         percepts = self._team.percepts(tick, now_s)
-        motions = self._team.motions(self._simulation.step(percepts=percepts))
+        observed = self._team.observed(tick, now_s) if self._has_readings else {}
+        commands = self._simulation.step(percepts=percepts, observed=observed)
+        motions = self._team.motions(commands)
+        given = strict({"percepts": percepts, "observed": observed})
         differ = {
-            "percepts": strict(percepts) != self._percepts.get(tick, {}),
+            "percepts": given != self._inputs.get(tick, NO_INPUTS),
             "setpoints": strict(motions) != self._motions.get(tick),
         }
         return " and ".join(what for what, differs in differ.items() if differs)
@@ -81,3 +86,8 @@ class Verification:
         elif topic not in (INPUT, SETPOINTS):
             self._team.add(message)
         return ""
+
+
+def _given(message: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the recorded percepts; older recordings have none of robots that only stood."""
+    return {"percepts": message["percepts"], "observed": message.get("observed", {})}

@@ -21,6 +21,7 @@ import uvicorn
 from agent_economy import _core
 from agent_economy.live.channel import Decoder
 from agent_economy.recording.stops import Stop
+from agent_economy.runs.external import external_body
 from agent_economy.scenario import Scenario, Source
 from agent_economy.server.app import app
 from agent_economy.server.runs.live_run import LiveRun
@@ -36,7 +37,8 @@ def main() -> None:
     received = messages()
     start = next(received)
     scenario = scenario_of(start["scenario"])
-    live = LiveRun(scenario, start["seed"], start["external"])
+    external = {name: external_body(values) for name, values in start["external"].items()}
+    live = LiveRun(scenario, start["seed"], external)
     listening = socket.socket(fileno=start["listening"])
     # Of all programs, only this server may have it from here on.
     listening.set_inheritable(False)
@@ -67,7 +69,7 @@ def receive(received: Iterable[Mapping[str, Any]], live: LiveRun, server: uvicor
                 Stop(tick, robot, action, tuple(reasons))
                 for tick, robot, action, reasons in message["stops"]
             ]
-            live.append(message["tick"], {"percepts": message["inputs"]}, stops)
+            live.append(message["tick"], message["inputs"], stops)
     finally:
         live.end()
         server.should_exit = True
@@ -94,20 +96,26 @@ def drive_of(start: Mapping[str, Any], scenario: Scenario) -> Drive:
         "robots": {
             name: {
                 "fence_m": fences_m.get(name),
-                "sonars": sonars_of(kinds[name.rpartition("/")[0]]),
+                "sonars": sonars_of(kinds[name.rpartition("/")[0]], start["scans"][name]),
             }
             for name in start["external"]
         },
     }
 
 
-def sonars_of(kind: Mapping[str, Any]) -> list[Sonar]:
-    """Return the range sensors of a kind of robots, in the order of their names."""
+def sonars_of(kind: Mapping[str, Any], scans: Iterable[int | None]) -> list[Sonar]:
+    """Return the range sensors of a robot that are sonars, in the order of their names.
+
+    Args:
+        kind: Its kind in the scenario.
+        scans: For each range sensor of the kind, the number of its sonar; None for a virtual one.
+    """
     sensors = sorted(kind.get("sensors", {}).items())
+    ranges = [sensor for _, sensor in sensors if sensor["kind"] == "range"]
     return [
         {"facing_deg": sensor.get("facing_deg", 0.0), "max_m": sensor["range_m"]}
-        for _, sensor in sensors
-        if sensor["kind"] == "range"
+        for sensor, sonar in zip(ranges, scans, strict=True)
+        if sonar is not None
     ]
 
 

@@ -160,6 +160,8 @@ class NeighbourColumns(TypedDict):
         course_rad: Its heading relative to the robot's front at the time of measurement, from
             -pi to pi; `None` if the sensor does not measure headings.
         age_s: Time since the measurement.
+        uncertainty_m: How far its centre may be from there, beyond the errors of the sensor, as
+            that of a real robot among simulated ones.
         id: Its id.
     """
 
@@ -167,6 +169,7 @@ class NeighbourColumns(TypedDict):
     bearing_rad: Floats
     course_rad: Floats
     age_s: Floats
+    uncertainty_m: Floats
     id: AgentIdColumns
 
 

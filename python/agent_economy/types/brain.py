@@ -1035,6 +1035,8 @@ class Neighbour(TypedDict):
         course_rad: Its heading relative to the robot's front at the time of measurement, from
             -pi to pi; `None` if the sensor does not measure headings.
         age_s: Time since the measurement.
+        uncertainty_m: How far its centre may be from there, beyond the errors of the sensor, as
+            that of a real robot among simulated ones.
         id: Its id.
     """
 
@@ -1042,6 +1044,7 @@ class Neighbour(TypedDict):
     bearing_rad: float
     course_rad: NotRequired[float | None]
     age_s: float
+    uncertainty_m: NotRequired[float]
     id: AgentId
 
 

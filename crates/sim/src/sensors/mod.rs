@@ -29,6 +29,7 @@ pub(crate) mod sensor_kind;
 
 pub(crate) use sensor::Sensor;
 pub use sensor::SensorSpec;
+pub use sensor_kind::KindFacts;
 
 use base::document::Place;
 use base::error::InputError;
@@ -39,9 +40,7 @@ use outline::Outline;
 use scene::Scene;
 use schemars::JsonSchema;
 use sensor_frame::SensorFrame;
-use sensor_kind::{
-    AmongKinds, Amounts, Instrument, KindFacts, SensorContext, SensorKind, Vicinity,
-};
+use sensor_kind::{AmongKinds, Amounts, Instrument, SensorContext, SensorKind, Vicinity};
 use serde::{Deserialize, Serialize};
 
 /// All kinds of sensors: purpose, variant, file and specification. The name of the file is that of
@@ -62,7 +61,7 @@ macro_rules! sensors {
         }
 
         /// All kinds, in the order of the list.
-        pub(crate) const KINDS: &[KindFacts] =
+        pub const KINDS: &[KindFacts] =
             &[$(KindFacts::of::<$file::$spec>(stringify!($file))),+];
 
         impl Measures {

@@ -113,17 +113,6 @@ impl Sensor {
         probability > 0.0 && share(frame.words(NoisePurpose::DropOut, 0)[0]) < probability
     }
 
-    /// Whether it can measure for a body that the simulation does not move: not what states where that body is.
-    pub(crate) fn can_be_virtual(&self) -> bool {
-        let of_pose = [Provides::Position, Provides::Heading];
-        !of_pose.iter().any(|what| self.facts.provides(*what))
-    }
-
-    /// Whether readings of a real one and of a virtual one are a reading: the nearer range, or all detections.
-    pub(crate) fn can_be_both(&self) -> bool {
-        self.facts.detects || self.facts.is_ring
-    }
-
     /// The range at which it provides something; 0 if it does not.
     pub(crate) fn reach_m(&self, what: Provides) -> f64 {
         let range_m = self.range_m.filter(|_| self.facts.provides(what));

@@ -134,14 +134,15 @@ pub(crate) struct Amounts {
 
 /// What is the same for all sensors of a kind.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct KindFacts {
+pub struct KindFacts {
     /// Its name in scenarios.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     pub(crate) provides: &'static [Provides],
     pub(crate) example: &'static str,
     pub(crate) is_for_controllers: bool,
     pub(crate) detects: bool,
-    pub(crate) is_ring: bool,
+    /// Whether it is a ring of rays.
+    pub is_ring: bool,
 }
 
 impl KindFacts {
@@ -158,6 +159,24 @@ impl KindFacts {
 
     pub(crate) fn provides(&self, what: Provides) -> bool {
         self.provides.contains(&what)
+    }
+
+    /// Whether it states where the robot is: virtual sensors measure from there.
+    #[must_use]
+    pub fn states_pose(&self) -> bool {
+        self.provides(Provides::Position) || self.provides(Provides::Heading)
+    }
+
+    /// Whether the readings of a real and of a virtual one make one reading: the nearer range of each ray, or
+    /// all detections.
+    #[must_use]
+    pub fn can_be_both(&self) -> bool {
+        self.detects || self.is_ring
+    }
+
+    /// Whether both state the same of the robot.
+    pub(crate) fn provides_same(&self, other: &Self) -> bool {
+        self.provides.iter().any(|what| other.provides(*what))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::bodies::external::{ExternalSpec, ReadingSource};
 use crate::scenario::Scenario;
-use crate::sensors::Sensor;
+use crate::sensors::{KindFacts, Sensor};
 use base::document::path_of;
 use base::error::InputError;
 use base::geometry::Point;
@@ -21,19 +21,23 @@ impl Scenario {
         let mut errors = Vec::new();
         for (name, source) in &spec.sensors {
             let at = path_of(&sensors_at, name);
-            match kind.sensors.iter().find(|sensor| sensor.name == *name) {
-                None => {
-                    let names = kind.sensors.iter().map(|sensor| sensor.name.as_str());
-                    let error = InputError::unknown_key(at, name, shown(*source), names);
-                    errors.push(error);
-                }
-                Some(sensor) => {
-                    let error = |allowed: &str| {
-                        InputError::new(at.clone(), Some(shown(*source)), allowed.to_owned())
-                    };
-                    errors.extend(allowed(sensor, *source).map(error));
-                }
-            }
+            let Some(sensor) = kind.sensors.iter().find(|sensor| sensor.name == *name) else {
+                let names = kind.sensors.iter().map(|sensor| sensor.name.as_str());
+                let error = InputError::unknown_key(at, name, shown(*source), names);
+                errors.push(error);
+                continue;
+            };
+            let others = kind.sensors.iter();
+            let others = others.filter(|other| other.facts.provides_same(sensor.facts));
+            let is_real = |other: &Sensor| {
+                let source = spec.sensors.get(&other.name);
+                source.is_none_or(|source| *source == ReadingSource::Real)
+            };
+            let has_real = { others }.any(is_real);
+            let allowed = allowed(sensor.facts, *source, has_real);
+            let error =
+                |allowed: &str| InputError::new(at, Some(shown(*source)), allowed.to_owned());
+            errors.extend(allowed.map(error));
         }
         let is_finite = |corner: &Point| corner.x.is_finite() && corner.y.is_finite();
         let corners = &spec.fence_m;
@@ -51,14 +55,16 @@ impl Scenario {
     }
 }
 
-/// What is allowed, if this source is not.
-fn allowed(sensor: &Sensor, source: ReadingSource) -> Option<&'static str> {
+/// What is allowed, if this source is not; `has_real` is whether the robot has a real sensor that states the same.
+fn allowed(facts: &KindFacts, source: ReadingSource, has_real: bool) -> Option<&'static str> {
     match source {
-        ReadingSource::Real => None,
-        _ if !sensor.can_be_virtual() => Some(
+        ReadingSource::Virtual if facts.states_pose() && !has_real => Some(
             "\"real\": virtual sensors measure from the position and heading that real ones state",
         ),
-        ReadingSource::Both if !sensor.can_be_both() => {
+        ReadingSource::Both if facts.states_pose() => {
+            Some("\"real\": positions and headings cannot be merged")
+        }
+        ReadingSource::Both if !facts.can_be_both() => {
             Some("\"real\" or \"virtual\": its readings cannot be merged")
         }
         _ => None,

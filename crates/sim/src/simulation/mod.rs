@@ -2,12 +2,14 @@
 
 mod collision_warnings;
 mod external_errors;
+mod external_view;
 mod footprints;
 mod hashes;
 mod inspect;
 mod links;
 mod probe;
 
+pub use external_view::{Detected, ExternalView};
 pub use footprints::{Footprint, Sensors};
 pub use inspect::Inspected;
 pub use links::Link;

@@ -76,7 +76,10 @@ class Bender:
         """
         robot = f"robots.{KIND}"
         every = (*SONARS, self.position, self.heading)
+        kinds = self.scenario.robots
         values = {
+            # Robots of other kinds are not in the real world: the drive simulates them.
+            **{f"robots.{kind}.count": 0 for kind in kinds},
             f"{robot}.count": robots,
             f"{robot}.brain.rate_hz": MAX_RATE_HZ,
             "clock.step_s": 1 / MAX_RATE_HZ,

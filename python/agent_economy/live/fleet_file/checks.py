@@ -7,6 +7,7 @@ from agent_economy.live.fleet_file.findings import Findings
 from agent_economy.live.fleet_file.network import check_network
 from agent_economy.live.fleet_file.scenario_kind import ScenarioKind, ScenarioWorld
 from agent_economy.live.fleet_file.sensors import check_sensors
+from agent_economy.live.fleet_file.sources import check_sources
 from agent_economy.live.fleet_file.timing import check_lifetime
 
 
@@ -20,12 +21,19 @@ def check_entries(
         check_room(findings, kind)
     check_network(findings, fleet, entries)
     check_lifetime(findings, fleet, entries, kinds)
-    # A kind may have robots with different drivers; each pair is reported for its first robot.
-    for entry in {(each.kind, each.driver.name): each for each in reversed(entries)}.values():
+    for entry in entries:
+        check_sources(findings, fleet, entry, kinds[entry.kind])
+    # Robots of a kind may differ in drivers and sources: each combination is reported once, for
+    # its first robot.
+    for entry in {_combination(each): each for each in reversed(entries)}.values():
         check_sensors(findings, fleet, entry, kinds[entry.kind])
     for entry in entries:
         _check_speed(findings, fleet, entry, kinds[entry.kind])
         check_area(findings, fleet, entry, kinds[entry.kind])
+
+
+def _combination(entry: Entry) -> tuple[str, str, tuple[tuple[str, str], ...]]:
+    return entry.kind, entry.driver.name, tuple(sorted(entry.sensors.items()))
 
 
 def _check_drive(findings: Findings, kind: ScenarioKind) -> None:

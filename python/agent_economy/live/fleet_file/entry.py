@@ -6,7 +6,7 @@ from typing import Any
 
 from agent_economy.live.drivers import DRIVERS, Driver
 from agent_economy.live.fleet_file.schema import MANUAL_SPEED_M_S, MIN_BATTERY
-from agent_economy.live.plan import Point
+from agent_economy.live.plan import Point, ReadingSource
 
 PORTS_PER_ROBOT = 10
 """Distance of the default port numbers of two robots of a kind."""
@@ -42,6 +42,12 @@ class Entry:
     def name(self) -> str:
         """Its name in the scenario, KIND/INDEX."""
         return f"{self.kind}/{self.index}"
+
+    @property
+    def sensors(self) -> Mapping[str, ReadingSource]:
+        """Where the readings of sensors come from, by name, as far as the file states it."""
+        sensors: Mapping[str, ReadingSource] = self.given.get("sensors", {})
+        return sensors
 
     @property
     def path(self) -> tuple[str, ...]:

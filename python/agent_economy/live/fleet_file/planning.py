@@ -7,6 +7,7 @@ from agent_economy._core import Document
 from agent_economy.live.fleet_file.entry import Entry
 from agent_economy.live.fleet_file.scenario_kind import ScenarioKind, ScenarioWorld
 from agent_economy.live.fleet_file.sensors import input_plan
+from agent_economy.live.fleet_file.sources import scans_of, sources_of
 from agent_economy.live.fleet_file.timing import lateness_s, lifetime_s
 from agent_economy.live.fleet_file.walls import for_plan
 from agent_economy.live.plan import FleetPlan, Origin, RobotPlan
@@ -42,7 +43,7 @@ def fleet_plan(
 
 def _robot(entry: Entry, kind: ScenarioKind) -> RobotPlan:
     ports = entry.driver.ports
-    inputs = [input_plan(port, entry.max_age_s[port.name], kind) for port in ports if port.quantity]
+    inputs = [input_plan(port, entry, kind) for port in ports if port.quantity]
     deadman_s = entry.deadman_s
     return RobotPlan(
         name=entry.name,
@@ -59,5 +60,7 @@ def _robot(entry: Entry, kind: ScenarioKind) -> RobotPlan:
         deadman_s=deadman_s,
         takes_orders=kind.takes_orders,
         radius_m=kind.radius_m,
+        sensors=sources_of(entry, kind),
+        scans=scans_of(entry, kind),
         repeat_s=REPEAT_S if deadman_s is None else min(REPEAT_S, deadman_s / LINES_PER_DEADMAN),
     )

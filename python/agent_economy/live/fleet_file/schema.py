@@ -68,6 +68,13 @@ def _robot(driver: Driver) -> Schema:
         "max_age_s": _table({port.name: _max_age(port) for port in reading})
         | {"description": "Age at which the newest line of a port is stale, in seconds."},
         "settings": _table(settings) | {"description": "Settings of the driver."},
+        "sensors": {
+            "type": "object",
+            "description": "Where the readings of its sensors come from, by name: the robot, the "
+            "scenario (simulated robots, items and obstacles, as seen from its position), or both. "
+            "Without it, from the robot if the driver measures them, otherwise from the scenario.",
+            "additionalProperties": {"enum": ["real", "virtual", "both"]},
+        },
     }
     return {"description": described, **_table(keys | _limits(), ("driver", "host"))}
 

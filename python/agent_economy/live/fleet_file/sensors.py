@@ -3,24 +3,15 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from agent_economy._core import Document
 from agent_economy.live.drivers import Port
 from agent_economy.live.fleet_file.entry import Entry
 from agent_economy.live.fleet_file.findings import Findings, listed
 from agent_economy.live.fleet_file.scenario_kind import ScenarioKind
+from agent_economy.live.fleet_file.sources import KINDS, Sensor, input_sensors
 from agent_economy.live.plan import InputPlan
 from agent_economy.live.readings import Quantity
-
-Sensor = Mapping[str, Any]
-
-KINDS = {
-    Quantity.RANGES: "range",
-    Quantity.POSITION: "position",
-    Quantity.HEADING: "heading",
-}
-"""The kind of sensor that measures a quantity."""
 
 MAX_ROUNDING = 0.01
 """A range may be rounded by this fraction of the maximum range."""
@@ -38,31 +29,30 @@ class Measurement:
 
 
 def check_sensors(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:
-    """Report a driver whose inputs are not the sensors of the kind."""
-    driver = entry.driver
+    """Report a driver whose inputs are not sensors of the kind."""
+    if findings.has_error_at(fleet, (*entry.path, "sensors")):
+        return
+    ports = [port for port in entry.driver.ports if port.quantity in KINDS]
+    found = {port: input_sensors(port, entry, kind) for port in ports}
     wrong = [
         f"needs {_wanted(port)}, and {_found(kind.sensors(KINDS[port.quantity]))}"
-        for port in driver.ports
-        if port.quantity in KINDS and not _is_matched(port, kind.sensors(KINDS[port.quantity]))
+        + _fix(port, found)
+        for port in ports
+        if port.quantity is not None and not _is_matched(port, found[port])
     ]
-    known = {KINDS[port.quantity] for port in driver.ports if port.quantity in KINDS}
-    sensors = sorted(kind.given.get("sensors", {}).items())
-    others = [f'{name} (kind "{has["kind"]}")' for name, has in sensors if has["kind"] not in known]
-    if others:
-        wrong.append(f"has no input for {listed(others)}")
     if wrong:
         allowed = (
-            f"a driver for the sensors of robots.{kind.name} in the scenario: {driver.name} "
+            f"a driver for the sensors of robots.{kind.name} in the scenario: {entry.driver.name} "
             f"{'; it '.join(wrong)}"
         )
         findings.error(fleet, (*entry.path, "driver"), allowed)
 
 
-def input_plan(port: Port, max_age_s: float, kind: ScenarioKind) -> InputPlan:
+def input_plan(port: Port, entry: Entry, kind: ScenarioKind) -> InputPlan:
     """Return the input of a port with a quantity, whose sensors have been checked."""
     quantity = port.quantity or Quantity.BATTERY
-    sensors = kind.sensors(KINDS.get(quantity, ""))
-    possible = _measurement(quantity, list(sensors.values()))
+    possible = _measurement(quantity, list(input_sensors(port, entry, kind).values()))
+    max_age_s = entry.max_age_s[port.name]
     return InputPlan(port.name, quantity, max_age_s, possible.noise, possible.bounds)
 
 
@@ -95,15 +85,18 @@ def _range_noise_m(sensor: Sensor) -> float:
 
 
 def _is_matched(port: Port, found: Mapping[str, Sensor]) -> bool:
-    if port.quantity is Quantity.RANGES:
-        return len(found) == port.values and all(each["rays"] == 1 for each in found.values())
-    return len(found) == 1
+    return len(found) == (port.values if port.quantity is Quantity.RANGES else 1)
 
 
 def _wanted(port: Port) -> str:
     if port.quantity is Quantity.RANGES:
         return f'{port.values} sensors of kind "range" with rays = 1'
     return f'one sensor of kind "{KINDS.get(port.quantity or Quantity.POSITION)}"'
+
+
+def _fix(port: Port, found: Mapping[Port, Mapping[str, Sensor]]) -> str:
+    is_more = len(found[port]) > max(1, port.values if port.quantity is Quantity.RANGES else 1)
+    return ' (set the others to "virtual" under sensors)' if is_more else ""
 
 
 def _found(found: Mapping[str, Sensor]) -> str:

@@ -13,6 +13,7 @@ from agent_economy.live.fleet_file.scenario_kind import (
     ScenarioWorld,
 )
 from agent_economy.live.fleet_file.sensors import position_noise_m
+from agent_economy.live.fleet_file.sources import virtual_by_default
 from agent_economy.live.fleet_file.team import simulated
 from agent_economy.scenario import ScenarioWarning
 
@@ -32,6 +33,7 @@ def fleet_warnings(
         findings.warn(fleet, ("robots",), effect)
     for entry in entries:
         _warn_of_robot(findings, fleet, entry)
+        _warn_of_virtual(findings, fleet, entry, world.kind(entry.kind))
         _warn_of_place(findings, fleet, entry, world)
         warn_of_exits(findings, fleet, entry, world.kind(entry.kind))
     for name in sorted({entry.kind for entry in entries}):
@@ -58,6 +60,19 @@ def _warn_of_robot(findings: Findings, fleet: Document, entry: Entry) -> None:
             "stops it; keep a person at its own switch"
         )
         findings.warn(fleet, (*entry.path, "deadman_s"), effect)
+
+
+def _warn_of_virtual(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:
+    """Warn of sensors that detect nothing real, unless the file states it."""
+    names = virtual_by_default(entry, kind)
+    if names:
+        are = "are" if names[1:] else "is"
+        effect = (
+            f"{listed(names)} {are} virtual, because {entry.driver.name} has no input for "
+            f"{'them' if names[1:] else 'it'}: only what the scenario has is detected, around "
+            'where the robot is believed to be; set "virtual" to confirm it'
+        )
+        findings.warn(fleet, (*entry.path, "sensors"), effect)
 
 
 def _warn_of_place(findings: Findings, fleet: Document, entry: Entry, world: ScenarioWorld) -> None:

@@ -11,11 +11,13 @@ from typing import Any
 from agent_economy._core import InputError
 from agent_economy.live import fleet
 from agent_economy.live.channel import SILENCE_S
+from agent_economy.live.external import bodies_of
 from agent_economy.live.locks import InheritedLocks
 from agent_economy.live.loop.last_resort import stop_all
 from agent_economy.live.loop.log import LogOptions
 from agent_economy.live.loop.loop import Loop
 from agent_economy.live.loop.pipe import Pipe, WardenLostError
+from agent_economy.runs.external import plain
 
 INVALID, LOST = 2, 3
 """Exit codes: the input is not valid; the warden was lost, and the robots have been stopped."""
@@ -69,7 +71,8 @@ def described(loaded: fleet.Fleet, seed: int) -> dict[str, Any]:
         "fleet": loaded.file,
         "scenario": {"file": source.file, "text": source.text, "files": files},
         "seed": seed,
-        "external": [robot.name for robot in loaded.plan.robots],
+        "external": plain(bodies_of(loaded.plan)),
+        "scans": {robot.name: robot.scans for robot in loaded.plan.robots},
         "origin": loaded.plan.to_dict()["origin"],
         "fences_m": {robot.name: robot.fence_m for robot in loaded.plan.robots},
     }

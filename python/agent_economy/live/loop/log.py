@@ -91,9 +91,11 @@ class Log:
         topic = TICKS
         self._recording.write_json(topic, live_schema(topic), values, now_s - self._start_s)
 
-    def step(self, percepts: Mapping[str, Percept]) -> dict[str, Command]:
+    def step(
+        self, percepts: Mapping[str, Percept], observed: Mapping[str, Percept] | None = None
+    ) -> dict[str, Command]:
         """Take a step of the run."""
-        return self._recording.step(percepts=percepts)
+        return self._recording.step(percepts=percepts, observed=observed)
 
     def setpoints(
         self, tick: int, motions: Mapping[str, Sequence[float | None]], now_s: float

@@ -6,6 +6,7 @@ from contextlib import suppress
 from typing import Any
 
 from agent_economy.live.clock import now_s
+from agent_economy.live.external import bodies_of
 from agent_economy.live.fleet import Fleet
 from agent_economy.live.loop.log import Log, LogOptions
 from agent_economy.live.loop.pacer import MIN_PERIOD, Pacer
@@ -40,8 +41,8 @@ class Loop:
         self._stops: list[Stop] = []
         self.peers: dict[str, tuple[str, int]] = {}
         self._pipe = pipe
-        names = tuple(robot.name for robot in fleet.plan.robots)
-        self._simulation = Simulation(fleet.scenario, seed=seed, external=names)
+        external = bodies_of(fleet.plan)
+        self._simulation = Simulation(fleet.scenario, seed=seed, external=external)
         self._start_s = start_s = now_s()
         self._team = Team(
             fleet.plan, self._simulation, fleet.waypoints_m, seed=seed, start_s=start_s
@@ -98,7 +99,8 @@ class Loop:
         tick = self._simulation.tick
         log.tick(tick, now, lateness_s, self._pacer.behind_s)
         percepts = self._team.percepts(tick, now)
-        commands = log.step(percepts)
+        observed = self._team.observed(tick, now)
+        commands = log.step(percepts, observed)
         motions = self._team.motions(commands)
         log.setpoints(tick, motions, now)
         for robot, motion in motions.items():
@@ -111,8 +113,8 @@ class Loop:
                 break
         if self._inputs is not None:
             stops, self._stops = self._stops, []
-            inputs = {"tick": tick, "inputs": strict(percepts), "stops": stops}
-            self._inputs.append({"type": "input", **inputs})
+            inputs = strict({"percepts": percepts, "observed": observed})
+            self._inputs.append({"type": "input", "tick": tick, "inputs": inputs, "stops": stops})
             while self._inputs and self._pipe.send(self._inputs[0]):
                 self._inputs.popleft()
 

@@ -2,7 +2,7 @@
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from agent_economy.live.readings import COUNTS, Quantity, Reading
@@ -49,13 +49,13 @@ class Percepts:
         self.is_driving = event["is_armed"] and is_auto and not is_held
         self._is_moving = event["action"] == "move"
 
-    def percept(self, tick: int, now_s: float, sonars: int) -> Percept:
-        """Return the percept of a tick at a time; `sonars` is the number of range sensors."""
+    def percept(self, tick: int, now_s: float, sonars: Sequence[int | None]) -> Percept:
+        """Return the percept of a tick at a time; `sonars` has the sonar of each scan, if any."""
         percept: dict[str, Any] = {
             **self._base,
             "time_s": now_s - self._start_s,
             "random_words": random_words(self._seed, self._name, tick),
-            "scans": [self._scan(sonar, now_s) for sonar in range(sonars)],
+            "scans": [self._scan(sonar, now_s) for sonar in sonars],
         }
         for quantity, key in KEYS.items():
             if quantity in self._readings:
@@ -66,8 +66,9 @@ class Percepts:
             percept["motion"] = {"value": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "age_s": 0.0}
         return percept  # type: ignore[return-value]  # built by its keys
 
-    def _scan(self, sonar: int, now_s: float) -> dict[str, Any]:
-        range_m, at_s = self._ranges.get(sonar, (math.nan, now_s))
+    def _scan(self, sonar: int | None, now_s: float) -> dict[str, Any]:
+        missing = (math.nan, now_s)
+        range_m, at_s = missing if sonar is None else self._ranges.get(sonar, missing)
         if math.isnan(range_m) or range_m < 0:
             return {"age_s": None, "ranges_m": []}
         return {"age_s": now_s - at_s, "ranges_m": [None if math.isinf(range_m) else range_m]}

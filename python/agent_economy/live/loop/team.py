@@ -46,13 +46,16 @@ class Team:
         bodies = _core.recorded_setting(simulation._run)["bodies"]  # noqa: SLF001  (ours)
         kinds = list(bodies)
         self._robots: dict[str, Percepts] = {}
-        self._bodies: dict[str, Mapping[str, Any]] = {}
+        self._periods: dict[str, int] = {}
+        self._sonars: dict[str, Sequence[int | None]] = {}
         for robot in plan.robots:
             kind, _, index = robot.name.rpartition("/")
             count = sum(name.startswith(f"{kind}/") for name in simulation.robots)
             base = {"id": {"kind": kinds.index(kind), "index": int(index)}, "team_size": count}
             self._robots[robot.name] = Percepts(robot.name, base, seed, start_s)
-            self._bodies[robot.name] = bodies[kind]
+            self._periods[robot.name] = max(1, round(bodies[kind]["period_s"] / simulation.step_s))
+            rings = len(bodies[kind]["rings"])
+            self._sonars[robot.name] = range(rings) if robot.scans is None else robot.scans
         self._orders = {name: orders(waypoints_m.get(name, ())) for name in self._robots}
         self._ordered = {name: len(waypoints_m.get(name, ())) for name in self._robots}
         self._motions = dict.fromkeys(self._robots, STOP)
@@ -83,16 +86,22 @@ class Team:
         The brain of a robot that may not move, or that an operator drives, does not step: it would
         find that it gets nowhere.
         """
-        step_s, self._now_s = self._simulation.step_s, now_s
+        self._now_s = now_s
         percepts = {}
         for name, robot in self._robots.items():
-            every = max(1, round(self._bodies[name]["period_s"] / step_s))
-            if robot.is_driving and tick % every == 0:
-                sonars = len(self._bodies[name]["rings"])
-                percepts[name] = robot.percept(tick, now_s, sonars)
+            if robot.is_driving and tick % self._periods[name] == 0:
+                percepts[name] = robot.percept(tick, now_s, self._sonars[name])
                 percepts[name]["inbox"] = self._orders[name]
                 self._orders[name] = []
         return percepts
+
+    def observed(self, tick: int, now_s: float) -> dict[str, Percept]:
+        """Return the percepts of the other robots, whose brains do not step: where these are."""
+        return {
+            name: robot.percept(tick, now_s, self._sonars[name])
+            for name, robot in self._robots.items()
+            if not robot.is_driving and tick % self._periods[name] == 0
+        }
 
     def motions(self, commands: Mapping[str, Command]) -> dict[str, Setpoint]:
         """Return the setpoint of each robot: its last command, or stop while it steps no brain."""

@@ -3,13 +3,15 @@
 It is `python -m agent_economy.server.live`. On its standard input it reads JSON, one object a line:
 
 * `{"type": "start", "fleet", "scenario": {"file", "text", "files"}, "seed", "external", "origin",
-  "fences_m", "warden": {"port", "token"}, "token", "listening"}`, once. `files` are those that the
-  scenario refers to, in base 64. `token` is what requests of the page have to contain; it is not an
-  argument, because every user of the machine sees those. `listening` is the descriptor of
-  the socket to serve the page at. All servers of a drive inherit the same one: between two of them,
-  another program cannot take the address, of which the origin keeps the token in browsers.
-* `{"type": "input", "tick", "inputs", "stops"}` for each step, from the first one on: the percepts
-  of the robots whose brains step in it, and the stops of robots before it
+  "fences_m", "scans", "warden": {"port", "token"}, "token", "listening"}`, once. `files` are those
+  that the scenario refers to, in base 64. `external` are bodies as of
+  `agent_economy.runs.external.ExternalBody`, and `scans` the sonars of each range sensor. `token`
+  is what requests of the page have to contain; it is not an argument, because every user of the
+  machine sees those. `listening` is the descriptor of the socket to serve the page at. All servers
+  of a drive inherit the same one: between two of them, another program cannot take the address, of
+  which the origin keeps the token in browsers.
+* `{"type": "input", "tick", "inputs", "stops"}` for each step, from the first one on: the inputs
+  of the run as arguments of `agent_economy.Simulation.step`, and the stops of robots before it
   (`agent_economy.recording.stops.Stop`).
 
 The end of its input is the end of the drive. On its standard output it writes one line when it

@@ -325,6 +325,8 @@ export interface Neighbour {
   course_rad: number | null;
   /** Time since the measurement. */
   age_s: number;
+  /** How far its centre may be from there, beyond the errors of the sensor, as that of a real robot among simulated ones. */
+  uncertainty_m?: number;
   /** Its id. */
   id: AgentId;
 }
