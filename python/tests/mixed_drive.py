@@ -75,11 +75,11 @@ rate_hz = 5
 
 @dataclass(frozen=True)
 class Meeting:
-    """How a simulated robot comes to a place ahead of the real one.
+    """How a simulated robot reaches a place ahead of the real one.
 
     Attributes:
         heading_deg: Its heading.
-        speed_m_s: Its maximum speed; at 0, it stands there.
+        speed_m_s: Its maximum speed; at 0, it is there from the start.
         ahead_m: The distance of that place from the start of the real one.
         noise_m: Standard deviation of positions of the real one.
         avoids: Whether the simulated one avoids what is near, as the real one does.
@@ -131,27 +131,27 @@ class Track:
     """Where both robots were at equal times from the start of their motion.
 
     Attributes:
-        places_m: Places of the real robot, or of the one in its place.
-        others_m: Places of the other.
+        path_m: Places of the real robot, or of the one in its place.
+        other_path_m: Places of the other.
     """
 
-    places_m: list[tuple[float, float]] = field(default_factory=list)
-    others_m: list[tuple[float, float]] = field(default_factory=list)
+    path_m: list[tuple[float, float]] = field(default_factory=list)
+    other_path_m: list[tuple[float, float]] = field(default_factory=list)
 
     def stop_m(self) -> tuple[float, float] | None:
         """Return where the robot first slowed down to half of its speed; None if nowhere."""
-        ways = zip(self.places_m, self.places_m[2:], strict=False)
+        ways = zip(self.path_m, self.path_m[2:], strict=False)
         speeds = [math.dist(before, after) / 0.2 for before, after in ways]
         moving = next((step for step, each in enumerate(speeds) if each > 0.9 * SPEED_M_S), None)
         if moving is None:
             return None
         slow = (step for step in range(moving, len(speeds)) if speeds[step] < 0.5 * SPEED_M_S)
         step = next(slow, None)
-        return None if step is None else self.places_m[step + 2]
+        return None if step is None else self.path_m[step + 2]
 
     def gap_m(self) -> float:
         """Return the smallest distance between their footprints."""
-        pairs = zip(self.places_m, self.others_m, strict=True)
+        pairs = zip(self.path_m, self.other_path_m, strict=True)
         return min(math.dist(*pair) for pair in pairs) - RADIUS_M - OTHER_RADIUS_M
 
 
@@ -189,7 +189,7 @@ def mixed(meeting: Meeting, limit_s: float, folder: Path) -> Track:
             continue
         time_s = robot.time_s
         if time_s >= ARMED_S:
-            if not track.places_m:
+            if not track.path_m:
                 team.add(armed(time_s))
             note(track, simulation, robot.place(time_s))
         for motor_line in tick(team, simulation, motors, time_s):
@@ -218,8 +218,8 @@ def armed(time_s: float) -> dict[str, object]:
 
 def note(track: Track, simulation: Simulation, place_m: tuple[float, float]) -> None:
     """Note where both robots are."""
-    track.places_m.append(place_m)
-    track.others_m.append(place_of(simulation, OTHER))
+    track.path_m.append(place_m)
+    track.other_path_m.append(place_of(simulation, OTHER))
 
 
 def place_of(simulation: Simulation, robot: str) -> tuple[float, float]:

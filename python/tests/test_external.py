@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from metric import search
+from numpy.typing import NDArray
 
-from agent_economy import Brain, InputError, Scenario, Simulation
+from agent_economy import Brain, ExternalBody, InputError, Scenario, Simulation
 from agent_economy.recording.metric_writer import moment_of
 from agent_economy.runs.brain import Command, Percept
 
@@ -310,3 +311,53 @@ def test_a_brain_of_a_scenario_has_the_body_of_its_kind() -> None:
     ]
     assert [command["motion"]["speed_m_s"] for command in commands] == [0.25, 1.0]
     assert {*Brain.of("open-field", "bird").step({})} == {*STOP, "acts"}
+
+
+def standing_at(place: NDArray[np.float64], time_s: float) -> Percept:
+    """Return the percept of a real robot that knows its pose and does not move."""
+    x_m, y_m, _ = map(float, place)
+    return {
+        "time_s": time_s,
+        "position": {"value": (x_m, y_m), "age_s": 0.0},
+        "heading_rad": {"value": 0.0, "age_s": 0.0},
+        "motion": {"value": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "age_s": 0.0},
+    }
+
+
+def test_the_goals_of_a_real_robot_that_falls_silent_return_to_their_controller() -> None:
+    # Within its fence, no other robot can be sure that it is not in the way.
+    fence_m = ((145.0, 145.0), (155.0, 145.0), (155.0, 155.0), (145.0, 155.0))
+    body = ExternalBody(max_age_s=3.0, fence_m=fence_m)
+    simulation = Simulation("waypoints", seed=3, external={"rover/0": body})
+    place = np.array([150.0, 150.0, 0.0])
+    for step in range(1, 400):
+        percept = standing_at(place, step * simulation.step_s)
+        simulation.step(percepts={"rover/0": percept})
+    held = {each["goal"] for each in simulation.served_goals("rover/0")}
+    assert held
+    simulation.finish()
+    served_by = {each["name"]: each["served_by"] for each in simulation.goals.to_pylist()}
+    assert all(served_by.values())
+    assert "rover/0" not in {served_by[goal] for goal in held}
+
+
+def test_what_a_body_cannot_be_is_refused_by_path() -> None:
+    sensors: Any = {"gps": "virtual", "scaner": "both", "compass": "both"}
+    body = ExternalBody(sensors, max_age_s=-1.0, fence_m=((0, 0),))
+    with pytest.raises(InputError) as raised:
+        Simulation("waypoints", external={"rover/0": body})
+    at = 'external."rover/0"'
+    assert [each["path"] for each in raised.value.errors] == [
+        f"{at}.sensors.compass",
+        f"{at}.sensors.gps",
+        f"{at}.sensors.scaner",
+        f"{at}.max_age_s",
+        f"{at}.fence_m",
+    ]
+    assert "scanner" in str(raised.value)
+    with pytest.raises(InputError, match=r"agent_economy\.ExternalBody"):
+        Simulation("waypoints", external={"rover/0": {"sensors": {}}})  # type: ignore[dict-item]
+    simulation = Simulation("waypoints", external=["rover/0"])
+    both = {"rover/0": standing_at(np.zeros(3), 1.0)}
+    with pytest.raises(InputError, match="observed"):
+        simulation.step(percepts=both, observed=both)

@@ -7,8 +7,10 @@ use brain::AgentId;
 /// part of [`ItemRecord::add_to`] and, if it names robots, of [`ItemRecord::renumbered`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct ItemRecord {
-    /// The first detection.
+    /// The look at which it counted as detected.
     pub(crate) detected: Option<Detection>,
+    /// Looks with a contact before that.
+    pub(crate) looks: u32,
 }
 
 /// A detection of an item.
@@ -21,7 +23,7 @@ pub(crate) struct Detection {
 }
 
 impl ItemRecord {
-    /// The step in which the item was found: it was first detected.
+    /// The step in which the item was found: it counted as detected.
     pub(crate) fn found_at(&self) -> Option<u64> {
         self.detected.map(|detection| detection.at)
     }
@@ -32,11 +34,14 @@ impl ItemRecord {
             by: detection.by.and_then(new_id),
             ..detection
         });
-        Self { detected }
+        Self { detected, ..self }
     }
 
     /// Adds what happened to an item of a kind to the hash of a run. What a scenario does not use adds nothing.
     pub(super) fn add_to(&self, kind: u16, hash: &mut Hash) {
         hash.add(u64::from(kind) << 48 | self.found_at().map_or(0, |tick| tick + 1));
+        if self.looks > 0 {
+            hash.add(self.looks.into());
+        }
     }
 }

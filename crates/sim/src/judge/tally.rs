@@ -25,6 +25,8 @@ pub(crate) struct Tally {
     records: Vec<ItemRecord>,
     /// Items of the run, by kind.
     present: Vec<u32>,
+    /// Looks after which an item counts as detected, by kind.
+    confirm_looks: Vec<u32>,
     /// Items found, by kind.
     pub(super) found: Vec<u32>,
     /// The step in which the run was complete.
@@ -58,6 +60,11 @@ impl Tally {
             records: vec![ItemRecord::default(); items.len()],
             present,
             found: vec![0; scenario.items.len()],
+            confirm_looks: scenario
+                .items
+                .iter()
+                .map(|kind| kind.confirm_looks)
+                .collect(),
             goals: scenario.goals().map(Box::new),
             acts: scenario.has_acts.then(Box::default),
             clearance: scenario
@@ -67,8 +74,8 @@ impl Tally {
         }
     }
 
-    /// Notes what robots detected in a step; returns whether any of it counts. An item is found when it is
-    /// first detected.
+    /// Notes what robots detected in a step; returns whether any of it counts. An item is found when it
+    /// counts as detected: after the looks that its kind needs.
     pub(crate) fn detected(
         &mut self,
         detections: &Detections,
@@ -83,6 +90,10 @@ impl Tally {
                 continue;
             }
             let (by, kind) = (ids[sighting.robot as usize], items.kind(sighting.item));
+            if record.looks + 1 < self.confirm_looks[usize::from(kind)] {
+                record.looks += 1;
+                continue;
+            }
             let at = tick;
             record.detected = Some(Detection { at, by: Some(by) });
             self.found[usize::from(kind)] += 1;

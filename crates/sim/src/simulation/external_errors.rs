@@ -7,6 +7,9 @@ use base::document::path_of;
 use base::error::InputError;
 use base::geometry::Point;
 
+/// Positions older than this count as silent in any case.
+const MAX_AGE_S: f64 = 1e6;
+
 /// A fence has this number of corners or more.
 const MIN_CORNERS: usize = 3;
 
@@ -38,6 +41,14 @@ impl Scenario {
             let error =
                 |allowed: &str| InputError::new(at, Some(shown(*source)), allowed.to_owned());
             errors.extend(allowed.map(error));
+        }
+        if let Some(max_age_s) = spec
+            .max_age_s
+            .filter(|age_s| !(0.0..=MAX_AGE_S).contains(age_s))
+        {
+            let allowed = format!("a number from 0 to {MAX_AGE_S} (seconds)");
+            let at = path_of(at, "max_age_s");
+            errors.push(InputError::new(at, Some(max_age_s.to_string()), allowed));
         }
         let is_finite = |corner: &Point| corner.x.is_finite() && corner.y.is_finite();
         let corners = &spec.fence_m;

@@ -32,6 +32,11 @@ pub struct ItemSpec {
     /// are found, unless `[end]` has another condition.
     #[serde(default = "yes")]
     pub target: bool,
+    /// Number of looks (measurements with a contact of the item, of all robots together) after which an item of
+    /// this kind counts as detected. One look can be a chance, for example where the position of a real robot is uncertain.
+    #[serde(default = "one_look")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub confirm_looks: u32,
     /// What completes an item of this kind, if it is a target. Without `[end]`, a run is complete when all targets are.
     #[serde(default)]
     pub completed_by: CompletedBy,
@@ -40,6 +45,10 @@ pub struct ItemSpec {
     /// Where the items are.
     #[serde(default)]
     pub placement: Placement,
+}
+
+fn one_look() -> u32 {
+    1
 }
 
 /// What completes an item. Whatever destroys it completes it, too.
@@ -104,6 +113,8 @@ pub(crate) struct ItemKind {
     pub(crate) is_target: bool,
     /// Whether it is a target in any configuration of the study.
     pub(crate) may_be_target: bool,
+    /// Looks after which one counts as detected.
+    pub(crate) confirm_looks: u32,
     pub(crate) completed_by: CompletedBy,
     pub(crate) hazard: Option<HazardSpec>,
     pub(crate) placement: Placement,
@@ -119,6 +130,7 @@ impl ItemKind {
             max_count: spec.max_number(),
             is_target: spec.target,
             may_be_target: spec.target,
+            confirm_looks: spec.confirm_looks,
             completed_by: spec.completed_by,
             hazard: spec.hazard,
             placement: spec.placement.clone(),

@@ -57,7 +57,8 @@ class Loop:
             WardenLostError: If the warden has ended or is silent.
         """
         step_s = self._simulation.step_s
-        self._pacer = Pacer(step_s, self._start_s, now_s() + step_s)
+        # After a step, as much time has been simulated as has passed, never more.
+        self._pacer = Pacer(step_s, self._start_s + step_s, now_s() + step_s)
         while self._receive():
             self._tick()
         self.close()

@@ -18,7 +18,7 @@ class Pacer:
 
     Attributes:
         period_s: Time between two ticks.
-        start_s: When the drive started: tick 0 is due then, and tick n n periods later.
+        start_s: When tick 0 is due, a period after the drive started; tick n is n periods later.
         due_s: When the next tick is due.
         late_ticks: Number of ticks that were more than a period later than they were due. The next
             one is due 0.9 periods after each, so that none is late if all take less than 1.9.

@@ -364,3 +364,32 @@ fn what_cannot_be_virtual_or_both_is_refused_by_path() {
     assert_eq!(paths[3], "external.rover.fence_m");
     assert_eq!(errors[2].suggestion.as_deref(), Some("sonar"));
 }
+
+/// The number of steps after which the mine counts as found, and the state hashes until then.
+fn found_after(confirm_looks: &str) -> (u32, Vec<u64>) {
+    let text = TWO.replace(
+        "count = 1, placement",
+        &format!("count = 1, {confirm_looks}placement"),
+    );
+    let mut simulation = mixed(&text, spec(&ALL, ReadingSource::Virtual));
+    let mut hashes = Vec::new();
+    for step in 0..50_u32 {
+        measured(&mut simulation, stand(0.1 * f64::from(step)));
+        hashes.push(simulation.state().hash());
+        if simulation.outcome().found == [1] {
+            return (step, hashes);
+        }
+    }
+    (u32::MAX, hashes)
+}
+
+#[test]
+fn an_item_is_found_after_the_looks_that_its_kind_needs() {
+    assert_eq!(found_after("").0, 0);
+    assert_eq!(found_after("confirm_looks = 1, ").0, 0);
+    // The real robot and the simulated one both look in each step.
+    let (steps, hashes) = found_after("confirm_looks = 5, ");
+    assert_eq!(steps, 2);
+    // Each look is a part of the state.
+    assert!(hashes.windows(2).all(|pair| pair[0] != pair[1]));
+}
