@@ -325,7 +325,7 @@ def standing_at(place: NDArray[np.float64], time_s: float) -> Percept:
 
 
 def test_the_goals_of_a_real_robot_that_falls_silent_return_to_their_controller() -> None:
-    # Within its fence, no other robot can be sure that it is not in the way.
+    # Within its fence, every other robot must expect it.
     fence_m = ((145.0, 145.0), (155.0, 145.0), (155.0, 155.0), (145.0, 155.0))
     body = ExternalBody(max_age_s=3.0, fence_m=fence_m)
     simulation = Simulation("waypoints", seed=3, external={"rover/0": body})
@@ -356,7 +356,7 @@ def test_what_a_body_cannot_be_is_refused_by_path() -> None:
     ]
     assert "scanner" in str(raised.value)
     with pytest.raises(InputError, match=r"agent_economy\.ExternalBody"):
-        Simulation("waypoints", external={"rover/0": {"sensors": {}}})  # type: ignore[dict-item]
+        Simulation("waypoints", external={"rover/0": {"sensors": {}}})
     simulation = Simulation("waypoints", external=["rover/0"])
     both = {"rover/0": standing_at(np.zeros(3), 1.0)}
     with pytest.raises(InputError, match="observed"):

@@ -288,6 +288,15 @@ def test_a_virtual_position_needs_a_real_one(folder: Path) -> None:
     assert loaded.plan.robots[0].sensors["second"] == "virtual"
 
 
+def test_the_rules_judge_the_same_inputs_whatever_is_virtual(folder: Path) -> None:
+    sonars = "".join(f'sonar_{number} = "virtual"\n' for number in range(6))
+    stated = load(folder, f'{FLEET}[robots."crawler/0".sensors]\n{sonars}').plan.robots[0]
+    assert set(stated.scans or ()) == {None}
+    plain = load(folder, FLEET).plan.robots[0]
+    assert (stated.inputs, stated.fence_m) == (plain.inputs, plain.fence_m)
+    assert plain.scans == tuple(range(6))
+
+
 def test_two_real_sensors_of_one_quantity_are_an_error(folder: Path) -> None:
     second = '[robots.crawler.sensors.second]\nkind = "position"\n'
     (error,) = errors(folder, FLEET, SCENARIO + second)
