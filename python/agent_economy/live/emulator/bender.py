@@ -3,12 +3,15 @@
 from dataclasses import dataclass
 from typing import Any
 
+import tomli_w
+
+from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.live.emulator.settings import MAX_RATE_HZ, Settings
-from agent_economy.scenario import Override, Scenario
+from agent_economy.scenario import Override, Scenario, Source
 
 KIND = "bender"
-"""The robot kind that is emulated. Other kinds of the scenario have their own brains."""
+"""The robot kind that is emulated. The robots of other kinds are in no real world."""
 
 SONARS = tuple(f"sonar_{index}" for index in range(6))
 
@@ -19,6 +22,11 @@ Values = dict[str, Any]
 """Values of the scenario, by path."""
 
 
+WORLD = ("engine", "summary", "clock", "world")
+BODY = ("count", "radius_m", "start", "drive", "collision", "layer")
+"""What the real world has of a scenario, and of its robots."""
+
+
 @dataclass(frozen=True)
 class Bender:
     """What the emulator has to know of a scenario.
@@ -27,7 +35,6 @@ class Bender:
         scenario: The scenario.
         position: Name of the position sensor.
         heading: Name of the compass.
-        rings: Index of the scan of each sonar in a percept.
         max_range_m: Maximum range of each sonar.
         world: Its `[world]`.
     """
@@ -35,7 +42,6 @@ class Bender:
     scenario: Scenario
     position: str
     heading: str
-    rings: tuple[int, ...]
     max_range_m: tuple[float, ...]
     world: Values
 
@@ -57,13 +63,10 @@ class Bender:
                 "start from the bundled scenario bender"
             )
             raise InputError(message)
-        # Scans are in the order of the names of their sensors.
-        rings = [name for name in sorted(sensors) if sensors[name]["kind"] == "range"]
         return cls(
             scenario,
             str(names["position"]),
             str(names["heading"]),
-            tuple(rings.index(name) for name in SONARS),
             tuple(sensors[name]["range_m"] for name in SONARS),
             spec["world"],
         )
@@ -76,10 +79,7 @@ class Bender:
         """
         robot = f"robots.{KIND}"
         every = (*SONARS, self.position, self.heading)
-        kinds = self.scenario.robots
         values = {
-            # Robots of other kinds are not in the real world: the drive simulates them.
-            **{f"robots.{kind}.count": 0 for kind in kinds},
             f"{robot}.count": robots,
             f"{robot}.brain.rate_hz": MAX_RATE_HZ,
             "clock.step_s": 1 / MAX_RATE_HZ,
@@ -87,7 +87,19 @@ class Bender:
             **self.errors(settings),
         }
         overrides = (Override.at(path, value, "emulator") for path, value in values.items())
-        return self.scenario.changed(tuple(overrides))
+        return self._real_world().changed(tuple(overrides))
+
+    def _real_world(self) -> Scenario:
+        """Return the scenario without what only a drive has: simulated robots, items and goals."""
+        filled = _core.read_filled(self.scenario.source)
+        kind = filled["robots"][KIND]
+        sensors = {name: kind["sensors"][name] for name in (*SONARS, self.position, self.heading)}
+        body = {key: kind[key] for key in BODY if key in kind}
+        world = {key: filled[key] for key in WORLD if key in filled}
+        robots = {KIND: body | {"sensors": sensors}}
+        source = self.scenario.source
+        text = tomli_w.dumps({**world, "merit": "equation-5.2", "robots": robots})
+        return Scenario.of(Source(source.file, text, (), source.files))
 
     def errors(self, settings: Settings) -> Values:
         """Return the errors of the drive and of the sensors."""

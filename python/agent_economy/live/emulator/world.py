@@ -88,7 +88,7 @@ class World:
     def senses(self, robot: str, before: Senses) -> Senses:
         """Return what a robot has measured; those before if it measures no longer."""
         percept = self._simulation.percept(robot)
-        return before if percept is None else senses_of(percept, self._bender.rings)
+        return before if percept is None else senses_of(percept)
 
     def pose(self, robot: str) -> Pose:
         """Return the true pose of a robot."""
@@ -111,11 +111,10 @@ class World:
         self._errors = errors
 
 
-def senses_of(percept: Percept, rings: tuple[int, ...]) -> Senses:
-    """Return the senses in a percept."""
+def senses_of(percept: Percept) -> Senses:
+    """Return the senses in a percept: its scans are those of the sonars, in their order."""
     at, heading = percept["position"], percept["heading_rad"]
-    scans = percept["scans"]
-    ranges = [scans[ring].get("ranges_m") or [None] for ring in rings]
+    ranges = [scan.get("ranges_m") or [None] for scan in percept["scans"]]
     return Senses(
         (at["value"][0], at["value"][1]) if at else None,
         heading["value"] if heading else None,
