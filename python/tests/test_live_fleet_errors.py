@@ -288,6 +288,22 @@ def test_a_virtual_position_needs_a_real_one(folder: Path) -> None:
     assert loaded.plan.robots[0].sensors["second"] == "virtual"
 
 
+def test_a_start_in_an_obstacle_and_sources_that_are_wrong_are_reported_together(
+    folder: Path,
+) -> None:
+    assert "obstacles" not in SCENARIO
+    walled = SCENARIO.replace(
+        "[world]", "[world]\nobstacles = [{ circle = { at_m = [5, 5], radius_m = 50 } }]", 1
+    )
+    text = FLEET + '[robots."crawler/0".sensors]\ngps = "both"\nsonra = "virtual"\n'
+    found = errors(folder, text, walled)
+    lines = text.splitlines()
+    gps, sonra = (1 + lines.index(line) for line in ('gps = "both"', 'sonra = "virtual"'))
+    assert any("robots.crawler" in error and "obstacle" in error for error in found)
+    assert any(error.startswith(f"fleet.toml:{gps}: ") for error in found)
+    assert any(error.startswith(f"fleet.toml:{sonra}: ") for error in found)
+
+
 def test_the_rules_judge_the_same_inputs_whatever_is_virtual(folder: Path) -> None:
     sonars = "".join(f'sonar_{number} = "virtual"\n' for number in range(6))
     stated = load(folder, f'{FLEET}[robots."crawler/0".sensors]\n{sonars}').plan.robots[0]

@@ -41,6 +41,9 @@ impl<'a> DecisionInputs<'a> {
         if body_state.status != Status::Active {
             return Decision::Still;
         }
+        if self.external.is_none() && !self.view.has_external_bodies {
+            return Decision::Brain;
+        }
         let from_outside = self.external.and_then(|external| {
             let decided = external.decisions.decided(robot);
             let percept = external.percepts.get(&robot);

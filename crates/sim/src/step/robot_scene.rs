@@ -38,14 +38,16 @@ impl Scene for RobotScene<'_> {
 
     #[inline]
     fn gather(&self, near: &mut Near) {
+        if !self.view.has_external_bodies {
+            gather(self.view, self.robot, near);
+            return;
+        }
         if self.view.body_states[self.robot].is_external() {
             gather_around(self, near);
         } else {
             gather(self.view, self.robot, near);
         }
-        if !self.view.regions.is_empty() {
-            gather_regions(self, near);
-        }
+        gather_regions(self, near);
     }
 
     fn others_within(&self, range_m: f64, to: &mut Vec<u32>) {

@@ -2,6 +2,7 @@
 
 use super::view::View;
 use crate::bodies::Layer;
+use crate::bodies::external::ExternalBody;
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::geometry::Point;
@@ -22,9 +23,17 @@ impl View<'_> {
     #[inline]
     pub(super) fn sensing_place(&self, robot: usize) -> Point {
         let at = self.discs[robot].centre;
-        let Some(external) = self.body_states[robot].external() else {
+        if !self.has_external_bodies {
             return at;
-        };
+        }
+        let external = self.body_states[robot].external();
+        external.map_or(at, |external| self.likely_place(robot, external))
+    }
+
+    /// A place that differs from the believed position of an external body at random.
+    #[cold]
+    fn likely_place(&self, robot: usize, external: &ExternalBody) -> Point {
+        let at = self.discs[robot].centre;
         let kind = self.kind(robot);
         let at = free_place(self.scenario, at, kind.layer);
         let noise = self.noises[robot].words(NoisePurpose::Place as u32, self.tick, 0);

@@ -65,6 +65,9 @@ impl<'a> View<'a> {
     /// A bit for each sensor of a robot that the simulation does not measure.
     #[inline]
     pub(crate) fn unmeasured(&self, robot: usize) -> u32 {
+        if !self.has_external_bodies {
+            return 0;
+        }
         let external = self.body_states[robot].external();
         external.map_or(0, |external| !external.virtual_sensors)
     }

@@ -1,13 +1,17 @@
 """Finds the scenario of a fleet, and reads the robots of the file."""
 
+from contextlib import suppress
 from pathlib import Path
 
+from agent_economy import _core
 from agent_economy._core import Document, InputError
 from agent_economy.live.fleet_file.entry import Entry, entry_of
 from agent_economy.live.fleet_file.findings import Findings
 from agent_economy.live.fleet_file.scenario_kind import ScenarioWorld
+from agent_economy.live.fleet_file.sources import BareKind, check_sources
 from agent_economy.live.fleet_file.team import check_names, robot_of
-from agent_economy.scenario import Override, Scenario, bundled
+from agent_economy.scenario import Override, Scenario, Source, bundled
+from agent_economy.scenario.source import MAX_BYTES, decode, read_file
 
 SCENARIO = ("scenario",)
 
@@ -36,9 +40,31 @@ def find_scenario(
         return Scenario.load(file, overrides)
     except InputError as error:
         findings.errors += error.errors
-        if not error.errors:
+        if error.errors:
+            check_sources_of_invalid(findings, fleet, Source(str(file), text_of(file), overrides))
+        else:
             findings.error(fleet, SCENARIO, f"a scenario that can be read: {error}")
     return None
+
+
+def check_sources_of_invalid(findings: Findings, fleet: Document, source: Source) -> None:
+    """Report what is wrong with the sensors of robots although their scenario has errors, too."""
+    robots = fleet.values().get("robots")
+    # What is wrong there has been reported; anything may be missing.
+    with suppress(InputError, AttributeError, KeyError, TypeError):
+        kinds = _core.read_filled(source.complete())["robots"]
+        counts = {name: int(each["count"]) for name, each in kinds.items()}
+        for name, given in sorted((robots or {}).items()):
+            robot = robot_of(name, counts)
+            if robot is not None and not findings.has_error_at(fleet, ("robots", name)):
+                entry = entry_of(*robot, given)
+                check_sources(findings, fleet, entry, BareKind(robot[0], kinds[robot[0]]))
+
+
+def text_of(file: Path) -> str:
+    """Return the text of a scenario that has been read before."""
+    data = read_file(file, MAX_BYTES)
+    return "" if isinstance(data, str) else decode(file, data)
 
 
 def metric_world(findings: Findings, fleet: Document, scenario: Scenario) -> ScenarioWorld | None:

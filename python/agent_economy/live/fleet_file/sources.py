@@ -1,19 +1,45 @@
 """Where the readings of the sensors of a real robot come from: the robot, the scenario, or both."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import count
-from typing import Any
+from typing import Any, Protocol
 
 from agent_economy import _core
 from agent_economy._core import Document
 from agent_economy.live.drivers import Port
 from agent_economy.live.fleet_file.entry import Entry
 from agent_economy.live.fleet_file.findings import Findings, listed
-from agent_economy.live.fleet_file.scenario_kind import ScenarioKind
 from agent_economy.live.plan import ReadingSource
 from agent_economy.live.readings import Quantity
 
 Sensor = Mapping[str, Any]
+
+
+class HasSensors(Protocol):
+    """A kind of robots of a scenario, which may have errors elsewhere."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def given(self) -> Mapping[str, Any]:
+        """Its table."""
+
+
+@dataclass(frozen=True)
+class BareKind:
+    """A kind of an invalid scenario.
+
+    Attributes:
+        name: Its name.
+        given: Its table.
+    """
+
+    name: str
+    given: Mapping[str, Any]
+
 
 KINDS = {
     Quantity.RANGES: "range",
@@ -23,7 +49,7 @@ KINDS = {
 """The kind of sensor that measures a quantity."""
 
 
-def sources_of(entry: Entry, kind: ScenarioKind) -> dict[str, ReadingSource]:
+def sources_of(entry: Entry, kind: HasSensors) -> dict[str, ReadingSource]:
     """Return where the readings of each sensor of a robot come from, by name.
 
     Without a statement of the file, they are real if the driver measures them, otherwise virtual.
@@ -33,12 +59,12 @@ def sources_of(entry: Entry, kind: ScenarioKind) -> dict[str, ReadingSource]:
     return {name: entry.sensors.get(name, default[name]) for name in sensors}
 
 
-def all_sensors(kind: ScenarioKind) -> dict[str, Sensor]:
+def all_sensors(kind: HasSensors) -> dict[str, Sensor]:
     """Return the sensors of a kind, by name, in alphabetical order."""
     return dict(sorted(kind.given.get("sensors", {}).items()))
 
 
-def input_sensors(port: Port, entry: Entry, kind: ScenarioKind) -> dict[str, Sensor]:
+def input_sensors(port: Port, entry: Entry, kind: HasSensors) -> dict[str, Sensor]:
     """Return the sensors of a kind that the lines of a port are readings of, by name.
 
     The rules judge an input also if all its sensors are virtual.
@@ -49,7 +75,7 @@ def input_sensors(port: Port, entry: Entry, kind: ScenarioKind) -> dict[str, Sen
     return real or fitting
 
 
-def check_sources(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:
+def check_sources(findings: Findings, fleet: Document, entry: Entry, kind: HasSensors) -> None:
     """Report sources that sensors cannot have."""
     sensors = all_sensors(kind)
     for name, source in sorted(entry.sensors.items()):
@@ -61,7 +87,7 @@ def check_sources(findings: Findings, fleet: Document, entry: Entry, kind: Scena
             findings.error(fleet, path, refused)
 
 
-def virtual_by_default(entry: Entry, kind: ScenarioKind) -> list[str]:
+def virtual_by_default(entry: Entry, kind: HasSensors) -> list[str]:
     """Return the sensors that are virtual without a statement of the file, by name."""
     sources = sources_of(entry, kind)
     return [
@@ -71,7 +97,7 @@ def virtual_by_default(entry: Entry, kind: ScenarioKind) -> list[str]:
     ]
 
 
-def scans_of(entry: Entry, kind: ScenarioKind) -> tuple[int | None, ...]:
+def scans_of(entry: Entry, kind: HasSensors) -> tuple[int | None, ...]:
     """Return the number of the sonar for each ring of rays of a body; None for a virtual one."""
     facts, sources = _core.sensor_kinds(), sources_of(entry, kind)
     sonars = count()
@@ -93,7 +119,7 @@ def _fits(port: Port, sensor: Sensor) -> bool:
     return is_of_kind and (port.quantity is not Quantity.RANGES or sensor["rays"] == 1)
 
 
-def _allowed(entry: Entry, kind: ScenarioKind, name: str, source: ReadingSource) -> str | None:
+def _allowed(entry: Entry, kind: HasSensors, name: str, source: ReadingSource) -> str | None:
     """Return what is allowed, if a source is not."""
     sensor = all_sensors(kind)[name]
     facts, driver = _core.sensor_kinds()[sensor["kind"]], entry.driver.name
@@ -122,7 +148,7 @@ def _allowed(entry: Entry, kind: ScenarioKind, name: str, source: ReadingSource)
     return None
 
 
-def _same(entry: Entry, kind: ScenarioKind, name: str) -> list[str]:
+def _same(entry: Entry, kind: HasSensors, name: str) -> list[str]:
     """Return the sensors of the same kind that are real, by name."""
     sensors, sources = all_sensors(kind), sources_of(entry, kind)
     alike = [each for each in sensors if sensors[each]["kind"] == sensors[name]["kind"]]
