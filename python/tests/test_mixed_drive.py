@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from bare_timer import repeated_if_late
 from live_bench import INEXACT, Drive, changed_scenario, driving, emulated, fleet_text
+from recorded import contents
 
 import agent_economy as ae
 from agent_economy.recording.reading import read
@@ -104,3 +105,11 @@ def test_a_recording_has_virtual_sensors_beside_real_ones_and_where_a_standing_r
     # Of the rings by name, that of the lidar is first: it is no reading of the robot.
     assert scans[0] == {"age_s": None, "ranges_m": []}
     assert all(scan["age_s"] is not None for scan in scans[1:])
+
+
+def test_the_recorded_percepts_are_what_the_brain_knew_of_both_worlds(driven: Driven) -> None:
+    percepts = contents(driven.drive.record).topics["/percept/bender/0"]
+    lidars = [message.content["scans"][0] for message in percepts]
+    assert all(scan["age_s"] == 0.0 and len(scan["ranges_m"]) == 36 for scan in lidars)
+    nearest_m = min(each for scan in lidars for each in scan["ranges_m"] if each is not None)
+    assert nearest_m < 1.5

@@ -6,7 +6,7 @@ use crate::convert;
 use crate::error::{input_error, no_room_error};
 use crate::external;
 use crate::long_work::interruptible;
-use crate::metric_scenario::{MetricScenario, id_of, name_of, participant_of};
+use crate::metric_scenario::{MetricScenario, id_of, name_of, participant_of, robot_of};
 use crate::python_brain::{self, PythonBrain};
 use crate::snapshot::Measured;
 use base::engine::Runner;
@@ -145,6 +145,22 @@ impl Simulation {
             .map(|decision| (decision.robot, &decision.command))
             .collect();
         external::write(py, run.scenario(), &decided)
+    }
+
+    /// What the brain of a robot with an external body decided from in the last step; None if it did not step.
+    fn perceived<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let run = self.locked(py)?;
+        let id = robot_of(run.scenario(), "robot", &convert::text(robot));
+        let id = id.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
+        let perceived = run.perceived(id);
+        let perceived = perceived.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        perceived
+            .map(|perceived| convert::write(py, &perceived.whole))
+            .transpose()
     }
 
     /// The percept of a robot or controller in the next step; None if it does not run in that step.

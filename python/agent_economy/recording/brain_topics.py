@@ -60,7 +60,7 @@ class BrainTopics:
                 if any(written.values()):
                     self._file.write_json("/input", strict({"tick": tick, **written}), time_ns)
                 if perceived:
-                    self._write(perceived, time_ns)
+                    self._write(self._completed(perceived), time_ns)
 
     def _perceive(self, external: Mapping[str, Percept]) -> dict[str, Mapping[str, Any]]:
         """Return the percepts in the next step that are due, of robots whose brains step in it."""
@@ -68,6 +68,11 @@ class BrainTopics:
         given = strict({name: external[name] for name in due if name in external})
         percepts = {name: given.get(name) or self._simulation.percept(name) for name in due}
         return {name: percept for name, percept in percepts.items() if percept is not None}
+
+    def _completed(self, percepts: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+        """Return percepts with what the run added to those of external bodies."""
+        added = {name: self._simulation.perceived(name) for name in percepts}
+        return {name: added[name] or percept for name, percept in percepts.items()}
 
     def _write(self, percepts: Mapping[str, Mapping[str, Any]], time_ns: int) -> None:
         """Write the percepts, the scans, and the resulting motion commands."""

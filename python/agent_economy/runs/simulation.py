@@ -178,6 +178,23 @@ class Simulation(Stepped):
         """The commands of Python brains in the last step, by robot name."""
         return cast("dict[str, Command]", self._run.decided)
 
+    def perceived(self, robot: str) -> Percept | None:
+        """Return what the brain of a robot with an external body decided from in the last step.
+
+        That is its percept from outside, what its virtual sensors measured, and the messages that
+        it received.
+
+        Args:
+            robot: Name of the robot.
+
+        Returns:
+            None if its brain did not step, or its body is simulated.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        return cast("Percept | None", self._run.perceived(robot))
+
     def percept(self, robot: str) -> Percept | None:
         """Return the percept of a robot or controller in the next step. It does not change the run.
 

@@ -115,20 +115,13 @@ impl WorkerScratch {
         let Some(external) = view.body_states[robot].external() else {
             return;
         };
+        let mut measured = Percept::default();
         if external.virtual_sensors != 0 {
             self.clear_percept(view.kind(robot));
             sense(view, robot, agent, &mut self.sensing, &mut self.percept);
+            measured.clone_from(&self.percept);
             std::mem::swap(&mut self.percept, &mut self.virtual_percept);
         }
-        self.perceived.push(Perceived {
-            robot,
-            real: read.clone(),
-            measured: if external.virtual_sensors == 0 {
-                Percept::default()
-            } else {
-                self.virtual_percept.clone()
-            },
-        });
         self.percept.clone_from(read);
         self.recognise(view, robot);
         if external.virtual_sensors != 0 {
@@ -143,6 +136,12 @@ impl WorkerScratch {
         agent
             .inputs
             .deliver_messages(now, step_s, &mut self.percept);
+        self.perceived.push(Perceived {
+            robot,
+            real: read.clone(),
+            measured,
+            whole: self.percept.clone(),
+        });
     }
 
     /// Notes the items of external contacts: the nearest item of the kind, if it is near.

@@ -13,6 +13,8 @@ pub struct Perceived {
     pub real: Percept,
     /// What its virtual sensors measured.
     pub measured: Percept,
+    /// What its brain decided from: both, and the messages that it received.
+    pub whole: Percept,
 }
 
 /// Adds what the virtual sensors of a body measured to a percept from outside.
