@@ -221,7 +221,7 @@ def test_a_recording_shows_the_readings_at_any_tick_that_it_is_opened_at(
         for _ in range(6):
             recording.step(percepts={ROBOT: percept(simulation.time_s)})
     page.send("show", layers=list(LAYERS), panels=[])
-    page.open(recording="mixed.mcap", tick=5)
+    page.open_recording("mixed.mcap", tick=5)
     message = page.wait_for("shown", tick=5)
     assert len(message["layers"]["real-readings"]["markers"]) == 1
     page.send("seek", tick=0)
