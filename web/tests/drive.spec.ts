@@ -1,8 +1,11 @@
+import { readFileSync } from "node:fs";
 import { copyFile } from "node:fs/promises";
 import { join } from "node:path";
 import { monitorEventLoopDelay } from "node:perf_hooks";
+import { fileURLToPath } from "node:url";
 import type { Locator, Page } from "@playwright/test";
-import { expect, hash, status, test } from "./page";
+import { pixelsOf } from "./ink";
+import { expect, expectAccessiblePanels, hash, openTab, status, test } from "./page";
 import { RealDrive } from "./real_drive";
 
 // One drive at a time: several would delay each other.
@@ -14,11 +17,15 @@ const attempts = 3;
 const forward = "x,2,175,";
 
 /** A test with a drive of its own, which is repeated if it fails while the machine is late. */
-function driveTest(name: string, trial: (page: Page, drive: RealDrive) => Promise<void>): void {
+function driveTest(
+  name: string,
+  trial: (page: Page, drive: RealDrive) => Promise<void>,
+  scenario?: string,
+): void {
   test(name, async ({ page: first, context }) => {
     for (let attempt = 1; ; attempt++) {
       const page = attempt === 1 ? first : await context.newPage();
-      const [drive, delay] = [new RealDrive(), monitorEventLoopDelay({ resolution: 10 })];
+      const [drive, delay] = [new RealDrive(scenario), monitorEventLoopDelay({ resolution: 10 })];
       delay.enable();
       try {
         await drive.start();
@@ -82,6 +89,10 @@ async function holdForward(page: Page, drive: RealDrive): Promise<number> {
     expect((await drive.movesAfter((await drive.look()).t_s - 0.3)).length).toBeGreaterThan(0);
   }).toPass();
   return t_s;
+}
+
+async function shot(page: Page, name: string): Promise<void> {
+  if (process.env.SHOTS) await page.screenshot({ path: join(process.env.SHOTS, `${name}.png`) });
 }
 
 /** All notices of refused requests from now on, also of those that vanish. */
@@ -268,6 +279,42 @@ driveTest(
     await expect(card(page)).toContainText("no setpoint");
     await page.mouse.up();
   },
+);
+
+const textOf = (file: string) => readFileSync(fileURLToPath(new URL(file, import.meta.url)), "utf8");
+/** One real robot with a virtual sensor, and simulated ones. */
+const mixed = textOf("../../scenarios/bender.toml") + textOf("simulated_robots.toml");
+const checkbox = (page: Page, name: string) => page.getByRole("checkbox", { name, exact: true });
+/** Virtual readings. */
+const magenta = [163, 25, 91];
+
+driveTest(
+  "what a real robot perceives of simulated ones is shown, and where it may be once it is silent",
+  async (page, drive) => {
+    await button(page, "Take control").click();
+    await run(page, drive);
+    await page.goto(drive.url.replace("#/robots", "#/run?live=1&robot=bender/0"));
+    await expect(status(page)).toContainText("4 robots");
+    await openTab(page, "Layers");
+    for (const name of ["Uncertainty", "Real readings", "Virtual readings"])
+      await expect(checkbox(page, name)).toBeChecked();
+    for (const of of ["real: echo", "virtual: echo", "virtual: robot", "silent", "uncertainty", "real robot"])
+      await expect(page.getByRole("listitem").filter({ hasText: of }).first()).toBeVisible();
+    await expect.poll(() => pixelsOf(page, magenta)).toBeGreaterThan(20);
+    await shot(page, "mixed");
+    await checkbox(page, "Virtual readings").uncheck();
+    await expect.poll(() => pixelsOf(page, magenta)).toBe(0);
+    await openTab(page, "Robot");
+    const row = (name: string) => page.getByRole("row").filter({ hasText: name });
+    await expect(row("Virtual sensors")).toContainText("eye");
+    await expect(row("Real sensors")).toContainText("compass, gps, sonar_0, sonar_1");
+    await expect(row("Uncertainty")).toContainText(/0\.\d\d m/);
+    await expectAccessiblePanels(page, ["Layers", "Robot"]);
+    await drive.killEmulator();
+    await expect(page.getByText(/^Silent for \d+\.\d s: it may be anywhere/)).toBeVisible();
+    await shot(page, "silent");
+  },
+  mixed,
 );
 
 test("the recording of a drive opens, and seeks forth and back", async ({ page, server }) => {

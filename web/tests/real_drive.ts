@@ -16,6 +16,7 @@ export interface MotorLine {
 type Port = "motors" | "compass" | "gps" | "sonar";
 const ports: Port[] = ["motors", "compass", "gps", "sonar"];
 const stopLine = "x,3,";
+const ownFile = "own.toml";
 const end_ms = 5000;
 const settings = { range_unit_m: 1, no_echo: 99 };
 
@@ -30,9 +31,13 @@ export class RealDrive {
   private emulator: ChildProcess | null = null;
   private warden: ChildProcess | null = null;
 
+  /** Of a scenario with the robot bender/0: the name of a bundled one, or its text. */
+  constructor(private readonly scenario = "bender") {}
+
   /** Starts both, and waits for the page. Arguments are further ones of `drive`. */
   async start(...more: string[]): Promise<void> {
     this.folder = await mkdtemp(join(tmpdir(), "agent-economy-drive-"));
+    if (this.hasOwn) await writeFile(join(this.folder, ownFile), this.scenario);
     await this.startEmulator();
     await writeFile(join(this.folder, "bender.toml"), this.fleet());
     this.warden = this.spawn(["drive", "bender.toml", "--json", "--record", "drive.mcap", ...more]);
@@ -46,7 +51,8 @@ export class RealDrive {
     this.log = join(this.folder, `emulator-${this.control}.log`);
     const numbers = ports.map((port) => this.numbers[port] ?? 0).join(",");
     const set = Object.entries(settings).flatMap(([name, value]) => ["--set", `${name}=${value}`]);
-    this.emulator = this.spawn(["bender-emulator", "--ports", numbers, "--log", this.log, ...set]);
+    const world = ["--scenario", this.scenarioName];
+    this.emulator = this.spawn(["bender-emulator", ...world, "--ports", numbers, "--log", this.log, ...set]);
     const ready = JSON.parse(await lineWith(this.emulator, /"control"/));
     this.numbers = ready.robots[0];
     this.control = ready.control;
@@ -138,10 +144,18 @@ export class RealDrive {
     return spawn(program, args, { cwd: this.folder, env, stdio: ["ignore", "pipe", "inherit"] });
   }
 
+  private get hasOwn(): boolean {
+    return this.scenario.includes("\n");
+  }
+
+  private get scenarioName(): string {
+    return this.hasOwn ? ownFile : this.scenario;
+  }
+
   private fleet(): string {
     const numbers = ports.map((port) => `${port} = ${this.numbers[port]}`).join(", ");
     const set = Object.entries(settings).map(([name, value]) => `${name} = ${value.toFixed(1)}`);
-    return `scenario = "bender"
+    return `scenario = "${this.scenarioName}"
 [robots."bender/0"]
 driver = "bender"
 host = "127.0.0.1"

@@ -1,7 +1,7 @@
 """The goals and controllers of a run, with a colour for each controller."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator
+from typing import Literal
 
 from agent_economy.runs.reasons import reason_label
 from agent_economy.runs.simulation import Simulation
@@ -30,8 +30,9 @@ MAX_REASONS = 12
 """With more, the labels would hide each other: the panel lists all."""
 
 
-def is_in(document: Mapping[str, Any]) -> bool:
-    """Return whether a scenario has goals or controllers."""
+def is_in(simulation: Simulation) -> bool:
+    """Return whether a run has goals or controllers."""
+    document = simulation.scenario.to_dict()
     return bool(document.get("goals") or document.get("controllers"))
 
 

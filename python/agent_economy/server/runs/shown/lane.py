@@ -1,7 +1,7 @@
 """The mined lane of a run: what a controller believes of it."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,9 +69,9 @@ class LaneScale(NamedTuple):
     cleared: int
 
 
-def is_in(document: Mapping[str, Any]) -> bool:
-    """Return whether controllers of a scenario are to clear a lane."""
-    return lane_panel.clearing_kind(document) is not None
+def is_in(simulation: Simulation) -> bool:
+    """Return whether controllers of a run are to clear a lane."""
+    return lane_panel.clearing_kind(simulation.scenario.to_dict()) is not None
 
 
 def contents(simulation: Simulation, request: Request) -> Contents | None:

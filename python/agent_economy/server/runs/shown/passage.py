@@ -1,8 +1,7 @@
 """The passage of a mined lane by vehicles: its path, and the vehicles on it."""
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from agent_economy.runs.passage import ClearedShare, Passage, Vehicle
 from agent_economy.runs.simulation import Simulation
@@ -27,9 +26,9 @@ HEADING = "Passage"
 BAND = stroke("accent", 1.5, is_dashed=True)
 
 
-def is_in(document: Mapping[str, Any]) -> bool:
-    """Return whether vehicles of a scenario are to pass its lane."""
-    return "passage" in document
+def is_in(simulation: Simulation) -> bool:
+    """Return whether vehicles of a run are to pass its lane."""
+    return "passage" in simulation.scenario.to_dict()
 
 
 def contents(simulation: Simulation, request: Request) -> Contents | None:

@@ -43,12 +43,12 @@ class Subject(NamedTuple):
     Attributes:
         layers: The layers that it offers, from bottom to top.
         panels: The panels that it offers.
-        is_in: Returns whether runs of a scenario have it, by the document of the scenario.
+        is_in: Returns whether a run has it.
         contents: Returns its contents in a run at the current moment, for what a page has
             requested; None if there are none.
     """
 
     layers: tuple[LayerOffer, ...]
     panels: tuple[PanelOffer, ...]
-    is_in: Callable[[Mapping[str, Any]], bool]
+    is_in: Callable[[Any], bool]
     contents: Callable[[Any, Request], Contents | None]

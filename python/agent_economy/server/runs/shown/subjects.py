@@ -1,16 +1,14 @@
 """The subjects of runs, and what a page is sent of them."""
 
-from typing import Any
-
 from agent_economy.runs.stepped import Stepped
-from agent_economy.server.runs.shown import columns, economy, lane, passage
+from agent_economy.server.runs.shown import columns, economy, lane, passage, real_robots
 from agent_economy.server.runs.shown.events import EVENTS
 from agent_economy.server.runs.shown.subject import Request, Subject
 from agent_economy.server.runs.signals.sources import ENGINES as SIGNALS
 from agent_economy.types.page import Layer, Offer, Panel, Shown
 
 SUBJECTS: dict[str, tuple[Subject, ...]] = {
-    "metric": (lane.SUBJECT, passage.SUBJECT, economy.SUBJECT),
+    "metric": (lane.SUBJECT, passage.SUBJECT, economy.SUBJECT, real_robots.SUBJECT),
     "classic": (),
 }
 """The subjects of each engine, in the order of their layers and panels."""
@@ -53,6 +51,6 @@ def shown(simulation: Stepped, request: Request) -> Shown | None:
 
 def subjects_of(simulation: Stepped) -> list[Subject]:
     """Return the subjects that a run has."""
-    document: dict[str, Any] = simulation.scenario.to_dict()
-    subjects = SUBJECTS[simulation.scenario.engine]
-    return [subject for subject in subjects if subject.is_in(document)]
+    return [
+        subject for subject in SUBJECTS[simulation.scenario.engine] if subject.is_in(simulation)
+    ]
