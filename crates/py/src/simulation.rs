@@ -147,7 +147,7 @@ impl Simulation {
         external::write(py, run.scenario(), &decided)
     }
 
-    /// What the brain of a robot with an external body decided from in the last step; None if it did not step.
+    /// The last percept of a robot with an external body, with what the run added; None before the first.
     fn perceived<'py>(
         &self,
         py: Python<'py>,

@@ -179,16 +179,16 @@ class Simulation(Stepped):
         return cast("dict[str, Command]", self._run.decided)
 
     def perceived(self, robot: str) -> Percept | None:
-        """Return what the brain of a robot with an external body decided from in the last step.
+        """Return the last percept of a robot with an external body, with what the run added.
 
-        That is its percept from outside, what its virtual sensors measured, and the messages that
-        it received.
+        That is its percept from outside and, if its brain stepped, what its virtual sensors
+        measured and the messages that it received: what its brain decided from.
 
         Args:
             robot: Name of the robot.
 
         Returns:
-            None if its brain did not step, or its body is simulated.
+            None before its first percept, after `restore` or a change, or if its body is simulated.
 
         Raises:
             InputError: If there is no such robot.

@@ -22,9 +22,9 @@ pub struct ExternalView {
     pub silent_s: Option<f64>,
     /// Where the centre of a silent robot may be, if its fence limits it; otherwise empty.
     pub outline: Vec<Point>,
-    /// What its real sensors reported in the last step of its brain, and what its virtual ones measured.
+    /// What its real sensors reported last.
     pub real: Detected,
-    /// The same of its virtual sensors.
+    /// What its virtual sensors measured then, if its brain stepped.
     pub measured: Detected,
 }
 

@@ -177,7 +177,7 @@ impl Simulation {
         self.scratch.decided()
     }
 
-    /// What a robot with an external body perceived in the last step; `None` if its brain did not step.
+    /// What a robot with an external body perceived in the last step that had a percept of it, if there was one.
     ///
     /// # Errors
     /// If there is no such robot.

@@ -33,8 +33,8 @@ pub(crate) struct WorkerScratch {
     pub(crate) unsent_done: Vec<Outgoing>,
     /// Commands of brains for external bodies, by the number of the robot.
     pub(crate) external_commands: Vec<(usize, Command)>,
-    /// What external bodies perceived.
-    pub(crate) perceived: Vec<Perceived>,
+    /// What external bodies perceived, by the number of the robot.
+    pub(crate) perceived: Vec<(usize, Perceived)>,
     /// The hash of each decision, in the order of the robots, if decisions are hashed.
     pub(crate) decisions: Vec<u64>,
 }
@@ -136,12 +136,12 @@ impl WorkerScratch {
         agent
             .inputs
             .deliver_messages(now, step_s, &mut self.percept);
-        self.perceived.push(Perceived {
-            robot,
+        let perceived = Perceived {
             real: read.clone(),
             measured,
             whole: self.percept.clone(),
-        });
+        };
+        self.perceived.push((robot, perceived));
     }
 
     /// Notes the items of external contacts: the nearest item of the kind, if it is near.

@@ -7,14 +7,23 @@ use brain::{Percept, Scan};
 /// What an external body perceived in a step.
 #[derive(Debug, Clone)]
 pub struct Perceived {
-    /// The number of the robot.
-    pub(crate) robot: usize,
     /// What was read outside of the simulation.
     pub real: Percept,
     /// What its virtual sensors measured.
     pub measured: Percept,
     /// What its brain decided from: both, and the messages that it received.
     pub whole: Percept,
+}
+
+impl Perceived {
+    /// Of a body whose brain did not step.
+    pub(super) fn of(read: &Percept) -> Self {
+        Self {
+            real: read.clone(),
+            measured: Percept::default(),
+            whole: read.clone(),
+        }
+    }
 }
 
 /// Adds what the virtual sensors of a body measured to a percept from outside.

@@ -27,6 +27,7 @@ use crate::run::state::State;
 use crate::scenario::Scenario;
 use brain::{Command, Percept};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::iter;
 
 /// Buffers and lists that steps use besides the state of the run; none of them changes an outcome.
@@ -42,6 +43,8 @@ pub(crate) struct StepScratch {
     moves: Moves,
     /// The robots with external bodies.
     pub(crate) external: Vec<usize>,
+    /// What external bodies perceived last, by the number of the robot.
+    perceived: BTreeMap<usize, Perceived>,
     /// Readers of what happens in the run.
     pub(crate) events: EventLog,
     pub(crate) agent_events: AgentEvents,
@@ -63,6 +66,7 @@ impl StepScratch {
             decisions: PendingDecisions::default(),
             moves: Moves::default(),
             external: Vec::new(),
+            perceived: BTreeMap::new(),
             events: EventLog::default(),
             agent_events: AgentEvents::default(),
             may_share,
@@ -79,6 +83,7 @@ impl StepScratch {
     pub(crate) fn invalidate(&mut self) {
         self.neighbours.forget();
         self.agent_events.forget();
+        self.perceived.clear();
     }
 
     /// Notes that these external bodies were placed, none of them farther than this from where it was.
@@ -103,6 +108,7 @@ impl StepScratch {
         } else {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
+            self.keep_perceived(external);
             state.issue_goals(scenario);
             self.direct(scenario, state, external);
             let is_stated = clearance::observe(scenario, state, &self.workers);
@@ -237,10 +243,19 @@ impl StepScratch {
         &self.decisions.all
     }
 
-    /// What a robot with an external body perceived in the last step, if its brain stepped.
+    /// What a robot with an external body perceived last, if anything.
     pub(crate) fn perceived(&self, robot: usize) -> Option<&Perceived> {
-        let mut all = self.workers.iter().flat_map(|worker| &worker.perceived);
-        all.find(|perceived| perceived.robot == robot)
+        self.perceived.get(&robot)
+    }
+
+    /// Keeps what external bodies perceived in this step: those whose brains stepped, and the others.
+    fn keep_perceived(&mut self, external: &ExternalInputs) {
+        let decided = self.workers.iter_mut();
+        let decided = decided.flat_map(|worker| worker.perceived.drain(..));
+        self.perceived.extend(decided);
+        let observed = external.observed.iter();
+        let observed = observed.map(|(robot, percept)| (*robot, Perceived::of(percept)));
+        self.perceived.extend(observed);
     }
 
     /// The commands that brains decided for external bodies, by the number of the robot.

@@ -298,7 +298,8 @@ fn an_observed_body_is_where_it_is_read_and_its_brain_does_not_step() {
     }
     assert_eq!(robots(&simulation)[0].at, Point { x: 11.0, y: 9.0 });
     assert!((other(&mut simulation).neighbours[0].range_m - 10.0_f64.sqrt()).abs() < 1e-9);
-    assert!(simulation.perceived(REAL).unwrap().is_none());
+    let perceived = simulation.perceived(REAL).unwrap().unwrap();
+    assert!(perceived.real.position.is_some() && perceived.measured == Percept::default());
 }
 
 #[test]
