@@ -54,8 +54,14 @@ pub(crate) struct ExternalBody {
     pub(crate) is_in_contact: bool,
     /// Its pose now, if known.
     pub(crate) pose: Option<Pose>,
-    /// Age of its newest position; `None` before the first one.
-    pub(crate) age_s: Option<f64>,
+    /// Its newest position, if there was one.
+    pub(crate) fix: Option<Point>,
+    /// The age of that; before the first one, the time since the body has been external.
+    age_s: f64,
+    /// Whether nothing is known of its motion, as while a person drives it.
+    moves_freely: bool,
+    /// Time since the last step of its brain.
+    idle_s: f64,
 }
 
 impl Hashed for ExternalBody {
@@ -66,6 +72,26 @@ impl Hashed for ExternalBody {
         self.is_in_contact.add_to(hash);
         if self.spec.max_age_s.is_some() {
             self.age_s.add_to(hash);
+            self.moves_freely.add_to(hash);
+        }
+    }
+}
+
+/// What is read of an external body in a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Read<'a> {
+    Nothing,
+    /// A percept from which its brain decides.
+    Decides(&'a Percept),
+    /// A percept that only states where it is.
+    Only(&'a Percept),
+}
+
+impl<'a> Read<'a> {
+    pub(crate) fn percept(self) -> Option<&'a Percept> {
+        match self {
+            Self::Nothing => None,
+            Self::Decides(percept) | Self::Only(percept) => Some(percept),
         }
     }
 }
@@ -81,7 +107,10 @@ impl ExternalBody {
             since_s: 0.0,
             is_in_contact: false,
             pose: None,
-            age_s: None,
+            fix: None,
+            age_s: 0.0,
+            moves_freely: false,
+            idle_s: 0.0,
         };
         body.number_sensors(kind);
         body
@@ -99,18 +128,38 @@ impl ExternalBody {
     }
 
     /// Takes a percept, or lets time pass without one.
-    pub(crate) fn observe(&mut self, percept: Option<&Percept>, elapsed_s: f64, body: &Body) {
-        let read_s = percept.and_then(|percept| Some(percept.position?.age_s));
-        self.age_s = read_s.or(self.age_s.map(|age_s| age_s + elapsed_s));
-        match percept {
-            Some(percept) => {
+    pub(crate) fn observe(&mut self, read: Read, elapsed_s: f64, body: &Body) {
+        let percept = read.percept();
+        let position = percept.and_then(|percept| percept.position);
+        self.age_s = position.map_or(self.age_s + elapsed_s, |position| position.age_s);
+        self.fix = position.map(|position| position.value).or(self.fix);
+        self.idle_s += elapsed_s;
+        match read {
+            Read::Nothing => self.since_s += elapsed_s,
+            Read::Decides(percept) => {
                 self.tracker.observe(percept, body);
-                self.since_s = 0.0;
+                (self.since_s, self.idle_s, self.moves_freely) = (0.0, 0.0, false);
             }
-            None => self.since_s += elapsed_s,
+            Read::Only(percept) => {
+                // The last command of its brain is not in force any more.
+                self.tracker.command(Motion::default());
+                self.tracker.observe(percept, body);
+                (self.since_s, self.moves_freely) = (0.0, percept.motion.is_none());
+            }
         }
         let moving_s = self.since_s.min(MAX_PERIODS * body.period_s);
         self.pose = self.tracker.pose_after(moving_s, body);
+    }
+
+    /// Where it is known to have been last, if it may have moved in any way since.
+    pub(crate) fn last_place(&self) -> Option<Point> {
+        let is_unknown = self.moves_freely || self.silent_s().is_some();
+        self.fix.filter(|_| is_unknown)
+    }
+
+    /// Whether its brain has not stepped for so long that it is held, or driven by hand.
+    pub(crate) fn is_idle(&self, body: &Body) -> bool {
+        self.idle_s > MAX_PERIODS * body.period_s
     }
 
     /// Takes the motion that is commanded from the last percept on.
@@ -121,18 +170,23 @@ impl ExternalBody {
     /// Age of its newest position if that is too old: then it may have moved at any speed since.
     pub(crate) fn silent_s(&self) -> Option<f64> {
         let max_age_s = self.spec.max_age_s?;
-        self.age_s.filter(|age_s| *age_s > max_age_s)
+        (self.age_s > max_age_s).then_some(self.age_s)
     }
 
-    /// The standard deviation of its position, along each axis.
+    /// How far it may be from its position: the standard deviation of that along each axis, and how far it can
+    /// have moved in any way since.
     pub(crate) fn uncertainty_m(&self, body: &Body) -> f64 {
         let pose = self.pose.as_ref();
-        pose.map_or(body.position_error_m(), |pose| pose.deviation_m)
+        if self.moves_freely || self.silent_s().is_some() {
+            body.position_error_m() + self.age_s * body.max_speed_m_s
+        } else {
+            pose.map_or(body.position_error_m(), |pose| pose.deviation_m)
+        }
     }
 
     /// Its speed now, in m/s; negative in reverse.
     pub(crate) fn speed_m_s(&self, body: &Body) -> f64 {
-        if self.since_s > MAX_PERIODS * body.period_s {
+        if self.since_s > MAX_PERIODS * body.period_s || self.last_place().is_some() {
             0.0
         } else {
             self.tracker.speed_m_s()

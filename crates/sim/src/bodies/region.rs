@@ -22,6 +22,7 @@ pub(crate) struct Region {
     pub(crate) disc: Disc,
     /// How far its centre may be from the position.
     pub(crate) uncertainty_m: f64,
+    is_silent: bool,
     fenced: Option<Fenced>,
 }
 
@@ -39,14 +40,14 @@ impl Region {
     /// The region of the body of a robot of a kind whose position is `at`.
     pub(crate) fn new(robot: usize, external: &ExternalBody, kind: &Kind, at: Point) -> Self {
         let body = kind.brain.body();
-        let silent_m = external.silent_s().map(|age_s| age_s * body.max_speed_m_s);
-        let uncertainty_m = external.uncertainty_m(body) + silent_m.unwrap_or(0.0);
+        let uncertainty_m = external.uncertainty_m(body);
+        let is_silent = external.silent_s().is_some();
         let disc = Disc {
             centre: at,
             radius_m: kind.radius_m + uncertainty_m,
         };
         let fence_m = &external.spec.fence_m;
-        let is_cut = silent_m.is_some() && !fence_m.is_empty();
+        let is_cut = is_silent && !fence_m.is_empty();
         let corners = is_cut.then(|| clipped(fence_m, at, uncertainty_m));
         // A position may be outside of the fence, by its error.
         let corners = corners.filter(|corners| !corners.is_empty());
@@ -54,6 +55,7 @@ impl Region {
             robot,
             disc,
             uncertainty_m,
+            is_silent,
             fenced: corners.map(|corners| Fenced {
                 walls: outline(&corners, kind.radius_m),
                 radius_m: kind.radius_m,
@@ -80,6 +82,36 @@ impl Region {
             }
             _ => (vec![self.disc], &[]),
         }
+    }
+
+    /// Where others detect its centre from a place, and how far it may be from there: a silent one may be at
+    /// the nearest place that it can have reached.
+    pub(crate) fn detected_from(&self, place: Point, image: Point) -> (Point, f64) {
+        if !self.is_silent {
+            return (image, self.uncertainty_m);
+        }
+        let nearest = match &self.fenced {
+            None => {
+                let way = image.to(place);
+                let share = self.uncertainty_m / way.length().max(f64::MIN_POSITIVE);
+                image.plus(way.times(share.min(1.0)))
+            }
+            Some(fenced) if is_inside(&fenced.corners, place) => place,
+            Some(fenced) => {
+                let near = sides(&fenced.corners).map(|side| side.nearest(place));
+                let near = near.min_by(|one, other| {
+                    let distance_m = |at: &Point| at.to(place).length_squared();
+                    distance_m(one).total_cmp(&distance_m(other))
+                });
+                near.unwrap_or(image)
+            }
+        };
+        (nearest, 0.0)
+    }
+
+    /// Whether others may detect it farther away than its position is.
+    pub(crate) fn is_silent(&self) -> bool {
+        self.is_silent
     }
 
     /// The outline of where its centre may be, if its fence limits it.
@@ -213,6 +245,7 @@ mod tests {
                 radius_m: 0.3 + reach_m,
             },
             uncertainty_m: reach_m,
+            is_silent: true,
             fenced: Some(Fenced {
                 walls: outline(&corners, 0.3),
                 radius_m: 0.3,

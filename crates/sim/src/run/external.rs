@@ -1,11 +1,11 @@
 //! Places the bodies that something outside of the simulation moves.
 
 use super::state::State;
+use crate::bodies::external::Read;
 use crate::bodies::path::Orientation;
 use crate::bodies::region::{Region, uncertainty_m};
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::Percept;
 
 /// Headings beyond this absolute value are ignored.
 const MAX_HEADING_RAD: f64 = 1e6;
@@ -13,18 +13,14 @@ const MAX_HEADING_RAD: f64 = 1e6;
 impl State {
     /// Moves an external body to where it is now, by its percept of this step, if there is one; returns
     /// how far it has moved. Where its pose is not known, its readings are taken as they are.
-    pub(crate) fn place_external(
-        &mut self,
-        scenario: &Scenario,
-        robot: usize,
-        percept: Option<&Percept>,
-    ) -> f64 {
+    pub(crate) fn place_external(&mut self, scenario: &Scenario, robot: usize, read: Read) -> f64 {
         let body = scenario.kind_of(self.ids[robot]).brain.body();
         let body_state = &mut self.body_states[robot];
         let Some(external) = body_state.external_mut() else {
             return 0.0;
         };
-        external.observe(percept, scenario.step_s, body);
+        external.observe(read, scenario.step_s, body);
+        let percept = read.percept();
         let (at, heading_rad) = match (external.pose, percept) {
             (Some(pose), _) => (Some(pose.at), Some(pose.heading_rad)),
             (None, Some(percept)) => (
@@ -33,6 +29,7 @@ impl State {
             ),
             (None, None) => (None, None),
         };
+        let at = external.last_place().or(at);
         body_state.speed_m_s = external.speed_m_s(body);
         if let Some(heading_rad) = heading_rad.filter(|rad| rad.abs() < MAX_HEADING_RAD) {
             self.orientations[robot] = Orientation::new(heading_rad);

@@ -49,6 +49,13 @@ impl Backlog {
         have.max_by_key(|(taken, _)| *taken)
     }
 
+    /// Drops all detections.
+    pub(crate) fn drop_detections(&mut self) {
+        self.observations.entries.clear();
+        self.contacts.entries.clear();
+        self.neighbours.entries.clear();
+    }
+
     /// Drops old detections, so that a brain that hardly ever steps fills no memory.
     pub(crate) fn forget_detections(&mut self, now: u64) {
         self.observations.forget(now);

@@ -52,6 +52,15 @@ impl Scenario {
         }
         let is_finite = |corner: &Point| corner.x.is_finite() && corner.y.is_finite();
         let corners = &spec.fence_m;
+        if self.torus.is_some() && !corners.is_empty() {
+            let allowed = "omitted: a periodic world has no border that a body could not cross";
+            let given = format!("{} corners", corners.len());
+            errors.push(InputError::new(
+                path_of(at, "fence_m"),
+                Some(given),
+                allowed.to_owned(),
+            ));
+        }
         let is_fence = corners.len() >= MIN_CORNERS && corners.iter().all(is_finite);
         if !corners.is_empty() && !is_fence {
             let allowed = format!("{MIN_CORNERS} corners or more, each of two finite numbers");

@@ -15,7 +15,7 @@ pub use inspect::Inspected;
 pub use links::Link;
 
 use crate::bodies::body_state::{BodyState, Status};
-use crate::bodies::external::{ExternalBody, ExternalSpec};
+use crate::bodies::external::{ExternalBody, ExternalSpec, Read};
 use crate::bodies::source::BodySource;
 use crate::clock::seconds;
 use crate::judge::Outcome;
@@ -41,8 +41,8 @@ use std::sync::Arc;
 ///
 /// A body can be external, from the start ([`Simulation::with_external`]) or from the first percept that
 /// [`Simulation::step_with`] gets for a robot: its pose comes from its percepts, and the commands of its
-/// brain are returned instead of executed. In a step without a percept it is stationary, and its brain does
-/// not step; nor does it with a percept that is only observed. A percept that is not later than the one before is ignored: the last motion is returned
+/// brain are returned instead of executed. In a step without a percept it moves by its last command, for two
+/// periods of its brain at most, and its brain does not step; nor does it with a percept that is only observed. A percept that is not later than the one before is ignored: the last motion is returned
 /// again. Its damage and battery are not simulated: it neither breaks nor runs empty, and uses no energy.
 #[derive(Debug, Clone)]
 pub struct Simulation {
@@ -286,6 +286,9 @@ impl Simulation {
         let events = mem::take(&mut self.scratch.events);
         self.scratch = StepScratch::new(&scenario, true);
         self.scenario = scenario;
+        self.scratch.external = self.external_robots();
+        self.state
+            .note_regions(&self.scenario, &self.scratch.external);
         self.keep_readers(events);
         self.probe = Probe::default();
     }
@@ -329,19 +332,26 @@ impl Simulation {
         if !self.has_external {
             return;
         }
+        let external = self.external_robots();
+        let mut farthest_m: f64 = 0.0;
+        for robot in external.iter().copied() {
+            let decides = inputs.percepts.get(&robot).map(Read::Decides);
+            let read = decides.or_else(|| inputs.observed.get(&robot).map(Read::Only));
+            let read = read.unwrap_or(Read::Nothing);
+            farthest_m = farthest_m.max(self.state.place_external(&self.scenario, robot, read));
+        }
+        self.state.note_regions(&self.scenario, &external);
+        self.scratch.note_placed(external, farthest_m);
+    }
+
+    /// The robots with external bodies.
+    fn external_robots(&mut self) -> Vec<usize> {
         let mut external = mem::take(&mut self.scratch.external);
         external.clear();
         let bodies = self.state.body_states.iter().enumerate();
         let bodies = bodies.filter(|(_, body_state)| body_state.is_external());
         external.extend(bodies.map(|(robot, _)| robot));
-        let mut farthest_m: f64 = 0.0;
-        for robot in external.iter().copied() {
-            let percept = inputs.percepts.get(&robot);
-            let percept = percept.or_else(|| inputs.observed.get(&robot));
-            farthest_m = farthest_m.max(self.state.place_external(&self.scenario, robot, percept));
-        }
-        self.state.note_regions(&self.scenario, &external);
-        self.scratch.note_placed(external, farthest_m);
+        external
     }
 
     /// The commands for the bodies whose percepts were ignored: the last motion.

@@ -61,7 +61,7 @@ impl WorkerScratch {
                 return;
             }
             Decision::Nothing => {
-                sense_between_steps(view, robot, agent, &mut self.sensing);
+                self.wait(view, robot, agent);
                 return;
             }
             Decision::Brain => return self.serve_simulated(inputs, robot, agent),
@@ -106,6 +106,18 @@ impl WorkerScratch {
                 self.decisions.push(hash);
             }
             self.obey(robot, agent);
+        }
+    }
+
+    /// Lets the virtual sensors of an external body measure between two steps of its brain. One that is held
+    /// or driven by hand gets nothing of that time when its brain steps again.
+    fn wait(&mut self, view: &View, robot: usize, agent: &mut Agent) {
+        let body = view.kind(robot).brain.body();
+        let external = view.body_states[robot].external();
+        let is_idle = external.is_some_and(|external| external.is_idle(body));
+        match &mut agent.inputs.backlog {
+            Some(backlog) if is_idle => backlog.drop_detections(),
+            _ => sense_between_steps(view, robot, agent, &mut self.sensing),
         }
     }
 

@@ -1,7 +1,6 @@
 //! What the sensors of a robot can query in the world.
 
 use super::view::View;
-use crate::bodies::region::uncertainty_m;
 use crate::clock::seconds;
 use crate::sensors::rays::Near;
 use crate::sensors::scene::{Other, Scene};
@@ -54,8 +53,12 @@ impl Scene for RobotScene<'_> {
         let about = self.view.neighbours.about(self.at, range_m);
         to.clear();
         to.extend(about.filter(|other| *other as usize != self.robot));
+        if self.view.has_external_bodies {
+            self.add_silent(to);
+        }
         // Lists of near robots have no particular order.
         to.sort_unstable();
+        to.dedup();
     }
 
     fn is_clear(&self, range_m: f64, others: &[u32]) -> bool {
@@ -72,11 +75,15 @@ impl Scene for RobotScene<'_> {
         let (view, other) = (self.view, number as usize);
         let layers = [self.robot, other].map(|robot| view.kind(robot).layer);
         let id = view.ids[other];
+        let at = view.scenario.image(self.at, view.discs[other].centre);
+        let region = view.regions.iter().find(|region| region.robot == other);
+        let (at, uncertainty_m) =
+            region.map_or((at, 0.0), |region| region.detected_from(self.at, at));
         Other {
             id,
             key: view.kind(other).entity(id.index),
-            at: view.scenario.image(self.at, view.discs[other].centre),
-            uncertainty_m: uncertainty_m(view.regions, other),
+            at,
+            uncertainty_m,
             geometry: view.scenario.hiding(layers),
         }
     }
@@ -84,6 +91,15 @@ impl Scene for RobotScene<'_> {
     #[inline]
     fn heading_rad_of(&self, number: u32) -> f64 {
         self.view.orientations[number as usize].heading_rad
+    }
+}
+
+impl RobotScene<'_> {
+    /// Adds the silent robots, which may be nearer than their positions.
+    fn add_silent(&self, to: &mut Vec<u32>) {
+        let silent = self.view.regions.iter();
+        let silent = silent.filter(|region| region.is_silent() && region.robot != self.robot);
+        to.extend(silent.filter_map(|region| u32::try_from(region.robot).ok()));
     }
 }
 

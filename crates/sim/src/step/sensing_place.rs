@@ -10,11 +10,12 @@ use base::noise::normal_pair;
 use base::trig::sin_cos;
 use std::f64::consts::TAU;
 
-/// A body whose believed position is inside an obstacle is at the nearest free place, as far as this grid of
-/// rings around it has one: distance between rings, their number, and places on each.
+/// A body whose believed position is inside an obstacle is at the nearest free place of rings around it: the
+/// distance of the first ring and the least between two, what each is farther than the one before, and places
+/// on each.
 const RING_M: f64 = 0.05;
-const RINGS: u16 = 100;
-const PLACES: u16 = 32;
+const GROWTH: f64 = 1.02;
+const PLACES: u16 = 64;
 
 impl View<'_> {
     /// Where the sensors of a robot measure from: its position. Virtual sensors of an external body measure
@@ -46,18 +47,32 @@ impl View<'_> {
     }
 }
 
-/// The nearest place to this one that no obstacle covers; this one, if there is none near.
+/// About the nearest place in the world to this one that no obstacle covers; this one, if there is none.
 fn free_place(scenario: &Scenario, at: Point, layer: Layer) -> Point {
     if scenario.is_free(at, 0.0, layer) {
         return at;
     }
-    let on_ring = |ring: u16| {
-        (0..PLACES).map(move |place| {
-            let (y, x) = sin_cos(TAU * f64::from(place) / f64::from(PLACES));
-            at.plus(Point { x, y }.times(RING_M * f64::from(ring)))
-        })
+    let world = scenario.world();
+    // On the border itself, it would see nothing of that.
+    let inside = |at: f64, low: f64, high: f64| at.min(high - RING_M).max(low + RING_M);
+    let within = Point {
+        x: inside(at.x, world.min().x, world.max().x),
+        y: inside(at.y, world.min().y, world.max().y),
     };
-    let mut places = (1..=RINGS).flat_map(on_ring);
-    let free = places.find(|place| scenario.is_free(*place, 0.0, layer));
-    free.unwrap_or(at)
+    if scenario.is_free(within, 0.0, layer) {
+        return within;
+    }
+    let farthest_m = world.size().length();
+    let mut ring_m = RING_M;
+    while ring_m < farthest_m {
+        let places = (0..PLACES).map(|place| {
+            let (y, x) = sin_cos(TAU * f64::from(place) / f64::from(PLACES));
+            within.plus(Point { x, y }.times(ring_m))
+        });
+        if let Some(free) = { places }.find(|place| scenario.is_free(*place, 0.0, layer)) {
+            return free;
+        }
+        ring_m = (ring_m * GROWTH).max(ring_m + RING_M);
+    }
+    at
 }

@@ -394,3 +394,127 @@ fn an_item_is_found_after_the_looks_that_its_kind_needs() {
     // Each look is a part of the state.
     assert!(hashes.windows(2).all(|pair| pair[0] != pair[1]));
 }
+
+#[test]
+fn the_area_of_a_silent_robot_is_around_its_last_position_whatever_its_last_command_was() {
+    let text = TWO.to_owned() + "brain.behaviours = [{ kind = \"cruise\" }]\n";
+    let mut simulation = mixed(&text, silent(&[]));
+    // It drives on at 1 m/s, by its brain, with a heading.
+    measured(&mut simulation, at(10.0, 10.0, 0.0));
+    assert!((nearest_m(&mut simulation, 20) - 1.7).abs() < 1e-9);
+    // The other robot is 4 m ahead, and one that reverses is as far behind.
+    assert!((robots(&simulation)[0].at.x - 10.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_robot_that_is_driven_by_hand_is_where_its_readings_are() {
+    let mut simulation = mixed(TWO, silent(&[]));
+    for step in 0..40_u32 {
+        let time_s = 0.1 * f64::from(step);
+        // A position each second, of a robot that moves at 0.8 m/s.
+        let read_s = time_s.floor();
+        let position = Some(Reading {
+            value: Point {
+                x: 5.0 + 0.8 * read_s,
+                y: 10.0,
+            },
+            age_s: time_s - read_s,
+        });
+        let inputs = StepInputs {
+            observed: BTreeMap::from([(
+                REAL,
+                Percept {
+                    position,
+                    ..at(0.0, 0.0, time_s)
+                },
+            )]),
+            commands: BTreeMap::from([(OTHER, go(0.0, 0.0))]),
+            ..StepInputs::default()
+        };
+        let begun = simulation.begin_step(inputs, &[]).unwrap();
+        simulation.finish_step(begun);
+        let view = &simulation.external_views()[0];
+        assert!((view.at.x - (5.0 + 0.8 * read_s)).abs() < 1e-9);
+        assert!(view.uncertainty_m >= 0.8 * (time_s - read_s));
+    }
+}
+
+#[test]
+fn a_robot_that_was_held_gets_no_detections_of_that_time() {
+    let text = TWO.replace(
+        "kind = \"items\", range_m = 3",
+        "kind = \"items\", range_m = 3, latency_s = 0.2",
+    );
+    let mut simulation = mixed(&text, spec(&ALL, ReadingSource::Virtual));
+    for step in 0..100_u32 {
+        let inputs = StepInputs {
+            observed: BTreeMap::from([(REAL, at(11.0, 10.0, 0.1 * f64::from(step)))]),
+            commands: BTreeMap::from([(OTHER, go(0.0, 0.0))]),
+            ..StepInputs::default()
+        };
+        let begun = simulation.begin_step(inputs, &[]).unwrap();
+        simulation.finish_step(begun);
+    }
+    let resumed = measured(&mut simulation, at(30.0, 5.0, 10.0));
+    assert!(resumed.contacts.is_empty(), "{:?}", resumed.contacts);
+}
+
+#[test]
+fn a_body_that_is_believed_to_be_deep_inside_an_obstacle_sees_nothing_behind_it() {
+    let wide = WALL.replace(
+        "at_m = [10.45, 10], size_m = [0.1, 20]",
+        "at_m = [12, 10], size_m = [20, 14]",
+    );
+    let text = TWO
+        .replace("world = { size_m = [40, 20] }", &wide)
+        .replace("[[12, 10.5]]", "[[30, 10]]")
+        .replace("[[10, 10], [14, 10]]", "[[30, 15], [35, 15]]");
+    let mut simulation = mixed(&text, spec(&ALL, ReadingSource::Virtual));
+    let real = measured(&mut simulation, at(12.0, 10.0, 0.0));
+    let nearest_m = real.scans[0]
+        .ranges_m
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    assert!(nearest_m < 0.3, "{:?}", real.scans[0]);
+    // As far outside of the world, it is at the border.
+    let real = measured(&mut simulation, at(60.0, 10.0, 5.0));
+    let nearest_m = real.scans[0]
+        .ranges_m
+        .iter()
+        .copied()
+        .fold(f64::INFINITY, f64::min);
+    assert!(nearest_m < 0.1, "{:?}", real.scans[0]);
+}
+
+#[test]
+fn a_robot_that_never_sends_a_position_is_silent_from_the_start() {
+    let mut simulation = mixed(TWO, silent(&[]));
+    assert!((nearest_m(&mut simulation, 5) - 3.7).abs() < 1e-9);
+    assert!((nearest_m(&mut simulation, 15) - 1.7).abs() < 1e-9);
+}
+
+#[test]
+fn detectors_detect_a_silent_robot_where_it_may_be_nearest() {
+    let text = TWO.replace(
+        "kind = \"robots\", range_m = 6",
+        "kind = \"robots\", range_m = 3",
+    );
+    let mut simulation = mixed(&text, silent(&[]));
+    measured(&mut simulation, stand(0.0));
+    nearest_m(&mut simulation, 9);
+    assert!(other(&mut simulation).neighbours.is_empty());
+    nearest_m(&mut simulation, 6);
+    let seen = other(&mut simulation).neighbours;
+    assert!((seen[0].range_m - 2.5).abs() < 1e-9, "{seen:?}");
+}
+
+#[test]
+fn a_fence_in_a_periodic_world_is_refused() {
+    let scenario =
+        scenario(&TWO.replace("size_m = [40, 20]", "size_m = [40, 20], periodic = true"));
+    let fence_m = [[8.0, 8.0], [12.0, 8.0], [12.0, 12.0]];
+    let errors = scenario.errors_of_external(0, &silent(&fence_m), "external");
+    assert_eq!(errors.len(), 1);
+    assert_eq!(errors[0].path, "external.fence_m");
+}
