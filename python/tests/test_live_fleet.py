@@ -124,11 +124,12 @@ def test_waypoints_within_the_noise_of_positions_are_warned_of(folder: Path) -> 
 
 def test_robots_of_the_scenario_that_are_simulated_are_warned_of(folder: Path) -> None:
     text = FLEET[: FLEET.index('[robots."crawler/1"]')]
-    (warning,) = warned(folder, text)
-    assert warning == (
+    assert warned(folder, text) == [
         "fleet.toml:2: robots = {...}: the scenario's team also has crawler/1 and 1 more of this "
-        "kind, which the loop simulates"
-    )
+        "kind, which the loop simulates",
+        'fleet.toml:2: robots."crawler/0".fence_m: without a fence, simulated robots regard ever '
+        "more of the world as taken while the robot sends no positions",
+    ]
 
 
 # Schema, bundled fleets, documents

@@ -1,6 +1,6 @@
 """External bodies: robots that something outside of a run moves, such as real ones."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -10,6 +10,9 @@ ReadingSource = Literal["real", "virtual", "both"]
 """Where the readings of a sensor come from: its percepts, a measurement in the run, or both."""
 
 Point = tuple[float, float]
+
+AXES = 2
+"""Numbers of a point."""
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,18 @@ class ExternalBody:
     sensors: Mapping[str, ReadingSource] = field(default_factory=dict)
     max_age_s: float | None = None
     fence_m: tuple[Point, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check the types of its attributes.
+
+        Raises:
+            InputError: If one has another type.
+        """
+        validation.of_type("sensors", self.sensors, Mapping, "a mapping from names of sensors")
+        corners = "corners, each of two numbers, as in ((1, 1), (9, 1), (9, 9))"
+        validation.of_type("fence_m", self.fence_m, Iterable, corners)
+        pairs = all(isinstance(each, Sequence) and len(each) == AXES for each in self.fence_m)
+        validation.check(pairs, "fence_m", self.fence_m, corners)
 
     def to_dict(self) -> dict[str, Any]:
         """Return what differs from the defaults, as plain values."""

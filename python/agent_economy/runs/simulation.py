@@ -131,9 +131,9 @@ class Simulation(Stepped):
         A robot in `percepts` has an external body from then on: its pose comes from its percepts,
         each percept triggers one step of its brain, and the command is returned instead of being
         executed. The run adds the messages of other robots to the percept, and counts the items of
-        its contacts as found. In a step without a percept, the robot does not move and its brain
-        does not step. A percept with a time that is not later than that of the one before is
-        ignored: the last motion is returned again.
+        its contacts as found. In a step without a percept, the robot moves by its last command,
+        for two periods of its brain at most, and its brain does not step. A percept with a time
+        that is not later than that of the one before is ignored: the last motion is returned again.
 
         Args:
             steps: Number of steps, 0 or more; 1 with percepts or commands.

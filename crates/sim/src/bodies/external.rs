@@ -157,7 +157,7 @@ impl ExternalBody {
         self.fix.filter(|_| is_unknown)
     }
 
-    /// Whether its brain has not stepped for so long that it is held, or driven by hand.
+    /// Whether its brain has not stepped for several periods: it is held, or driven by hand.
     pub(crate) fn is_idle(&self, body: &Body) -> bool {
         self.idle_s > MAX_PERIODS * body.period_s
     }

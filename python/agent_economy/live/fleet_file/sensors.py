@@ -36,7 +36,7 @@ def check_sensors(findings: Findings, fleet: Document, entry: Entry, kind: Scena
     found = {port: input_sensors(port, entry, kind) for port in ports}
     wrong = [
         f"needs {_wanted(port)}, and {_found(kind.sensors(KINDS[port.quantity]))}"
-        + _fix(port, found)
+        + _fix(port, found[port], entry)
         for port in ports
         if port.quantity is not None and not _is_matched(port, found[port])
     ]
@@ -94,9 +94,14 @@ def _wanted(port: Port) -> str:
     return f'one sensor of kind "{KINDS.get(port.quantity or Quantity.POSITION)}"'
 
 
-def _fix(port: Port, found: Mapping[Port, Mapping[str, Sensor]]) -> str:
-    is_more = len(found[port]) > max(1, port.values if port.quantity is Quantity.RANGES else 1)
-    return ' (set the others to "virtual" under sensors)' if is_more else ""
+def _fix(port: Port, found: Mapping[str, Sensor], entry: Entry) -> str:
+    """Return how the sources of sensors have to change, if that can help."""
+    stated = sorted(name for name, source in entry.sensors.items() if source == "virtual")
+    if len(found) > (port.values if port.quantity is Quantity.RANGES else 1):
+        return (
+            ' (set the others to "virtual" under sensors)' if not set(found) <= set(stated) else ""
+        )
+    return f" (not all of {listed(stated)} can be virtual)" if stated else ""
 
 
 def _found(found: Mapping[str, Sensor]) -> str:

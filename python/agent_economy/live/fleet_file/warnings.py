@@ -31,6 +31,8 @@ def fleet_warnings(
     if lacking:
         effect = f"the scenario's team also has {listed(lacking)}, which the loop simulates"
         findings.warn(fleet, ("robots",), effect)
+        for entry in entries:
+            _warn_of_silence(findings, fleet, entry)
     for entry in entries:
         _warn_of_robot(findings, fleet, entry)
         _warn_of_virtual(findings, fleet, entry, world.kind(entry.kind))
@@ -60,6 +62,16 @@ def _warn_of_robot(findings: Findings, fleet: Document, entry: Entry) -> None:
             "stops it; keep a person at its own switch"
         )
         findings.warn(fleet, (*entry.path, "deadman_s"), effect)
+
+
+def _warn_of_silence(findings: Findings, fleet: Document, entry: Entry) -> None:
+    """Warn of a robot that simulated ones keep clear of everywhere once it is silent."""
+    if entry.fence_m is None:
+        effect = (
+            "without a fence, simulated robots regard ever more of the world as taken while the "
+            "robot sends no positions"
+        )
+        findings.warn(fleet, (*entry.path, "fence_m"), effect)
 
 
 def _warn_of_virtual(findings: Findings, fleet: Document, entry: Entry, kind: ScenarioKind) -> None:

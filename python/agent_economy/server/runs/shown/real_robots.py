@@ -1,6 +1,7 @@
 """The real robots of a run, which have external bodies: where they may be, what sensors report.
 
-What their sensors detected is that of the last step, and empty if their brains did not step in it.
+What their sensors detected is that of the last percept; virtual sensors of a robot whose brain does
+not step report nothing.
 """
 
 import math
