@@ -131,7 +131,8 @@ impl ExternalBody {
     pub(crate) fn observe(&mut self, read: Read, elapsed_s: f64, body: &Body) {
         let percept = read.percept();
         let position = percept.and_then(|percept| percept.position);
-        self.age_s = position.map_or(self.age_s + elapsed_s, |position| position.age_s);
+        // An age from outside can be any number.
+        self.age_s = position.map_or(self.age_s + elapsed_s, |position| position.age_s.max(0.0));
         self.fix = position.map(|position| position.value).or(self.fix);
         self.idle_s += elapsed_s;
         match read {

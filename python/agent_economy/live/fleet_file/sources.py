@@ -15,6 +15,13 @@ from agent_economy.live.readings import Quantity
 
 Sensor = Mapping[str, Any]
 
+KINDS = {
+    Quantity.RANGES: "range",
+    Quantity.POSITION: "position",
+    Quantity.HEADING: "heading",
+}
+"""The kind of sensor that measures a quantity."""
+
 
 class HasSensors(Protocol):
     """A kind of robots of a scenario, which may have errors elsewhere."""
@@ -39,14 +46,6 @@ class BareKind:
 
     name: str
     given: Mapping[str, Any]
-
-
-KINDS = {
-    Quantity.RANGES: "range",
-    Quantity.POSITION: "position",
-    Quantity.HEADING: "heading",
-}
-"""The kind of sensor that measures a quantity."""
 
 
 def sources_of(entry: Entry, kind: HasSensors) -> dict[str, ReadingSource]:
