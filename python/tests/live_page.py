@@ -26,7 +26,8 @@ def start_message(port: int, token: str) -> Mapping[str, Any]:
         "fleet": "bender-team.toml",
         "scenario": {"file": "bender-team.toml", "text": scenario.source.text, "files": {}},
         "seed": SEED,
-        "external": [ROBOT],
+        "external": {ROBOT: {}},
+        "scans": {ROBOT: list(range(6))},
         "origin": scenario.to_dict()["world"]["origin"],
         "fences_m": {},
         "warden": {"port": port, "token": token},
@@ -48,7 +49,9 @@ async def drive(port: int, token: str) -> None:
     while not ended.done():
         percept = simulation.percept(ROBOT)
         inputs = {} if percept is None else {ROBOT: percept}
-        page.add({"type": "input", "tick": simulation.tick, "inputs": inputs, "stops": []})
+        page.add(
+            {"type": "input", "tick": simulation.tick, "inputs": {"percepts": inputs}, "stops": []}
+        )
         simulation.step()
         await asyncio.sleep(simulation.step_s)
     await page.end()
