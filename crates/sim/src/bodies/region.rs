@@ -121,13 +121,6 @@ impl Region {
     }
 }
 
-/// How far the centre of a robot may be from its position; 0 if its body is simulated.
-#[inline]
-pub(crate) fn uncertainty_m(regions: &[Region], robot: usize) -> f64 {
-    let region = regions.iter().find(|region| region.robot == robot);
-    region.map_or(0.0, |region| region.uncertainty_m)
-}
-
 impl Fenced {
     fn covers(&self, place: Point) -> bool {
         is_inside(&self.corners, place)

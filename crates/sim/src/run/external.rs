@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::bodies::external::Read;
 use crate::bodies::path::Orientation;
-use crate::bodies::region::{Region, uncertainty_m};
+use crate::bodies::region::Region;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 
@@ -56,6 +56,7 @@ impl State {
 
     /// How far the centre of a robot may be from its position; 0 if its body is simulated.
     pub(crate) fn uncertainty_m(&self, robot: usize) -> f64 {
-        uncertainty_m(&self.regions, robot)
+        let region = self.regions.iter().find(|region| region.robot == robot);
+        region.map_or(0.0, |region| region.uncertainty_m)
     }
 }

@@ -20,8 +20,6 @@ use brain::{About, Command, ContractMessage, Motion, Percept, Reading, Scan};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WorkerScratch {
     pub(crate) percept: Percept,
-    /// What virtual sensors of an external body add to its percept.
-    virtual_percept: Percept,
     /// Scans that the percept of the last robot did not need.
     scans: Vec<Scan>,
     pub(crate) command: Command,
@@ -132,17 +130,11 @@ impl WorkerScratch {
             self.clear_percept(view.kind(robot));
             sense(view, robot, agent, &mut self.sensing, &mut self.percept);
             measured.clone_from(&self.percept);
-            std::mem::swap(&mut self.percept, &mut self.virtual_percept);
         }
         self.percept.clone_from(read);
         self.recognise(view, robot);
         if external.virtual_sensors != 0 {
-            add_virtual(
-                &mut self.percept,
-                &mut self.virtual_percept,
-                external,
-                view.kind(robot),
-            );
+            add_virtual(&mut self.percept, &measured, external, view.kind(robot));
         }
         let (now, step_s) = (view.tick, view.scenario.step_s);
         agent

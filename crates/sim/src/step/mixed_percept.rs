@@ -33,38 +33,31 @@ impl Perceived {
 /// look fresh.
 pub(super) fn add_virtual(
     percept: &mut Percept,
-    virtual_percept: &mut Percept,
+    measured: &Percept,
     external: &ExternalBody,
     kind: &Kind,
 ) {
     percept
         .observations
-        .append(&mut virtual_percept.observations);
-    percept.contacts.append(&mut virtual_percept.contacts);
-    percept.neighbours.append(&mut virtual_percept.neighbours);
-    take(&mut percept.motion, &mut virtual_percept.motion);
-    take(&mut percept.battery, &mut virtual_percept.battery);
-    take(&mut percept.touch, &mut virtual_percept.touch);
-    let rings = virtual_percept.scans.len();
+        .extend_from_slice(&measured.observations);
+    percept.contacts.extend_from_slice(&measured.contacts);
+    percept.neighbours.extend_from_slice(&measured.neighbours);
+    percept.motion = measured.motion.or(percept.motion);
+    percept.battery = measured.battery.or(percept.battery);
+    percept.touch = measured.touch.or(percept.touch);
+    let rings = measured.scans.len();
     percept.scans.resize_with(rings, Scan::default);
-    let scans = percept.scans.iter_mut().zip(&mut virtual_percept.scans);
+    let scans = percept.scans.iter_mut().zip(&measured.scans);
     for ((scan, measured), sensor) in scans.zip(kind.ring_sensors()) {
         let bit = 1 << sensor;
         if external.virtual_sensors & bit == 0 {
             continue;
         }
         if external.real_sensors & bit == 0 {
-            std::mem::swap(scan, measured);
+            scan.clone_from(measured);
         } else {
             merge(scan, measured);
         }
-    }
-}
-
-/// Takes the reading of a virtual sensor, if there is one.
-fn take<T>(reading: &mut Option<T>, measured: &mut Option<T>) {
-    if measured.is_some() {
-        *reading = measured.take();
     }
 }
 

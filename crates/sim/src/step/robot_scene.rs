@@ -112,13 +112,7 @@ fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     let at = view.discs[robot].centre;
     near.begin(at, kind.rays_m);
     let bodies = vicinity.robots.iter();
-    let bodies = bodies.map(|other| {
-        let body = view.discs[*other as usize];
-        Disc {
-            centre: view.scenario.image(at, body.centre),
-            ..body
-        }
-    });
+    let bodies = bodies.map(|other| body_from(view, at, *other as usize));
     // An external body may be where another robot is; simulated ones never are.
     if view.has_external_bodies {
         near.take_overlapping(bodies);
@@ -129,6 +123,16 @@ fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     near.take_apart(discs(vicinity.discs_apart));
     near.take_overlapping(discs(vicinity.discs_overlapping));
     near.take_walls(vicinity.walls.iter().map(|number| geometry.wall(*number)));
+}
+
+/// The body of a robot as seen from a place.
+#[inline]
+fn body_from(view: &View, at: Point, robot: usize) -> Disc {
+    let body = view.discs[robot];
+    Disc {
+        centre: view.scenario.image(at, body.centre),
+        ..body
+    }
 }
 
 /// The same for a robot that senses from elsewhere than its lists are made for.
@@ -142,15 +146,7 @@ fn gather_around(scene: &RobotScene, near: &mut Near) {
         .about(at, kind.rays_m + scenario.max_radius_m());
     let others = about.map(|other| other as usize);
     let others = others.filter(|other| *other != robot && view.kind(*other).layer == kind.layer);
-    let bodies: Vec<Disc> = others
-        .map(|other| {
-            let body = view.discs[other];
-            Disc {
-                centre: scenario.image(at, body.centre),
-                ..body
-            }
-        })
-        .collect();
+    let bodies: Vec<Disc> = others.map(|other| body_from(view, at, other)).collect();
     near.take_overlapping(bodies.into_iter());
     for discs in geometry.discs_within(at, kind.rays_m) {
         let discs: Vec<Disc> = discs.map(|(number, _)| *geometry.disc(number)).collect();

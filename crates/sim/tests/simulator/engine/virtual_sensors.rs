@@ -67,6 +67,17 @@ fn measured(simulation: &mut Simulation, percept: Percept) -> Percept {
         .clone()
 }
 
+/// One step in which the real robot is observed, and its brain does not step.
+fn observe(simulation: &mut Simulation, percept: Percept) {
+    let inputs = StepInputs {
+        observed: BTreeMap::from([(REAL, percept)]),
+        commands: BTreeMap::from([(OTHER, go(0.0, 0.0))]),
+        ..StepInputs::default()
+    };
+    let begun = simulation.begin_step(inputs, &[]).unwrap();
+    assert!(simulation.finish_step(begun).is_empty());
+}
+
 #[test]
 fn virtual_sensors_measure_what_those_of_a_simulated_robot_measure_there() {
     let simulated = start(TWO).percept(REAL).unwrap().unwrap();
@@ -288,13 +299,7 @@ fn a_silent_robot_grows_no_farther_than_its_fence() {
 fn an_observed_body_is_where_it_is_read_and_its_brain_does_not_step() {
     let mut simulation = mixed(TWO, silent(&[]));
     for step in 0..30_u32 {
-        let inputs = StepInputs {
-            observed: BTreeMap::from([(REAL, at(11.0, 9.0, 0.1 * f64::from(step)))]),
-            commands: BTreeMap::from([(OTHER, go(0.0, 0.0))]),
-            ..StepInputs::default()
-        };
-        let begun = simulation.begin_step(inputs, &[]).unwrap();
-        assert!(simulation.finish_step(begun).is_empty());
+        observe(&mut simulation, at(11.0, 9.0, 0.1 * f64::from(step)));
     }
     assert_eq!(robots(&simulation)[0].at, Point { x: 11.0, y: 9.0 });
     assert!((other(&mut simulation).neighbours[0].range_m - 10.0_f64.sqrt()).abs() < 1e-9);
@@ -420,19 +425,13 @@ fn a_robot_that_is_driven_by_hand_is_where_its_readings_are() {
             },
             age_s: time_s - read_s,
         });
-        let inputs = StepInputs {
-            observed: BTreeMap::from([(
-                REAL,
-                Percept {
-                    position,
-                    ..at(0.0, 0.0, time_s)
-                },
-            )]),
-            commands: BTreeMap::from([(OTHER, go(0.0, 0.0))]),
-            ..StepInputs::default()
-        };
-        let begun = simulation.begin_step(inputs, &[]).unwrap();
-        simulation.finish_step(begun);
+        observe(
+            &mut simulation,
+            Percept {
+                position,
+                ..at(0.0, 0.0, time_s)
+            },
+        );
         let view = &simulation.external_views()[0];
         assert!((view.at.x - (5.0 + 0.8 * read_s)).abs() < 1e-9);
         assert!(view.uncertainty_m >= 0.8 * (time_s - read_s));
@@ -447,13 +446,7 @@ fn a_robot_that_was_held_gets_no_detections_of_that_time() {
     );
     let mut simulation = mixed(&text, spec(&ALL, ReadingSource::Virtual));
     for step in 0..100_u32 {
-        let inputs = StepInputs {
-            observed: BTreeMap::from([(REAL, at(11.0, 10.0, 0.1 * f64::from(step)))]),
-            commands: BTreeMap::from([(OTHER, go(0.0, 0.0))]),
-            ..StepInputs::default()
-        };
-        let begun = simulation.begin_step(inputs, &[]).unwrap();
-        simulation.finish_step(begun);
+        observe(&mut simulation, at(11.0, 10.0, 0.1 * f64::from(step)));
     }
     let resumed = measured(&mut simulation, at(30.0, 5.0, 10.0));
     assert!(resumed.contacts.is_empty(), "{:?}", resumed.contacts);
